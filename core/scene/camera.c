@@ -9,7 +9,7 @@
 #include "core/base/log.h"
 #include "core/scene/vector.h"
 
-// cglm keeps matrices column by column.
+// cglm stores matrices by columns.
 static void put_rows(mat4 columns, float rows[16])
 {
     for (int i = 0; i < 4; i++)
@@ -22,7 +22,8 @@ static void get_vector(const float from[3], vec3 to)
     memcpy(to, from, 3 * sizeof(float));
 }
 
-// How much of `up` is beside the view, from 0 (along it) to 1; not above 0 without a view or an up.
+// The part of `up` at right angles to the view, from 0 (along it) to 1; not above 0 if the view or
+// `up` has no direction.
 static double upright(const struct rg_camera *camera)
 {
     double view[3], cross2 = 0, view2 = 0, up2 = 0;
@@ -41,7 +42,7 @@ static double upright(const struct rg_camera *camera)
 
 static bool check(const struct rg_camera *camera)
 {
-    if (!(upright(camera) > 1e-4)) // also false when it is no number
+    if (!(upright(camera) > 1e-4)) // also catches NaN
         return rg_error("camera at (%g, %g, %g): it must look at another point, and not along its "
                         "up; move the target",
                         (double)camera->position[0], (double)camera->position[1],

@@ -8,8 +8,8 @@
 #include "core/image/files/io.h"
 #include "core/image/srgb.h"
 
-// Weights are whole numbers, and so are their sums, below 2^53 and thus exact: 16-bit codes (an
-// 8-bit code is one of them, times 257), or floats to 24 bits.
+// Weights are whole numbers, whose sums stay below 2^53 and so are exact in doubles: 16-bit codes
+// (an 8-bit code times 257), or floats rounded to 24 bits.
 enum { CODES = 65535, FLOAT_STEPS = 1 << 24, GRADIENT_PX = 1024 };
 
 static struct rg_density *make(int width, int height, double unit)
@@ -34,7 +34,7 @@ void rg_density_destroy(struct rg_density *density)
     free(density);
 }
 
-// Texels are given row by row, each row from the left.
+// Call it row by row, and in each row from the left.
 static void set_weight(struct rg_density *density, int column, int row, double weight)
 {
     const size_t pitch = (size_t)density->width + 1;
@@ -59,7 +59,8 @@ struct rg_density *rg_density_gradient(void)
 
 // --- pictures ---
 
-// A channel as the file has it: reading has made integer codes linear, which densities are not.
+// A channel's value as stored in the file: reading made integer codes linear, but densities are the
+// codes.
 static double value_of(const struct rg_picture *picture, float linear)
 {
     return picture->decoded ? rint(rg_srgb_encode((double)linear) * CODES) / CODES : (double)linear;
@@ -77,7 +78,7 @@ static double grey_of(const struct rg_picture *picture, int column, int row)
     return picture->channels > colours ? grey * (double)texel[colours] : grey;
 }
 
-// The largest value; NaN, with one logged line, if it is no map.
+// The largest value; NaN, with one logged line, if the picture is no map.
 static double check(const struct rg_picture *picture, const char *name)
 {
     double largest = 0;
@@ -132,13 +133,14 @@ struct rg_density *rg_density_read(const char *path)
 
 // --- sums of the map over areas ---
 
-// A range of whole texels, and how much of each of them counts.
+// A range of whole texels, and the share of each of them that counts.
 struct piece {
     int begin, end;
     double share;
 };
 
-// Cuts a range of an axis at the texels' borders: a part of one, whole ones, a part of one.
+// Cuts a range of an axis at the texels' borders into a part of a texel, whole texels, a part of a
+// texel.
 static int cut(double begin, double end, int texels, struct piece pieces[3])
 {
     if (!(end > begin))

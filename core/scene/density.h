@@ -1,8 +1,8 @@
 // Density maps: how much rain falls where, as an artist draws it (Creus, section 4.2).
 //
-// A map lies over a rectangle; its density, 0 to 1, is constant over each texel. It is kept as a
-// table of sums, so that the rain over any rectangle is found from 16 entries however large it is,
-// and where the map is black the answer is exactly 0.
+// A map lies over a rectangle; its density, 0 to 1, is constant over each texel. A summed-area
+// table holds it, so that the rain over any rectangle takes 16 entries however large it is, and is
+// exactly 0 where the map is black.
 #ifndef RG_CORE_SCENE_DENSITY_H
 #define RG_CORE_SCENE_DENSITY_H
 
@@ -10,26 +10,26 @@
 
 #include "core/image/picture.h"
 
-// The largest map, for it takes 8 bytes a texel: 512 MiB.
+// The largest map; it takes 8 bytes a texel, so 512 MiB.
 #define RG_DENSITY_MAX_TEXELS ((int64_t)1 << 26)
 
 struct rg_density {
     int width, height; // texels; row 0 is the image's top
     double unit;       // the density that a weight of 1 stands for
-    double *sums; // (width + 1) x (height + 1): the weights, whole numbers, of all texels above
-                  // and left of a corner
+    double *sums; // (width + 1) x (height + 1): sums of the weights of all texels above and left of
+                  // each corner
 };
 
 // The built-in map, Creus's figure 4.1(b): 1 in the middle, 0 at the rim, which touches the sides,
-// and 0 in the corners. NULL, with one logged line, without memory.
+// and 0 in the corners. NULL, with one logged line, when memory runs out.
 struct rg_density *rg_density_gradient(void);
 
-// Reads any picture. Integer codes are densities as they stand, code / 255 or code / 65535, without
-// a curve; floats are divided by the largest of them. Colours become their luminance; what is
-// transparent is black. NULL, and one logged line, if the file cannot be read, or if a value is
-// negative, infinite or no number, or if all are zero.
+// Reads any picture. Integer codes are densities, code / 255 or code / 65535, without a curve;
+// floats are divided by the largest of them. Colours become their luminance; transparent texels
+// count as black. NULL, and one logged line, if the file cannot be read, a value is negative,
+// infinite or NaN, or all are zero.
 struct rg_density *rg_density_read(const char *path);
-// The same, of a picture in memory; `name` is for messages. The picture stays the caller's.
+// The same for a picture in memory, which stays the caller's; `name` is for messages.
 struct rg_density *rg_density_from_picture(const struct rg_picture *picture, const char *name);
 // Accepts NULL.
 void rg_density_destroy(struct rg_density *density);

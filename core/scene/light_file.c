@@ -9,7 +9,7 @@
 #include "core/base/log.h"
 
 #define FARTHEST_M     100000.0
-#define STRONGEST      1e6 // a colour, and an intensity
+#define STRONGEST      1e6 // of a colour, and of an intensity
 #define WIDEST_DEG     80.0
 #define NARROWEST_DEG  1.0
 #define LEAST_EDGE_DEG 0.1 // from a cone's inner to its outer edge
@@ -25,7 +25,7 @@ enum {
 static const char *const kind_names[] = {
     [SCENERY_POINT] = "point", [SCENERY_SPOT] = "spot", [SCENERY_SUN] = "sun"};
 
-// What a light may say, and which kinds may say it.
+// The properties of a light, and which kinds of lights have them.
 static const struct property {
     const char *name;
     unsigned kinds;
@@ -35,7 +35,7 @@ static const struct property {
     {"inner_deg", CONED}, {"near_m", PLACED},     {"shadows", ALL},
 };
 
-// Whose property is being read: "lights.json: light 2".
+// The light whose property is being read, for messages: "lights.json: light 2".
 struct place {
     char text[1024];
 };
@@ -75,7 +75,7 @@ static bool read_numbers(const json_t *object, const char *name, const struct pl
     return true;
 }
 
-// Where the property is missing, the number is `missing`.
+// `missing` is the number where the property is missing.
 static bool read_number(const json_t *object, const char *name, const struct place *place,
                         double low, double high, double missing, double *number)
 {
@@ -222,7 +222,7 @@ static bool read_all(json_t *root, const char *path, struct rg_lights *lights)
 bool rg_light_file_read(const char *path, struct rg_lights *lights)
 {
     const char *why;
-    FILE *file = rg_file_open_small(path, &why); // parsed it takes some twenty times its size
+    FILE *file = rg_file_open_small(path, &why); // parsing takes some twenty times the file's size
     if (!file)
         return rg_system_error(errno, "%s: %s; name a file of at most %d lights (docs/lights.md)",
                                path, why, SCENERY_MAX_LIGHTS);

@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-// Steps of a sum over the spectrum. Their width grows with the diameter, as the spectrum varies.
+// Steps of the integral over the spectrum; their width grows with the diameter, as the spectrum
+// varies.
 enum { STEPS = 1 << 15 };
 
 // --- how many ---
@@ -13,7 +14,7 @@ static double marshall_palmer(double rain_mm_h, double d)
     return 8000 * exp(-4.1 * pow(rain_mm_h, -0.21) * d);
 }
 
-// The density of the share of water by diameter, over the volume of a drop.
+// The density by diameter of the share of water, divided by a drop's volume.
 static double best(double rain_mm_h, double d)
 {
     const double a = 1.30 * pow(rain_mm_h, 0.232), n = 2.25;
@@ -30,7 +31,7 @@ double rg_spectrum_density(const struct rg_spectrum *spectrum, double d)
 
 // --- how fast ---
 
-// Diameters in millimetres, and speeds in metres a second.
+// Diameters in millimetres, speeds in metres a second.
 static const double gunn_kinzer[][2] = {
     {0, 0},      {0.1, 0.27}, {0.2, 0.72}, {0.3, 1.17}, {0.4, 1.62}, {0.5, 2.06}, {0.6, 2.47},
     {0.7, 2.87}, {0.8, 3.27}, {0.9, 3.67}, {1.0, 4.03}, {1.2, 4.64}, {1.4, 5.17}, {1.6, 5.65},
@@ -52,7 +53,7 @@ double rg_terminal_speed(enum rg_speed_law law, double d)
 
 // --- sums ---
 
-// The middle of step i, and how wide it is, in equal ratios from the least to the most.
+// The middle and width of step i; steps have equal ratios from the least to the most.
 static double middle_of(const struct rg_spectrum *spectrum, int i, double *width)
 {
     const double ratio = log(spectrum->most_mm / spectrum->least_mm) / STEPS;
@@ -97,7 +98,7 @@ void rg_spectrum_classes(const struct rg_spectrum *spectrum, int by_section, int
         const double d = middle_of(spectrum, i, &width);
         const double drops = rg_spectrum_density(spectrum, d) * width;
         const double step = drops * (by_section ? M_PI / 4 * d * d : 1);
-        // A step may lie in several classes: each gets its part.
+        // A step may span several classes; each gets its part.
         for (double done = 0; done < step;) {
             const int at = (int)fmin(floor((before + done) / kept * count), count - 1);
             const double left = at < count - 1 ? kept * (at + 1) / count - (before + done) : step;

@@ -1,47 +1,47 @@
-// How many drops of each size rain has, and how fast they fall.
+// The size distribution of raindrops, and how fast they fall.
 //
 // Sources: Marshall and Palmer, 1948: N(D) = 8000 exp(-4.1 R^-0.21 D) a cubic metre and millimetre.
 // Best, 1950: of the water in the air, 67 R^0.846 cubic millimetres a cubic metre, the share
 // exp(-(D / a)^2.25) is in drops wider than D, a = 1.30 R^0.232 mm. Terminal speeds: Gunn and
-// Kinzer, 1949, their values, in straight lines from one to the next; Atlas, Srivastava and Sekhon,
-// 1973: 9.65 - 10.3 exp(-0.6 D) m/s. R is the rain rate in millimetres an hour, D a diameter in
-// millimetres.
+// Kinzer, 1949, linearly interpolated; Atlas, Srivastava and Sekhon, 1973: 9.65 - 10.3 exp(-0.6 D)
+// m/s. R is the rain rate in millimetres an hour, D a diameter in millimetres.
 #ifndef RG_CORE_SCENE_SPECTRUM_H
 #define RG_CORE_SCENE_SPECTRUM_H
 
 enum rg_spectrum_kind { RG_MARSHALL_PALMER, RG_BEST };
 enum rg_speed_law { RG_GUNN_KINZER, RG_ATLAS };
 
-// Drops from one diameter to another.
+// The drops between two diameters.
 struct rg_spectrum {
     enum rg_spectrum_kind kind;
     enum rg_speed_law law;
-    double rain_mm_h;         // R: what the spectrum is named by; above 0
+    double rain_mm_h;         // R, the rain rate of the spectrum; above 0
     double least_mm, most_mm; // 0.1 <= least < most
 };
 
-// Larger drops break up as they fall; smaller ones are those of clouds.
+// The largest and the smallest diameter: larger drops break up as they fall, smaller ones are a
+// cloud's.
 #define RG_LARGEST_DROP_MM  6.0
 #define RG_SMALLEST_DROP_MM 0.1
 
-// Drops of a diameter, a cubic metre and millimetre, whatever the bounds.
+// The number of drops of a diameter, a cubic metre and millimetre, whatever the bounds.
 double rg_spectrum_density(const struct rg_spectrum *spectrum, double diameter_mm);
 double rg_terminal_speed(enum rg_speed_law law, double diameter_mm); // m/s
 
-// What the drops between the bounds come to.
+// Totals over the drops between the bounds.
 struct rg_rainfall {
     double drops_m3;     // a cubic metre
     double water_mm3_m3; // in a cubic metre of air
-    double rain_mm_h;    // that falls on level ground
+    double rain_mm_h;    // rate of rain on level ground
     double drops_m2_s;
-    double section_mm2_m3; // their cross-sections
+    double section_mm2_m3; // sum of their cross-sections
 };
 struct rg_rainfall rg_spectrum_rainfall(const struct rg_spectrum *spectrum);
 
-// Cuts the spectrum into `count` classes of drops, so that each class has the same number of drops
-// that are kept: of all drops alike, or (by_section) of each size in proportion to its
-// cross-section, so that few of the many small ones are. A class has the diameter at which its
-// drops hold their water, and as many drops as its share of the spectrum.
+// Divides the spectrum into `count` classes so that each holds the same number of kept drops. All
+// drops are kept alike, or (by_section) in proportion to their cross-section, so that few of the
+// many small ones are. A class has the diameter that gives its drops their total water, and as many
+// drops as its share of the spectrum.
 struct rg_drop_class {
     double diameter_mm, speed_m_s;
     double drops_m3;

@@ -9,7 +9,7 @@
 //   env     10 layers, the same with one cell a row: light of radiance 1 from everywhere.
 //   splash  84 layers: 4 materials of 21 frames, 48 x 32.
 //
-// A cell is normalised to a largest value of 1 in level 0. What it stands for is texel * factor:
+// A cell is normalised to a largest value of 1 in level 0. Its meaning is texel * factor:
 //
 //   point   radiance, in the mean over the exposure, for light that brings an irradiance of 1 to
 //           a surface facing it (1/sr)
@@ -36,18 +36,18 @@ enum {
     RG_ATLAS_CELLS = RG_ATLAS_LIGHTS * RG_ATLAS_PHIS,
     RG_ATLAS_CELL_PX = 32,     // a cell's width in level 0
     RG_ATLAS_HEIGHT_PX = 3606, // of all five rows in level 0
-    RG_ATLAS_CELL_LEVELS = 6,  // in levels 0 to 5 a cell has texels of its own
+    RG_ATLAS_CELL_LEVELS = 6,  // levels 0 to 5 have separate texels for each cell
     RG_ATLAS_MATERIALS = 4,    // a thin film of water, a puddle, dry asphalt, smooth metal or glass
     RG_ATLAS_FRAMES = 21,
     RG_ATLAS_MAX_LEVELS = 12,
 };
 
-// The first texel of each view's row of cells in level 0 of the full size, and the end.
+// The first texel of each view's row of cells in level 0 of the full size, and the end of the last.
 #define RG_ATLAS_ROWS 0, 1050, 2038, 2848, 3392, 3606
 
-// What the billboard of a cell spans: 32 / RG_ATLAS_DROP_PX diameters of the drop across, and
-// (height of the cell in level 0 of the full size) / RG_ATLAS_DROP_PX diameters along. The drop
-// stands at the image's upper end when the exposure begins, and at its lower end when it ends.
+// The size of a cell's billboard: 32 / RG_ATLAS_DROP_PX diameters of the drop across, and (height
+// of the cell in level 0 of the full size) / RG_ATLAS_DROP_PX diameters along. The drop is at the
+// image's upper end when the exposure begins, and at its lower end when it ends.
 #define RG_ATLAS_DROP_PX 23.744f
 #define RG_ATLAS_DROP_MM 3.2f
 
@@ -61,7 +61,7 @@ enum rg_atlas_size {
 
 enum rg_atlas_part { RG_ATLAS_POINT, RG_ATLAS_ENV, RG_ATLAS_SPLASH, RG_ATLAS_PART_COUNT };
 
-// One array image. texels: layer after layer, in each level after level, in each row after row.
+// One array image. Its texels are ordered by layer, level, row.
 struct rg_atlas_image {
     int width, height, layers, levels;
     uint16_t *texels;
@@ -69,7 +69,7 @@ struct rg_atlas_image {
 
 struct rg_atlas {
     enum rg_atlas_size size;
-    int first_level; // level 0 has the sizes of this level of the full size: 0, or 2 when small
+    int first_level; // the level of the full size that is level 0 here: 0, or 2 when small
     struct rg_atlas_image images[RG_ATLAS_PART_COUNT];
     float point_factor[RG_ATLAS_OSCILLATIONS][RG_ATLAS_VIEWS][RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
     float env_factor[RG_ATLAS_OSCILLATIONS][RG_ATLAS_VIEWS];
@@ -77,22 +77,22 @@ struct rg_atlas {
         hash; // XXH3 of the factors, then the texels of the three images, as little-endian bytes
 };
 
-// What hears of progress: `done` of `total` units, which take about equally long. One thread at a
-// time calls it.
+// A listener for progress: `done` of `total` units, which take about equally long. It is called by
+// one thread at a time.
 struct rg_atlas_progress {
     void (*tell)(void *user, int done, int total);
     void *user;
 };
 
-// The atlas of a size, from the user's cache. If it is not there, or not sound, it is made and put
-// there (core/scene/atlas/cache.h); a cache that cannot be used costs a warning. An atlas of the
-// original database is not made: it has to be there. `progress` may be NULL. NULL, and one logged
-// line, on failure. The caller destroys it.
+// The atlas of a size, from the user's cache. If it is missing or damaged there, it is made and
+// stored (core/scene/atlas/cache.h); a cache that cannot be used costs a warning. An atlas of the
+// original database is never made, so it must be there. `progress` may be NULL. NULL, and one
+// logged line, on failure. The caller destroys it.
 struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 
-// The same without a cache: traced, in parallel, in about four minutes of one core, or eight
-// seconds for the small size. Neither the number of threads nor the vectors of the processor change
-// its bits. `size` is RG_ATLAS_FULL or RG_ATLAS_SMALL.
+// Traces an atlas without the cache, in parallel, in about four minutes of one core, or eight
+// seconds for the small size. Its bits depend neither on the number of threads nor on the
+// processor's vectors. `size` is RG_ATLAS_FULL or RG_ATLAS_SMALL.
 struct rg_atlas *rg_atlas_make(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 void rg_atlas_destroy(struct rg_atlas *atlas);
 
@@ -103,8 +103,8 @@ const uint16_t *rg_atlas_texels(const struct rg_atlas *atlas, enum rg_atlas_part
 // The row of a view in a level of the full size: its first texel is RG_ATLAS_ROWS[view] >> level,
 // and it ends where the next begins. A level of the small size is two levels further down. The
 // columns of a cell begin at cell * (32 >> level). Both hold for the levels before
-// RG_ATLAS_CELL_LEVELS; smaller ones mix neighbours. A sampler that keeps its taps inside the cell
-// therefore never meets another.
+// RG_ATLAS_CELL_LEVELS, where a sampler that stays inside a cell never reads another; smaller
+// levels mix neighbours.
 int rg_atlas_row_start(int view, int level);
 int rg_atlas_row_height(int view, int level);
 

@@ -15,13 +15,13 @@
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/sample.h"
 
-// What a file begins with. `order` tells machines of the other byte order, and `version` is raised
-// when the file's form changes.
+// The header of a file. `order` detects machines of the other byte order; raise `version` when the
+// file's format changes.
 struct header {
     char magic[8];
     uint32_t order, version, size, reserved;
-    uint64_t sample; // of what was traced
-    uint64_t hash;   // the atlas's
+    uint64_t sample; // hash of a small traced sample
+    uint64_t hash;   // hash of the whole atlas
     float point_factor[RG_ATLAS_OSCILLATIONS][RG_ATLAS_VIEWS][RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
     float env_factor[RG_ATLAS_OSCILLATIONS][RG_ATLAS_VIEWS];
 };
@@ -64,7 +64,7 @@ static enum rg_atlas_cached check_header(const struct header *header, enum rg_at
     return header->sample == rg_atlas_sample(size) ? RG_ATLAS_SOUND : RG_ATLAS_STALE;
 }
 
-// Whether the file goes on for exactly what the atlas holds, and has its hash.
+// Reads the texels; false unless the rest of the file has exactly the atlas's size and hash.
 static bool read_texels(FILE *file, const struct header *header, struct rg_atlas *atlas,
                         char why[256])
 {

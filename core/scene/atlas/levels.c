@@ -33,7 +33,7 @@ size_t rg_atlas_image_texels(const struct rg_atlas_image *image)
     return texels * (size_t)image->layers;
 }
 
-// Where a level of a layer begins.
+// The offset of a layer's level.
 static size_t offset_of(const struct rg_atlas_image *image, int layer, int level)
 {
     struct rg_atlas_image above = *image;
@@ -88,7 +88,7 @@ void rg_atlas_destroy(struct rg_atlas *atlas)
 
 uint16_t rg_half_of(float value)
 {
-    // rg_pack_half cuts off; half of what it cuts is added first
+    // rg_pack_half truncates; adding half of its step first rounds
     return (uint16_t)rg_pack_half(rg_bits_float(rg_float_bits(value) + 0x1000u));
 }
 

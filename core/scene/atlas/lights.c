@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-// A light is dark beyond so many standard deviations: 4e-5 of the peak.
+// A light counts as dark beyond this many standard deviations: 4e-5 of the peak.
 #define EDGE_DEVIATIONS 4.5
 
-// Half the diagonal of a square of the grid, at most: at a face's middle, 2 / 32 / sqrt(2).
+// The most that half the diagonal of a grid square can be: at a face's middle, 2 / 32 / sqrt(2).
 #define SQUARE_REACH_RAD 0.0443
 
 void rg_lobe_direction(double elevation_deg, double azimuth_deg, float direction[3])
@@ -74,7 +74,7 @@ int rg_lobes_square(float x, float y, float z)
 void rg_lobes_fill(struct rg_lobes *lobes, int count, float (*directions)[3])
 {
     const double deviation = RG_LOBE_DEG * M_PI / 180, edge = EDGE_DEVIATIONS * deviation;
-    // von Mises and Fisher's density on the sphere
+    // density of the von Mises-Fisher distribution on the sphere
     const double kappa = 1 / (deviation * deviation);
     lobes->count = count;
     memcpy(lobes->direction, directions, (size_t)count * sizeof(*directions));

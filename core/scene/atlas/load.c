@@ -1,4 +1,4 @@
-// The atlas by size: from the cache, or made and put there.
+// Loads the atlas of a size from the cache, or makes it and stores it there.
 #include "core/base/log.h"
 #include "core/scene/atlas/cache.h"
 

@@ -1,4 +1,4 @@
-// Making the atlas: every streak is traced, normalised and packed, and the splashes are drawn.
+// Makes the atlas: traces, normalises and packs every streak, and draws the splashes.
 #include <string.h>
 
 #include "core/base/alloc.h"
@@ -9,7 +9,7 @@
 
 enum { STREAK_SETS = RG_ATLAS_OSCILLATIONS * RG_ATLAS_VIEWS };
 
-// Divides a picture by its largest value, and returns that; a dark picture stays as it is.
+// Divides a picture by its largest value, and returns that value; a dark picture stays unchanged.
 static float normalise(float *texels, int count)
 {
     float largest = 0;
@@ -42,7 +42,7 @@ static bool put_streaks(struct rg_atlas *atlas, int oscillation, int view, struc
 }
 
 // Fills the streaks of one oscillation and view, from the front to the steepest view: the tallest
-// come first, so that threads end together.
+// come first, so that threads finish together.
 static bool make_streaks(struct rg_atlas *atlas, int set, const struct rg_lobes *lobes)
 {
     const int oscillation = set % RG_ATLAS_OSCILLATIONS, view = set / RG_ATLAS_OSCILLATIONS;

@@ -4,9 +4,9 @@
 
 #include "core/scene/atlas/atlas.h"
 
-// A hash of a few coarse streaks and of some splashes, and of how finely the size is traced. If a
-// file of the cache has another hash, another tracer made it. Takes some milliseconds. 0 where the
-// atlas is not traced, or when memory is short.
+// A hash of a few coarse streaks, some splashes, and the resolution of the size. A cached file with
+// another hash comes from another tracer. Takes some milliseconds. 0 where the atlas is not traced,
+// or when memory runs out.
 uint64_t rg_atlas_sample(enum rg_atlas_size size);
 
 #endif

@@ -15,7 +15,7 @@
 #define TILT_RAD      (15 * M_PI / 180)
 #define DIAMETER_M    (2 * RG_DROP_RADIUS_M)
 #define SPEED_M_S     (RG_DROP_FALL * DIAMETER_M / RG_EXPOSURE_S)
-#define OPACITY_PER_M 800.0 // optical depth of a metre of splashed water: sheets are see-through
+#define OPACITY_PER_M 800.0 // optical depth of a metre of splashed water: sheets are translucent
 
 // The picture is drawn on a finer grid, as optical depth, and averaged at the end.
 enum {
@@ -29,19 +29,19 @@ enum {
 
 #define FINE_PER_M (FINE_WIDTH / PICTURE_M)
 
-// What tells the materials apart.
+// The properties in which materials differ.
 struct material {
-    double film;        // depth of the water over the drop's diameter
+    double film;        // depth of the water film over the drop's diameter
     double height_m;    // of the crown at its highest
     double life_s;      // of the crown
-    double thickness_m; // of the sheet when it rises
-    double flare;       // how much wider it is at its edge than at its foot
-    double lift_deg;    // of what leaves the edge, above the ground
-    double speed_m_s;   // of the droplets, in the mean
-    double droplet_m;   // radius of the droplets, in the mean
+    double thickness_m; // of the sheet of water when it rises
+    double flare;       // ratio of the sheet's width at its edge to that at its foot
+    double lift_deg;    // elevation at which water leaves the edge
+    double speed_m_s;   // mean of the droplets
+    double droplet_m;   // mean radius of the droplets
     int droplets, spikes;
-    double jet_m;  // height of the column that rises where the crown has closed
-    double ring_m; // height of the wave that runs out
+    double jet_m;  // height of the column that rises after the crown has closed
+    double ring_m; // height of the outgoing wave
 };
 
 static const struct material materials[RG_ATLAS_MATERIALS] = {
@@ -97,8 +97,8 @@ static const struct material materials[RG_ATLAS_MATERIALS] = {
 
 // --- the model ---
 
-// The radius is that of Yarin and Weiss (1995), R = D (2 / (3 h))^(1/4) sqrt(v t / D), slowed
-// where the water runs out; the edge of the sheet is thrown up and falls back.
+// The radius is Yarin and Weiss's (1995), R = D (2 / (3 h))^(1/4) sqrt(v t / D), slowed where the
+// water runs out; the edge of the sheet rises and falls back.
 struct rg_splash_crown rg_splash_crown(int material, double time_s)
 {
     const struct material *m = &materials[material];
@@ -114,7 +114,7 @@ struct rg_splash_crown rg_splash_crown(int material, double time_s)
     };
 }
 
-// The random numbers of a splash: a droplet or a spike has four.
+// The random numbers of one droplet or spike.
 struct chance {
     double a, b, c, d;
 };
@@ -128,14 +128,14 @@ static struct chance chance_of(int material, int item, int stream)
 
 // --- drawing ---
 
-// A place on the fine grid of x metres to the right, y up and z towards the back.
+// Projects a point, x metres to the right, y up and z towards the back, onto the fine grid.
 static void project(double x, double y, double z, double *column, double *row)
 {
     *column = (0.5 * PICTURE_M + x) * FINE_PER_M;
     *row = FINE_HEIGHT - (FOOT_M + y * cos(TILT_RAD) + z * sin(TILT_RAD)) * FINE_PER_M;
 }
 
-// Adds water of a volume, spread over the four nearest points.
+// Adds a volume of water, spread over the four nearest grid points.
 static void add_volume(float *depth, double column, double row, double volume_m3)
 {
     const double depth_here = volume_m3 * FINE_PER_M * FINE_PER_M * OPACITY_PER_M;
@@ -149,8 +149,8 @@ static void add_volume(float *depth, double column, double row, double volume_m3
     }
 }
 
-// Adds water of a volume in the shape of a ball, or of a slice of a round column of its radius.
-// What is smaller than a point of the grid takes a point's width.
+// Adds a volume of water as a ball, or as a slice of a round column of that radius. Anything
+// smaller than a grid point gets a point's width.
 static void add_ball(float *depth, double x, double y, double z, double radius_m, double volume_m3)
 {
     double column, row;
@@ -175,7 +175,7 @@ static double ball_m3(double radius_m)
     return 4.0 / 3 * M_PI * radius_m * radius_m * radius_m;
 }
 
-// The sheet: its edge is scalloped between the spikes and leans outwards.
+// Adds the sheet; its edge is scalloped between the spikes and leans outwards.
 static void add_sheet(float *depth, const struct material *m, const struct rg_splash_crown *crown,
                       double turn)
 {
@@ -198,7 +198,7 @@ static void add_sheet(float *depth, const struct material *m, const struct rg_sp
     }
 }
 
-// Fingers that stand on the edge of the sheet, thinner and beaded towards their tips.
+// Adds fingers that stand on the edge of the sheet, thinner and beaded towards their tips.
 static void add_spikes(float *depth, const struct material *m, int material,
                        const struct rg_splash_crown *crown, double turn, double passed)
 {
@@ -216,7 +216,7 @@ static void add_spikes(float *depth, const struct material *m, int material,
     }
 }
 
-// Droplets leave the edge one after the other while the sheet rises, and fly as stones do.
+// Adds droplets that leave the edge one by one while the sheet rises, and fly on parabolas.
 static void add_droplets(float *depth, const struct material *m, int material, double time_s)
 {
     for (int k = 0; k < m->droplets; k++) {
@@ -231,7 +231,7 @@ static void add_droplets(float *depth, const struct material *m, int material, d
         const double r = crown.radius_m * (1 + m->flare) + speed * cos(lift) * flown;
         const double y =
             crown.height_m + speed * sin(lift) * flown - 0.5 * GRAVITY_M_S2 * flown * flown;
-        // sizes are distributed log-normally, nearly: the sum of uniforms is nearly normal
+        // nearly log-normal sizes: the sum of uniforms is nearly normal
         const double size = exp(0.9 * (when.d + how.b + how.c - 1.5));
         const double radius = m->droplet_m * size;
         if (y > 0)
@@ -239,7 +239,7 @@ static void add_droplets(float *depth, const struct material *m, int material, d
     }
 }
 
-// The wave on the water that runs out from the foot of the crown, and dies away.
+// Adds the decaying wave that runs outwards from the foot of the crown.
 static void add_ring(float *depth, const struct material *m, const struct rg_splash_crown *crown,
                      double time_s)
 {
@@ -257,7 +257,7 @@ static void add_ring(float *depth, const struct material *m, const struct rg_spl
     }
 }
 
-// The column of water that a closing crater throws up in deep water, and the bead on its top.
+// Adds the column of water that a closing crater throws up in deep water, and the bead on its top.
 static void add_jet(float *depth, const struct material *m, double time_s)
 {
     enum { SLICES = 64 };
@@ -272,7 +272,7 @@ static void add_jet(float *depth, const struct material *m, double time_s)
     add_ball(depth, 0, height, 0, bead, ball_m3(bead));
 }
 
-// Opacity of the water, which goes out over the last third of the animation, and never jumps.
+// Turns optical depth into opacity, faded out over the last third of the animation.
 static void average(const float *depth, double time_s, float *texels)
 {
     const double last = (time_s / (RG_ATLAS_FRAMES * FRAME_S) - 0.65) / 0.35;

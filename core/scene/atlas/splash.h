@@ -1,6 +1,6 @@
-// The animation of a splash: a drop of 3.2 mm hits a surface, throws up a crown and droplets, and
-// what is left falls back. 21 frames of 6 ms; the picture spans 60 x 40 mm, seen from 15 degrees
-// above, and the drop hits in the middle of its width, 8 mm above its lower edge.
+// The animation of a splash: a drop of 3.2 mm hits a surface and throws up a crown and droplets,
+// which fall back. 21 frames of 6 ms; the picture spans 60 x 40 mm, seen from 15 degrees above, and
+// the drop hits in the middle of its width, 8 mm above its lower edge.
 #ifndef RG_CORE_SCENE_ATLAS_SPLASH_H
 #define RG_CORE_SCENE_ATLAS_SPLASH_H
 
@@ -8,13 +8,12 @@
 
 #include "core/scene/atlas/atlas.h"
 
-// How high up in the picture the impact is.
+// The height of the impact above the picture's lower edge.
 #define RG_SPLASH_FOOT_SHARE (8.0 / 40)
 
 enum { RG_SPLASH_WIDTH_PX = 48, RG_SPLASH_HEIGHT_PX = 32, RG_SPLASH_LEVELS = 6 };
 
-// What a splash has at one moment, in metres. Heights are of the sheet's upper edge; radii of the
-// crown's foot.
+// The crown at one moment, in metres: its radius at the foot, the height of the sheet's upper edge.
 struct rg_splash_crown {
     double radius_m, height_m, thickness_m;
 };
@@ -23,7 +22,7 @@ struct rg_splash_crown {
 struct rg_splash_crown rg_splash_crown(int material, double time_s);
 
 // Draws a frame of a material as opacity, 0 to 1; row 0 on top. False, and one logged line, when
-// memory is short.
+// memory runs out.
 bool rg_splash_draw(int material, int frame,
                     float texels[RG_SPLASH_HEIGHT_PX * RG_SPLASH_WIDTH_PX]);
 

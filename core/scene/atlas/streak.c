@@ -7,24 +7,24 @@
 #include "core/base/alloc.h"
 #include "core/scene/atlas/optics/trace.h"
 
-// One row of rays adds to at most so many rows of the picture: twice the fall between two moments,
+// The most rows of the picture that one row of rays adds to: twice the fall between two moments,
 // and one more at either end.
 enum { MAX_BLUR = 256 };
 
-// Everything that stays while one set of streaks is traced. Rows of the picture are counted down,
-// rays and v go up.
+// State that is constant while one set of streaks is traced. Rows of the picture count downwards,
+// rays and v upwards.
 struct tracing {
     const struct rg_lobes *lobes;
     struct rg_drop_view view;
     struct rg_streaks *streaks;
-    int rays, rows;           // of the longest row, and rows: even numbers
+    int rays, rows;           // rays in the longest row, and number of rows: both even
     float step_u, step_v;     // between rays and between rows of them, in radii
     float radius_x, radius_y; // of the drop, in columns and rows
     double fall_rows;         // over the exposure
-    double top_row;           // of the drop's middle when the exposure begins
-    double share;             // of one ray at one moment in a pixel
+    double top_row;           // row of the drop's middle when the exposure begins
+    double share;             // weight of one ray at one moment in a pixel
     int moments;
-    int column[RG_TRACE_MAX]; // of each ray
+    int column[RG_TRACE_MAX]; // the picture's column of each ray
     float (*light)[RG_ATLAS_CELL_PX];
     float env[RG_ATLAS_CELL_PX];
     bool lit[RG_LOBE_COUNT];
@@ -44,7 +44,7 @@ static double tent(double s)
     return s - 0.5 * s * fabs(s);
 }
 
-// Adds what one ray saw, by one way of light, to the lights that it looked into.
+// Adds the light of one ray, on one way through the drop, to the lobes that it points into.
 static void scatter(struct tracing *t, int way, int i, int column)
 {
     const float share = t->row.share[way][i];
@@ -73,9 +73,9 @@ static void add_row(const struct tracing *t, const float *light, const float *we
             picture[(first + r) * width + c] += weights[r] * light[c];
 }
 
-// How long a point is in each row of the picture, as shares of the exposure, while moment k fades
-// in and out; it is at row `at` at the moment itself. Fills weights from the first row on, and
-// returns how many rows there are. Nothing is seen before the exposure and after it.
+// The share of the exposure that a point spends in each row of the picture while moment k fades in
+// and out; at the moment itself it is at row `at`. Fills weights from the first row on, and returns
+// the number of rows. Only the exposure counts, not the time before and after it.
 static int find_weights(const struct tracing *t, int k, double at, float weights[MAX_BLUR],
                         int *first)
 {
@@ -92,7 +92,7 @@ static int find_weights(const struct tracing *t, int k, double at, float weights
     return count;
 }
 
-// The rays of one height v, in radii, at moment k.
+// Traces the rays of one height v, in radii, at moment k.
 static void trace_row(struct tracing *t, const struct rg_drop_shape *shape, int k, float v)
 {
     memset(t->lit, 0, sizeof(t->lit));
@@ -101,7 +101,7 @@ static void trace_row(struct tracing *t, const struct rg_drop_shape *shape, int 
     const int half = (int)ceilf(reach / t->step_u), left = t->rays / 2 - half;
     rg_drop_trace(shape, &t->view, v, t->step_u * (0.5f - (float)half), t->step_u, 2 * half,
                   &t->row);
-    // Light that is 1 from everywhere is 1 inside too, after any number of reflections.
+    // Light of 1 from everywhere stays 1 inside the drop, after any number of reflections.
     for (int i = 0; i < 2 * half; i++)
         t->env[t->column[left + i]] += t->row.hit[i];
     for (int way = 0; way < RG_DROP_WAYS; way++)
@@ -120,8 +120,8 @@ static void trace_row(struct tracing *t, const struct rg_drop_shape *shape, int 
     add_row(t, t->env, weights, first, count, t->streaks->env);
 }
 
-// Traces the drop as it is at the end of k of the exposure's parts. Each time the rows of
-// rays are moved by the golden ratio, so that later rows meet what falls between these.
+// Traces the drop as it is after k parts of the exposure. Each moment shifts the rows of rays by
+// the golden ratio, so that later moments fill the gaps of earlier ones.
 static void trace_moment(struct tracing *t, int oscillation, int k)
 {
     const struct rg_drop_shape shape = rg_drop_shape(oscillation, RG_EXPOSURE_S * k / t->moments);

@@ -1,4 +1,4 @@
-// Streaks: the picture of a falling drop over an exposure, under many lights at once.
+// Streaks: pictures of a falling drop over an exposure, under many lights at once.
 #ifndef RG_CORE_SCENE_ATLAS_STREAK_H
 #define RG_CORE_SCENE_ATLAS_STREAK_H
 
@@ -6,31 +6,31 @@
 
 #include "core/scene/atlas/lights.h"
 
-// How finely a streak is traced.
+// The resolution at which a streak is traced.
 struct rg_streak_detail {
     int moments; // parts of the exposure: the drop's image fades from one end to the other
     int column;  // rays across a column of the picture
-    int along;   // rows of rays along the diameter of the drop at rest, seen from the front. From
-                 // above there are up to half as many again, because the fall blurs these less
+    int along;   // rows of rays along the diameter of the drop at rest, seen from the front; from
+                 // above up to half as many more, because the fall blurs these less
 };
 
-// How finely the streaks of a size are traced: no step and no noise is to be seen.
+// The resolution for a size, at which neither steps nor noise are visible.
 struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size);
 
-// Pictures of width x height, row 0 on top, tightly packed. The caller frees both.
+// Pictures of width x height, row 0 on top, tightly packed. The caller frees both arrays.
 struct rg_streaks {
     int width, height;
-    float *point; // of each lobe in turn: radiance for an irradiance of 1
+    float *point; // for each lobe in turn: radiance for an irradiance of 1
     float *env;   // for radiance 1 from everywhere
 };
 
 // Traces the streaks of an oscillation seen from an elevation of 20 * view degrees, at the cell's
-// size in a level of the full atlas. NULL arrays and one logged line when memory is short.
+// size in a level of the full atlas. NULL arrays and one logged line when memory runs out.
 bool rg_streaks_trace(int oscillation, int view, int level, const struct rg_streak_detail *detail,
                       const struct rg_lobes *lobes, struct rg_streaks *streaks);
-// What all lights of the atlas, each as strong as an even sky is in its part of the sphere, lack or
-// have too much against that sky: their light times this is the sky's. Lights are 20 degrees apart,
-// so that they miss what a drop does in between, and what stays inside it for long.
+// The factor that scales the light of all lobes, each as strong as an even sky is in its part of
+// the sphere, to the light of that sky. The lights are 20 degrees apart, so that they miss what a
+// drop does in between, and light that stays inside it for long.
 float rg_streaks_balance(const struct rg_streaks *streaks);
 void rg_streaks_free(struct rg_streaks *streaks);
 

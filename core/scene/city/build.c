@@ -17,7 +17,7 @@ double city_chance(const struct city_builder *b, uint32_t what, uint32_t which, 
     return (double)rg_uniform(rg_random((uint)b->settings.seed, which, k, what).x);
 }
 
-// Room for one more element; false, once logged, without memory.
+// Makes room for one more element; false, once logged, when memory runs out.
 static bool grow(struct city_builder *b, void *array, int count, int64_t *room, size_t size)
 {
     b->failed = b->failed || !rg_array_fit(array, room, (int64_t)count + 1, size, "city");
@@ -31,13 +31,14 @@ static bool is_level(point n)
     return fabs(n.y) > (double)SCENERY_LEVEL_Y;
 }
 
-// The texture upon the world: seen from outside, u runs to the right and v down.
+// The texture coordinates of a surface aligned with the world: seen from outside, u runs to the
+// right and v down.
 static struct mapping on_world(point n, double tile_m)
 {
     return (struct mapping){1 / tile_m, is_level(n) ? 1 / tile_m : -1 / tile_m, 0, 0, false};
 }
 
-// A scale in steps, and the share of a texture at which it lies then.
+// A scale rounded to whole steps, and the part of a texture that it then starts at.
 static uint32_t scale_of(double scale)
 {
     return (uint32_t)(int)lrint(scale * (double)SCENERY_SCALE_STEPS) & 0xffffu;
@@ -50,13 +51,13 @@ static uint32_t offset_of(double scale, double from)
     return (uint32_t)(int)lrint((at - floor(at)) * 65536) & 0xffffu;
 }
 
-// How wet kinds of ground get, 0 to 3.
+// How wet a kind of ground gets, 0 to 3.
 static uint32_t wetness_of(int kind)
 {
     return kind == SCENERY_KIND_ASPHALT ? 3 : kind == SCENERY_KIND_PAVING ? 2 : 0;
 }
 
-// r, g and b of 8 bits each in 5, 6 and 5.
+// Packs 8-bit r, g and b into 5, 6 and 5 bits.
 static uint32_t tint_of(uint32_t tint)
 {
     const uint32_t r = tint & 255, g = tint >> 8 & 255, b = tint >> 16 & 255;
@@ -82,7 +83,7 @@ static uint32_t *words_of(struct city_builder *b, int surface)
     return b->city->faces.surfaces + (size_t)surface * SCENERY_SURFACE_WORDS;
 }
 
-// Where a surface stands in the table of places, or would.
+// The hash table's entry of a surface, or the free one where it belongs.
 static int place_of(struct city_builder *b, const uint32_t *words)
 {
     const size_t size = SCENERY_SURFACE_WORDS * sizeof(*words);

@@ -1,4 +1,4 @@
-// Orders a scene's faces by where they lie and which way they look, and cuts them into chunks.
+// Sorts a scene's faces by place and direction, and cuts them into chunks.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,9 +7,9 @@
 #include "core/scene/city/city.h"
 #include "kernels/dialect/mesh/normal.h"
 
-// Chunks do not leave a cell: 16 x 16 x 16 of them, or fewer where there are few faces.
+// No chunk spans two cells: there are 16 x 16 x 16, or fewer where there are few faces.
 enum { MANY_FACES = 100000, MANY_BITS = 4, FEW_BITS = 2 };
-// Within cells faces lie in the order of a finer grid.
+// Within a cell, faces are sorted by a finer grid.
 enum { FINE_BITS = 10, PLACE_BITS = 3 * FINE_BITS };
 
 static int cell_bits(const struct city_faces *f)
@@ -38,7 +38,7 @@ static const float *corners_of(const struct city_faces *f, int face)
 static uint32_t normal_of(const struct city_faces *f, int face)
 {
     return f->surfaces[(size_t)f->surface_of[face] * SCENERY_SURFACE_WORDS + SCENERY_NORMAL] &
-           0x3fffffffu; // without how wet it gets
+           0x3fffffffu; // masks off how wet it gets
 }
 
 static void add_bounds(const struct city_faces *f, int face, float low[3], float high[3])
@@ -58,7 +58,7 @@ static void empty_bounds(float low[3], float high[3])
     }
 }
 
-// The bits of three coordinates in turn.
+// Interleaves the bits of three coordinates.
 static uint64_t interleave(const uint32_t at[3], int bits)
 {
     uint64_t order = 0;
@@ -80,10 +80,10 @@ static uint64_t order_of(const struct city_faces *f, int face)
         cell[c] = at[c] >> (FINE_BITS - cell_bits(f));
     }
     const uint64_t places = UINT64_C(1) << PLACE_BITS;
-    // Six ways to look, and all others.
+    // Six directions; all others share a seventh class.
     static const float ways[6][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                      {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    // A leaf's normal serves its light alone; its face may look another way.
+    // A leaf's stored normal is only for lighting; the face itself may point another way.
     const uint32_t look =
         f->surfaces[(size_t)f->surface_of[face] * SCENERY_SURFACE_WORDS + SCENERY_LOOK];
     uint64_t way = 6;
@@ -113,7 +113,7 @@ static bool reorder(struct city_faces *f, const struct key *keys)
     return true;
 }
 
-// The chunk that begins with face i.
+// Begins a chunk with face i.
 static struct city_chunk *begin_chunk(struct city_faces *f, int i, uint64_t cell_and_way)
 {
     struct city_chunk *chunk = &f->chunks[f->chunk_count++];
@@ -129,7 +129,7 @@ static struct city_chunk *begin_chunk(struct city_faces *f, int i, uint64_t cell
     return chunk;
 }
 
-// A chunk ends with its cell and direction, or where it is full.
+// Ends a chunk where the cell or direction changes, or where it is full.
 static void cut(struct city_faces *f, const struct key *keys)
 {
     struct city_chunk *chunk = NULL;

@@ -39,7 +39,7 @@ static uint64_t hash_of(const struct city *city)
         f->surfaces, (size_t)f->surface_count * SCENERY_SURFACE_WORDS * sizeof(uint32_t), hash);
 }
 
-// What has been built, ready to be drawn; NULL where that failed.
+// Turns the builder's faces into a city; NULL where that failed.
 static struct city *finish(struct city_builder *b)
 {
     struct city *city = b->city;
@@ -71,7 +71,7 @@ struct city *city_create(const struct city_settings *settings)
 
 // --- a mesh instead of the city ---
 
-// Its buffers on a device stay below 128 MiB.
+// Keeps a mesh's buffers on a device below 128 MiB.
 enum { MOST_MESH_FACES = 2500000, GROUND_TILES = 8 };
 
 static void build_mesh(struct city_builder *b, const struct rg_mesh *mesh)
@@ -94,7 +94,8 @@ static void build_mesh(struct city_builder *b, const struct rg_mesh *mesh)
     }
 }
 
-// In tiles, so that the planes of depth stay near their corners.
+// The ground is cut into tiles, so that the planes from which depth is computed begin near their
+// pixels.
 static void build_ground(struct city_builder *b)
 {
     const struct look ground = {0, SCENERY_KIND_PAVING, 0, 0x585858u, 0};

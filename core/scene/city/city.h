@@ -1,4 +1,4 @@
-// A procedural city for rain to fall on: streets, an avenue, a plaza, buildings that rise towards
+// A procedural city for rain to fall on: streets, an avenue, a plaza, buildings that are highest in
 // the middle, lamps and traffic lights, and 149 textures, all from one seed. docs/city.md shows it.
 //
 // Right-handed, y up, in metres; the ground lies at y = 0 and has no gaps.
@@ -14,10 +14,10 @@
 #include "kernels/scenery/surface.h"
 
 enum {
-    CITY_TRIANGLES = 779287,      // as many as Creus' model from Daz3D has
-    CITY_SMALL_TRIANGLES = 20001, // of the small one: the same streets and heights, less relief
+    CITY_TRIANGLES = 779287,      // the same number as Creus's model from Daz3D
+    CITY_SMALL_TRIANGLES = 20001, // the small city: the same streets and heights, less relief
     CITY_TEXTURES = 149,
-    CITY_TEXTURE_PX = 624, // a side: 149 of them make 58 megapixels
+    CITY_TEXTURE_PX = 624, // width and height: 149 of them make 58 megapixels
     CITY_SMALL_TEXTURE_PX = 64,
     CITY_CHUNK_FACES = 1024, // at most
 };
@@ -30,17 +30,17 @@ struct city_settings {
     enum city_size size;
 };
 
-// A box that faces enclose: what lies behind it is not seen. At y0 it stands on the ground or on
-// such a box.
+// A closed box inside a building, which hides everything behind it. Its lower side is on the ground
+// or on another box.
 struct city_box {
     float low[3], high[3];
 };
 
-// Faces that lie together: a part of the face arrays, and what holds them.
+// A run of neighbouring faces in the arrays, with its bounds.
 struct city_chunk {
     int first, count;
     float low[3], high[3];
-    // The direction in which all of them look, of unit length; 0 where directions differ.
+    // The unit direction that all of them face; 0 where directions differ.
     float normal[3];
 };
 
@@ -48,15 +48,15 @@ enum city_lamp_kind { CITY_STREET_LAMP, CITY_TRAFFIC_RED, CITY_TRAFFIC_GREEN };
 struct city_lamp {
     enum city_lamp_kind kind;
     float position[3];
-    float direction[3]; // the way it shines, of unit length
+    float direction[3]; // the direction of its light, of unit length
 };
 
-// A scene in faces: quads, each of which is two triangles, and triangles, whose last corner stands
-// twice; counter-clockwise seen from outside, each in one plane. Faces of a chunk stand together.
+// A scene's faces: planar quads, each of two triangles, and triangles, whose last corner is
+// repeated; counter-clockwise seen from outside. The faces of a chunk are contiguous.
 struct city_faces {
     int face_count, triangle_count;
     float *corners;       // SCENERY_FACE_WORDS a face: x, y, z of four corners
-    uint32_t *surface_of; // a face's
+    uint32_t *surface_of; // the surface of each face
     int surface_count;
     uint32_t *surfaces; // SCENERY_SURFACE_WORDS each
     int chunk_count;
@@ -69,45 +69,45 @@ struct city_painter;
 struct city {
     char name[RG_MESH_NAME_SIZE]; // for people and records
     struct city_settings settings;
-    bool is_mesh; // a user's: its faces may turn either way
+    bool is_mesh; // a user's mesh, whose faces may have either orientation
     struct city_faces faces;
     int lamp_count;
     struct city_lamp *lamps;
     int box_count;
-    struct city_box *boxes; // within the buildings
+    struct city_box *boxes; // inside the buildings, for culling
     int texture_count, texture_px;
     uint64_t hash; // XXH3 of the faces, their surfaces and the settings that paint the textures
 };
 
-// NULL, and one logged line, without memory. The caller destroys it.
+// NULL, and one logged line, when memory runs out. The caller destroys it.
 struct city *city_create(const struct city_settings *settings);
-// A user's mesh instead of a city, in matt grey, on a plain ground. It stands in the middle of the
-// city's space and fills it. It has no lamps, no boxes and one texture. `name` is what rg_mesh_load
-// takes. NULL, and one logged line, on failure.
+// Makes a scene of a user's mesh instead of a city, matt grey, on a plain ground, scaled to fill
+// the city's space. It has no lamps, no boxes and one texture. `name` is as for rg_mesh_load. NULL,
+// and one logged line, on failure.
 struct city *city_of_mesh(const char *name);
 void city_destroy(struct city *city);
 
-// The painter of a city's textures; a mesh's one is white. NULL, and one logged line, without
-// memory. The caller destroys it.
+// The painter of a city's textures; a mesh's only texture is white. NULL, and one logged line, when
+// memory runs out. The caller destroys it.
 struct city_painter *city_painter_create(const struct city_settings *settings);
 void city_painter_destroy(struct city_painter *painter);
-// Paints a texture: RGBA8 of texture_px squared texels, rows from the top. Each alone, so that
-// several can be painted at once. Colours are square roots of linear light, alpha the share of it
-// that a lamp behind gives at night.
+// Paints a texture: RGBA8 of texture_px squared texels, rows from the top. Textures are
+// independent, so that several can be painted at once. Colours are square roots of linear light,
+// alpha is the share that a lamp behind adds at night.
 void city_paint(const struct city_painter *painter, int texture, uint32_t *texels);
 
-// Fills SCENERY_OPEN_WORDS words (kernels/scenery/openness_grid.h): how much of the sky is seen
-// from where. False, and one logged line, without memory.
+// Fills SCENERY_OPEN_WORDS words (kernels/scenery/openness_grid.h) with the visible share of the
+// sky at grid points. False, and one logged line, when memory runs out.
 bool city_openness(const struct city *city, uint32_t *words);
 
-// The two places from which Creus looks: `second` sees farther. `near_plane` and `far_plane` hold
-// the city whole.
+// Creus's two cameras; the second sees farther. The whole city lies between `near_plane` and
+// `far_plane`.
 extern const struct rg_camera city_first_camera, city_second_camera;
 
-// Frees what a city_faces holds.
+// Frees the arrays of a city_faces.
 void city_faces_free(struct city_faces *faces);
-// Orders the faces so that those which lie together and look the same way stand together, and makes
-// the chunks and bounds. False, and one logged line, without memory.
+// Sorts the faces so that neighbours with one direction are contiguous, and makes the chunks and
+// bounds. False, and one logged line, when memory runs out.
 bool city_faces_sort(struct city_faces *faces);
 
 #endif

@@ -1,10 +1,10 @@
-// What stands in the streets: lamps, traffic lights, bollards, benches and parked cars; where trees
-// stand.
+// Street furniture: lamps, traffic lights, bollards, benches and parked cars, and the places of
+// trees.
 #include <math.h>
 
 #include "core/scene/city/build.h"
 
-// What chances are for.
+// The purposes of pseudo-random numbers.
 enum { CHANCE_TREE = 100, CHANCE_CAR, CHANCE_COLOUR };
 
 static const struct look dark_metal = {PAINT_METAL + 1, SCENERY_KIND_METAL, 1, 0, 0};
@@ -15,13 +15,13 @@ static bool is_full(const struct city_builder *b)
     return b->settings.size == CITY_FULL;
 }
 
-// A number for a place, for chances.
+// A number derived from a place, for pseudo-random choices.
 static uint32_t place_of(double x, double z)
 {
     return (uint32_t)(int)((x + 200) * 10) * 4096u + (uint32_t)(int)((z + 200) * 10);
 }
 
-// Whether a place is so near to one of the cameras that what stands there would fill its picture.
+// Whether a place is so near to a camera that a thing there would fill its picture.
 static bool is_before_camera(double x, double z)
 {
     const struct rg_camera *const cameras[] = {&city_first_camera, &city_second_camera};
@@ -38,13 +38,13 @@ static bool is_before_camera(double x, double z)
 #define LAMP_HEIGHT_M 8.0
 #define LAMP_ARM_M    2.2
 
-// A lamp whose arm reaches over the road, (dx, dz) of unit length.
+// A lamp whose arm reaches over the road in the unit direction (dx, dz).
 static void build_lamp(struct city_builder *b, double x, double z, double dx, double dz)
 {
     const struct look light = {PAINT_LIGHT, SCENERY_KIND_LIGHT, 1, 0xb0d8ffu, 0};
     const double y = CITY_KERB_M, top = y + LAMP_HEIGHT_M;
     const double hx = x + dx * LAMP_ARM_M, hz = z + dz * LAMP_ARM_M;
-    if (is_full(b)) // its foot
+    if (is_full(b)) // foot of the lamp
         city_post(b, x, z, y, y + 0.9, 0.16, 0.12, 8, &dark_metal);
     city_post(b, x, z, y, top, 0.09, 0.06, is_full(b) ? 8 : 3, &dark_metal);
     city_box(b, (point){fmin(x, hx) - 0.04, top - 0.10, fmin(z, hz) - 0.04},
@@ -76,13 +76,13 @@ static void build_lamps(struct city_builder *b, const struct city_island *o, int
 
 // --- traffic lights ---
 
-// A head of three lamps that looks along (dx, dz); one of them is on.
+// A traffic light's head with three lamps that faces (dx, dz); one of them is on.
 static void build_signal(struct city_builder *b, double x, double z, double dx, double dz, bool red)
 {
     const double y0 = CITY_KERB_M + 2.6, half = 0.16, height = 1.05, lamp = 0.11;
     city_box(b, (point){x - half, y0, z - half}, (point){x + half, y0 + height, z + half}, BOX_ALL,
              &dark_metal);
-    for (int i = 0; i < 3; i++) { // green below, red on top
+    for (int i = 0; i < 3; i++) { // green at the bottom, red on top
         const bool on = red ? i == 2 : i == 0;
         const uint32_t colours[3] = {0x60ff40u, 0x30c0ffu, 0x2828ffu};
         const uint32_t dim = colours[i] >> 2 & 0x3f3f3fu;
@@ -94,7 +94,7 @@ static void build_signal(struct city_builder *b, double x, double z, double dx, 
             city_quad(b, (point){cx - rx, y - lamp, cz - rz}, (point){cx + rx, y - lamp, cz + rz},
                       (point){cx + rx, y + lamp, cz + rz}, (point){cx - rx, y + lamp, cz - rz},
                       &look);
-        if (is_full(b)) // the visor
+        if (is_full(b)) // visor
             city_box(b,
                      (point){fmin(cx - rx, cx + rx) - 0.02 + fmin(0, dx * 0.2), y + lamp,
                              fmin(cz - rz, cz + rz) - 0.02 + fmin(0, dz * 0.2)},
@@ -109,7 +109,7 @@ static void build_signal(struct city_builder *b, double x, double z, double dx, 
         city_post(b, x, z, CITY_KERB_M, y0, 0.06, 0.06, 8, &dark_metal);
 }
 
-// The four corners of an island: traffic on the avenue has red.
+// Traffic lights at the four corners of an island: the avenue has red.
 static void build_signals(struct city_builder *b, const struct city_island *o)
 {
     const double in = 0.7;
@@ -168,13 +168,13 @@ static void build_plaza(struct city_builder *b, const struct city_block *block)
 
 // --- cars ---
 
-// A point of a car, whose front is where z is greatest when it stands along z.
+// A point on a car; its front is at the greatest z when the car stands along z.
 static point car_point(double x, double z, bool along_z, double side, double y, double ahead)
 {
     return along_z ? (point){x + side, y, z + ahead} : (point){x + ahead, y, z - side};
 }
 
-// Two outlines of four points each, joined: `low` wider than `high`.
+// Joins two outlines of four points each; `low` is the wider one.
 static void car_body(struct city_builder *b, const point low[4], const point high[4],
                      const struct look *walls, const struct look *lid)
 {
@@ -233,7 +233,7 @@ static void build_car(struct city_builder *b, double x, double z, bool along_z)
     }
 }
 
-// Along the east and north side of an island.
+// Parks cars along the east and north side of an island.
 static void build_cars(struct city_builder *b, const struct city_island *o)
 {
     for (double z = o->z0 + 11; z < o->z1 - 11; z += 5.6)
@@ -244,7 +244,7 @@ static void build_cars(struct city_builder *b, const struct city_island *o)
             build_car(b, x, o->z1 + 1.15, false);
 }
 
-// Trees along the avenue.
+// Plants trees along the avenue.
 static void build_avenue(struct city_builder *b, const struct city_island *o, int column)
 {
     const double x = column < CITY_COLUMNS / 2 ? o->x1 - 1.4 : o->x0 + 1.4;

@@ -1,5 +1,5 @@
-// How much of the sky is seen from the points of a grid over the city: as much of an overcast sky's
-// light reaches them.
+// The visible share of the sky at the points of a grid over the city, which is also the share of an
+// overcast sky's light there.
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@
 
 enum { SIDE = SCENERY_OPEN_SIDE, LEVELS = SCENERY_OPEN_LEVELS, WAYS = 16, FARTHEST_CELLS = 30 };
 
-// The height of what stands at each point.
+// The height of the geometry at each grid point.
 static void find_heights(const struct city *city, float heights[SIDE][SIDE])
 {
     for (int z = 0; z < SIDE; z++) {
@@ -27,8 +27,8 @@ static void find_heights(const struct city *city, float heights[SIDE][SIDE])
     }
 }
 
-// The share of the sky over each level of a point: along each way the sky begins above the steepest
-// thing in sight.
+// The share of the sky over each level of a grid point: in each direction the sky begins above the
+// steepest thing in sight.
 static void find_column(float heights[SIDE][SIDE], int x, int z, float open[LEVELS])
 {
     for (int level = 0; level < LEVELS; level++)
@@ -44,7 +44,7 @@ static void find_column(float heights[SIDE][SIDE], int x, int z, float open[LEVE
                 break;
             const float height = heights[at_z][at_x];
             const float over = 1 / (SCENERY_OPEN_CELL_M * (float)step);
-            // What ends below a level hides no sky from it, and most points are streets.
+            // Things that end below a level hide no sky from it, and most points are streets.
             for (int level = 0; level < LEVELS && height > SCENERY_OPEN_CELL_M * (float)level;
                  level++)
                 steepest[level] =

@@ -1,14 +1,14 @@
-// The city's plan: an avenue along z, streets across it and beside it, blocks between them; and
-// where Creus stands in it.
+// The city's plan: an avenue along z, streets across it and parallel to it, blocks between them;
+// and the places of Creus's cameras.
 #include "core/scene/city/build.h"
 
 #define SIDE_M   (CITY_SIDE_M / 2.0)
 #define ROAD_M   4.5  // half a street's roadway
 #define WALK_M   3.5  // a street's pavement
 #define AVENUE_M 9.0  // half the avenue's roadway
-#define BESIDE_M 5.0  // its pavement
-#define BORDER_M 10.0 // from the last block to the city's border: a pavement, and half a street
-#define COLUMN_M 48.0 // a block
+#define BESIDE_M 5.0  // the avenue's pavement
+#define BORDER_M 10.0 // from the last block to the city's border: a pavement and half a street
+#define COLUMN_M 48.0 // length of a block
 #define ROW_M    50.0
 
 static double column_start(int column)
@@ -48,9 +48,9 @@ struct city_island city_island_at(int column, int row)
     };
 }
 
-// The thesis does not say where it stands. From here the packets that its tables draw hold as many
-// particles as it printed, to 18 % (test `counts of particles`): of the first camera that holds
-// along 2 cm of the avenue's width.
+// The thesis does not say where the cameras stand. From these places, the packets that its tables
+// draw hold as many particles as printed, to 18 % (test `counts of particles`). For the first
+// camera only a range of 2 cm across the avenue achieves that.
 const struct rg_camera city_first_camera = {
     .position = {-6.94f, 1.7f, 107.1f},
     .target = {0.5f, 11.0f, 32.8f},

@@ -4,9 +4,9 @@
 #include "core/scene/city/build.h"
 
 #define SIDE_M     (CITY_SIDE_M / 2.0)
-#define CROSSING_M 4.0  // how long a crossing is along its road, and how far from the junction's
-#define STOP_M     3.0  // the strip with the stop lines
-#define STRIP_M    18.0 // a road's piece: so the planes of depth stay near its corners
+#define CROSSING_M 4.0  // the length of a crossing along its road, and its distance from a junction
+#define STOP_M     3.0  // length of the strip with the stop line
+#define STRIP_M    18.0 // roads are cut into such pieces, so that depth planes start near pixels
 #define KERB_TOP_M 0.3
 
 static const struct look plain = {PAINT_ASPHALT, SCENERY_KIND_ASPHALT, 9, 0, 0};
@@ -17,13 +17,13 @@ static const struct look grass = {PAINT_GRASS, SCENERY_KIND_EARTH, 5, 0, 0};
 
 // --- roads ---
 
-// A road's rectangle with a texture across its whole width.
+// A road's rectangle with a texture that spans its width.
 struct road {
     double x0, z0, x1, z1;
     bool along_z;
 };
 
-// From one place along it to another.
+// Builds the part of a road between two distances along it.
 static void road_part(struct city_builder *b, const struct road *r, double from, double to,
                       const struct look *look)
 {
@@ -35,7 +35,7 @@ static void road_part(struct city_builder *b, const struct road *r, double from,
     city_quad_on(b, corners, city_surface(b, look, (point){0, 1, 0}, &m));
 }
 
-// A road between two junctions: at each end a crossing and a stop line.
+// A road between two junctions, with a crossing and a stop line at each end.
 static void build_road(struct city_builder *b, const struct road *r, bool avenue)
 {
     const struct look crossing = {PAINT_CROSSING, SCENERY_KIND_ASPHALT, CROSSING_M, 0, 0};
@@ -62,7 +62,7 @@ static void flat(struct city_builder *b, double x0, double z0, double x1, double
               look);
 }
 
-// The gaps between islands, those along the border included.
+// Start and end of the gaps between islands, including those at the border.
 static double gap_start_x(int i)
 {
     return i ? city_island_at(i - 1, 0).x1 : -SIDE_M;
@@ -101,7 +101,7 @@ static void build_roads(struct city_builder *b)
 
 // --- islands ---
 
-// Between two rectangles, one in the other, at one height.
+// Fills the area between two nested rectangles at one height.
 static void ring(struct city_builder *b, const struct city_island *o, const struct city_island *i,
                  double y, const struct look *look)
 {
@@ -126,7 +126,7 @@ static void build_plaza(struct city_builder *b, const struct city_block *block)
     const struct city_island inner = shrunk(&all, 9), edge = shrunk(&inner, 0.4);
     const double y = CITY_KERB_M, low = y + 0.35;
     ring(b, &all, &inner, y, &plaza_stone);
-    // a lawn in a low wall
+    // a lawn with a low wall
     city_box(b, (point){inner.x0, y, inner.z0}, (point){inner.x1, low, inner.z1}, BOX_WALLS, &kerb);
     ring(b, &inner, &edge, low, &kerb);
     flat(b, edge.x0, edge.z0, edge.x1, edge.z1, low, &grass);

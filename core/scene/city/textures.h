@@ -1,4 +1,4 @@
-// The city's textures by number, and what the geometry has to know of them.
+// The numbers of the city's textures, and their properties that the geometry needs.
 #ifndef RG_CORE_SCENE_CITY_TEXTURES_H
 #define RG_CORE_SCENE_CITY_TEXTURES_H
 
@@ -6,7 +6,7 @@
 
 #include "core/scene/city/city.h"
 
-// The first texture of each group; the next group's first ends it.
+// The first texture of each group; it ends where the next group begins.
 enum {
     PAINT_FACADE = 0, // walls with windows: PAINT_CELLS x PAINT_CELLS bays
     PAINT_CURTAIN = 72,
@@ -28,11 +28,12 @@ enum {
 };
 static_assert(PAINT_WATER + 1 == CITY_TEXTURES, "every texture has a painter");
 
-// A facade's window in its bay, in shares of the bay's width and of the floor's height.
+// The place of a facade's window in its bay, as shares of the bay's width and of the floor's
+// height.
 struct facade_style {
     double left, right, bottom, top; // bottom: from the floor's lower edge
-    int wall;                        // the wall's texture, for what is not painted with windows
-    double depth_m;                  // how far windows lie behind the wall
+    int wall;                        // the plain texture of the wall, for parts without windows
+    double depth_m;                  // how deep windows are set into the wall
 };
 struct facade_style city_facade_style(const struct city_settings *settings, int texture);
 

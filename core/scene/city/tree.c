@@ -1,16 +1,16 @@
-// A street tree: a trunk, and a crown of lobes. Each lobe is a dark lump, which keeps the sky from
-// showing through, under sprays of leaves that stand off it.
+// A street tree: a trunk, and a crown of lobes. Each lobe is a dark core, which keeps the sky from
+// showing through, under sprays of leaves around it.
 #include <math.h>
 
 #include "core/scene/city/build.h"
 
-// What chances are for, of those of this folder's other files.
+// The purposes of pseudo-random numbers; other files of this folder use other values.
 enum { CHANCE_TREE = 100, CHANCE_LEAF = 110, CHANCE_TINT = 111 };
 
 enum { LOBES = 7, CROWN_LEAVES = 1000 };
-#define GOLDEN_TURN 2.399963229728653 // between neighbours that cover a sphere evenly
-#define CORE_SHARE  0.72              // of a lobe's radius: the lump under its leaves
-#define LEAF_M      0.56              // a spray's length, at most
+#define GOLDEN_TURN 2.399963229728653 // the golden angle, which spreads points evenly over a sphere
+#define CORE_SHARE  0.72              // radius of a lobe's core over that of the lobe
+#define LEAF_M      0.56              // the greatest length of a spray
 
 struct lobe {
     point centre;
@@ -78,7 +78,7 @@ static void build_lump(struct city_builder *b, point c, double radius, int rings
 
 // --- leaves ---
 
-// Leaves deep in the crown and on its lower side see less of the sky.
+// Darkens leaves deep in the crown and on its lower side, which see less of the sky.
 static uint32_t leaf_tint(const struct city_builder *b, uint32_t id, uint32_t k, double up)
 {
     const double light = 0.72 + 0.12 * up + 0.16 * city_chance(b, CHANCE_TINT, id, k);
@@ -87,8 +87,8 @@ static uint32_t leaf_tint(const struct city_builder *b, uint32_t id, uint32_t k,
     return r | g << 8 | (uint32_t)(0.85 * g) << 16;
 }
 
-// A spray of leaves, a kite, which chance turns and tilts off the lobe's surface. It is lit as the
-// round crown that it is part of, not as a facet.
+// A spray of leaves, a kite, randomly turned and tilted away from the lobe's surface. It is lit
+// with the normal of the round crown, not of the facet.
 static void build_leaf(struct city_builder *b, const struct lobe *lobe, point crown, point way,
                        uint32_t id, uint32_t k)
 {
@@ -120,7 +120,7 @@ static bool is_inside(const struct lobe *lobes, int but, point p)
     return inside;
 }
 
-// Leaves all over the lobes, as many a square metre on each, but those within another.
+// Adds leaves all over the lobes, equally dense on each, except inside other lobes.
 static void build_leaves(struct city_builder *b, const struct lobe *lobes, point crown, uint32_t id)
 {
     double squares = 0;
@@ -142,7 +142,7 @@ static void build_leaves(struct city_builder *b, const struct lobe *lobes, point
 
 // --- the tree ---
 
-// One lobe in the middle, and the others about it, in turn lower and higher.
+// Places one lobe in the middle and the others around it, alternately lower and higher.
 static void place_lobes(const struct city_builder *b, point crown, double radius, uint32_t id,
                         struct lobe lobes[LOBES])
 {

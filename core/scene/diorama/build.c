@@ -118,10 +118,10 @@ void builder_quad(struct builder *b, point p0, point p1, point p2, point p3, enu
 
 // --- normals ---
 
-// A corner of the part, to be sorted by its place.
+// A corner of the part, for sorting by position.
 struct corner {
     float at[3];
-    int number; // 3 * the face + which of its corners
+    int number; // 3 * the face + the corner in it
 };
 
 static int by_place(const void *a, const void *b)
@@ -147,7 +147,7 @@ static double dot(point a, point b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// The normal of one of the corners that lie at one place.
+// Computes the normal of one of the corners at one position.
 static void smooth(struct builder *b, const struct corner *corners, int count, int which,
                    double cos_crease)
 {
@@ -190,7 +190,7 @@ void builder_end(struct builder *b, double crease_deg)
     free(corners);
 }
 
-// Copies the faces that are thin, or those that are not, behind those of `to`.
+// Appends the thin faces, or the others, to `to`.
 static void copy_faces(const struct builder *from, bool thin, struct builder *to)
 {
     for (int i = 0; i < from->face_count; i++) {

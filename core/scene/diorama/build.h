@@ -1,7 +1,7 @@
-// How dioramas are put together: for the files of this folder alone.
+// Building dioramas: for the files of this folder alone.
 //
-// A part is a lump of faces whose normals are made together. All coordinates come from exact
-// operations of doubles and the dialect's own sine and cosine, and are rounded to floats once, so
+// A part is a group of faces whose normals are computed together. All coordinates come from exact
+// operations on doubles and the dialect's own sine and cosine, and are rounded to floats once, so
 // that a diorama is the same on every machine.
 #ifndef RG_CORE_SCENE_DIORAMA_BUILD_H
 #define RG_CORE_SCENE_DIORAMA_BUILD_H
@@ -15,7 +15,7 @@ typedef struct {
     double x, y, z;
 } point;
 
-// What things are painted with; palette.c has the colours.
+// Materials by name; palette.c has their colours.
 enum paint {
     PAINT_CLAY,
     PAINT_LAWN,
@@ -51,10 +51,10 @@ enum paint {
     PAINT_COFFEE,
     PAINTS
 };
-// Gives a diorama the paint box.
+// Fills in a diorama's materials.
 void diorama_paint(struct diorama *diorama);
 
-// Where things are put: the origin, and what is one metre along x, y and z.
+// A coordinate frame: its origin, and the vectors of one metre along x, y and z.
 struct frame {
     point origin, x, y, z;
 };
@@ -62,56 +62,56 @@ struct frame {
 struct builder {
     const char *name;
     struct frame frame;
-    bool is_thin;          // what is added can be seen from both sides
-    int face_count, first; // of the part that is being made
+    bool is_thin;          // faces added now are visible from both sides
+    int face_count, first; // first: of the part in construction
     int64_t face_room, normal_room, material_room, thin_room;
     float *corners, *normals; // nine numbers a face
-    uint32_t *materials;      // of a face
-    bool *thin;               // a face's: `is_thin` when it was added
-    bool has_failed;          // no memory: one line is logged, and what follows is left out
+    uint32_t *materials;      // by face
+    bool *thin;               // by face: `is_thin` when it was added
+    bool has_failed;          // memory ran out: one line is logged, and later faces are dropped
 };
 
 void builder_begin(struct builder *b, const char *name);
 void builder_free(struct builder *b);
-// Puts the faces that are seen from one side alone first, and returns how many they are.
+// Moves the one-sided faces to the front, and returns their number.
 int builder_sort(struct builder *b);
-// What has been built as a mesh: its vertices are joined. NULL, and one logged line, on failure.
+// Makes a mesh of all faces, with equal vertices joined. NULL, and one logged line, on failure.
 struct rg_mesh *builder_mesh(const struct builder *b);
 
-// Things that follow lie in a frame at (x, y, z) of the present one, turned about the upright axis,
-// `size` times as large. Returns the present one, to which builder_leave goes back.
+// Enters a frame at (x, y, z) of the current one, turned about the upright axis and scaled by
+// `size`. Returns the old frame, which builder_leave restores.
 struct frame builder_enter(struct builder *b, point at, double turn_deg, double size);
-// The same, tilted about z first, then turned.
+// The same, first tilted about z, then turned.
 struct frame builder_tilt(struct builder *b, point at, double tilt_deg, double turn_deg);
 void builder_leave(struct builder *b, struct frame frame);
 
-// A face of the present part, its corners counter-clockwise seen from outside.
+// Adds a face to the current part, its corners counter-clockwise seen from outside.
 void builder_face(struct builder *b, point p0, point p1, point p2, enum paint paint);
 void builder_quad(struct builder *b, point p0, point p1, point p2, point p3, enum paint paint);
-// Ends the part: a normal is the mean, each as its area, of those faces at a place that differ from
-// its own face by less than the angle.
+// Ends the part. A corner's normal is the area-weighted mean of those faces at its position that
+// differ from its own face by less than the angle.
 void builder_end(struct builder *b, double crease_deg);
 
-// A number in [0, 1) that depends on what it is for and which of those it is.
+// A pseudo-random number in [0, 1) from its purpose and the item.
 double chance(uint32_t what, uint32_t which);
 double sine(double turn_deg);
 double cosine(double turn_deg);
 
 // --- parts, parts.c ---
 
-// Skin over rings of points: `rings` * `around` of them, each ring counter-clockwise as the rings
-// come towards the viewer. An end is closed by a fan to a point, or open where that is NULL.
+// A skin over `rings` rings of `around` points each, counter-clockwise as the rings come towards
+// the viewer. A fan to a point closes an end; NULL leaves it open.
 void skin(struct builder *b, const point *points, int rings, int around, const point *first,
           const point *last, enum paint paint);
-// A sheet of (across + 1) * (along + 1) points, row by row; rows follow each other to the left of
-// their own direction, seen from outside.
+// A sheet of (across + 1) * (along + 1) points, row by row. Seen from outside, each row is to the
+// left of the one before.
 void sheet(struct builder *b, const point *points, int across, int along, enum paint paint);
 
 // A box with sharp edges, and one with edges rounded in `steps`.
 void box(struct builder *b, point low, point high, enum paint paint);
 void soft_box(struct builder *b, point low, point high, double radius, int steps, enum paint paint);
-// A profile of (radius, height) turned about the upright axis through `at`, from below to above
-// along its outside. Where it ends at radius 0 it is closed. Normals as builder_end.
+// Turns a profile of (radius, height) about the upright axis through `at`, from the bottom to the
+// top of its outside. An end at radius 0 is closed. Normals as builder_end.
 struct profile {
     double radius, height;
 };
@@ -120,33 +120,34 @@ void lathe(struct builder *b, point at, const struct profile *profile, int count
 // A ring of a round wire about the upright axis.
 void ring(struct builder *b, point at, double radius, double wire, int along, int around,
           enum paint paint);
-// A round bar along points, with radii that change evenly from the first to the last.
+// A round bar along points, with radii that change linearly from the first to the last.
 void bar(struct builder *b, const point *points, int count, double radius0, double radius1,
          int around, enum paint paint);
-// A ball, flattened and dented: `id` says how.
+// A ball, flattened and dented; `id` selects the dents.
 void ball(struct builder *b, point at, point radii, int rings, int around, double dent, uint32_t id,
           enum paint paint);
-// A prism: an outline that its middle sees whole, counter-clockwise seen from z, from z0 to z1.
+// A prism from z0 to z1 over an outline that is star-shaped about its middle, counter-clockwise
+// seen from z.
 struct spot {
     double x, y;
 };
 void prism(struct builder *b, const struct spot *outline, int count, double z0, double z1,
            enum paint paint);
-// A flat spot on the ground with a wavy rim, in rings.
+// A flat patch on the ground with a wavy rim, in rings.
 void puddle(struct builder *b, point at, double radius_x, double radius_z, int rings, int around,
             double wave, uint32_t id, enum paint paint);
 
 // --- what grows, plants.c ---
 
-// A tree with a round crown of some balls; `detail` is how finely it is made, 1 as usual.
+// A tree with a round crown of several balls; `detail` scales its resolution, usually 1.
 void tree(struct builder *b, point at, double height_m, double detail, enum paint paint,
           uint32_t id);
-// A fir of some skirts.
+// A fir of several skirts.
 void fir(struct builder *b, point at, double height_m, int skirts, int around, uint32_t id);
 void bush(struct builder *b, point at, double radius_m, int rings, uint32_t id);
 // A flower with petals about its middle.
 void flower(struct builder *b, point at, double height_m, enum paint paint, uint32_t id);
-// A blade of so many faces, bent outwards by its direction.
+// A blade of grass of so many faces, bent outwards in its direction.
 void blade(struct builder *b, point at, double height_m, double turn_deg, int faces,
            enum paint paint);
 // A pebble of an even number of faces, at least 6.
@@ -154,15 +155,15 @@ void pebble(struct builder *b, point at, double radius_m, int faces, uint32_t id
 
 // --- what is left over, fill.c ---
 
-// Where pebbles and blades may lie: a ring on the ground.
+// The area for pebbles and blades: a ring on the ground.
 struct leftover {
     point middle;
     double inner_m, outer_m;
-    double pebble_m, blade_m; // how large they are
+    double pebble_m, blade_m; // their sizes
     enum paint pebble, blade;
 };
-// Adds pebbles and blades, so that the mesh has exactly so many vertices and faces. False, and one
-// logged line, where none can.
+// Adds pebbles and blades so that the mesh has exactly so many vertices and faces. False, and one
+// logged line, where no number of them does.
 bool fill(struct builder *b, const struct leftover *leftover, int vertices, int faces);
 
 // --- scenes ---

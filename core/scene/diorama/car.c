@@ -1,11 +1,11 @@
-// A small car with luggage on its roof, at a kerb. It stands along x and looks that way.
+// A small car with luggage on its roof, at a kerb. It stands along x and faces +x.
 #include <math.h>
 
 #include "core/scene/diorama/build.h"
 
 enum { SECTION = 28, STATIONS = 8 };
 
-// A section across the car: where it is, half its width, and its lowest and highest point.
+// A cross-section of the car: its place, half its width, and its lowest and highest point.
 struct section {
     double x, half, low, high;
 };
@@ -21,13 +21,13 @@ static const struct section cabin[STATIONS] = {
     {0.78, 0.64, 0.80, 1.12},  {1.02, 0.60, 0.80, 0.90},
 };
 
-// Between four numbers, at `t` from the second to the third (Catmull and Rom).
+// Interpolates between the second and the third of four numbers (Catmull and Rom).
 static double between(double a, double b, double c, double d, double t)
 {
     return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
-// The section at a share of the length, 0 at the back to 1.
+// The section at a share of the length, from 0 at the back to 1.
 static struct section section_at(const struct section *s, double share)
 {
     const double at = share * (STATIONS - 1);
@@ -40,8 +40,8 @@ static struct section section_at(const struct section *s, double share)
         between(a->low, b->low, c->low, d->low, t), between(a->high, b->high, c->high, d->high, t)};
 }
 
-// A point of the skin: its section is a square with round corners (a superellipse of the fourth
-// power); 0 degrees is to the left, 90 above. `out` stands off the skin, in metres.
+// A point of the skin: a section is a square with round corners (a superellipse of the fourth
+// power); 0 degrees is left, 90 up. `out` is the distance from the skin, in metres.
 static point on_skin(const struct section *s, double share, double turn_deg, double out)
 {
     const struct section at = section_at(s, share);
@@ -63,7 +63,7 @@ static void hull(struct builder *b, const struct section *s, int rings, enum pai
     builder_end(b, 50);
 }
 
-// A patch of the skin, a little off it: from one share of the length to another, and round it.
+// A patch slightly off the skin, between two shares of the length and two angles.
 static void patch(struct builder *b, const struct section *s, const double share[2],
                   const double turn_deg[2], int across, int along, enum paint paint)
 {
@@ -92,7 +92,7 @@ static void windows(struct builder *b)
     patch(b, body, (double[2]){0.66, 0.93}, (double[2]){58, 122}, 8, 7, PAINT_RED);
 }
 
-// About its axle, which is upright here.
+// A wheel about its axle, which is upright here.
 static void wheel(struct builder *b)
 {
     struct profile tyre[11];

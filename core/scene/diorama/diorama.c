@@ -12,7 +12,7 @@ const struct diorama_size diorama_sizes[DIORAMAS] = {
     [DIORAMA_GROUND] = {"ground", 4601, 8180},
 };
 
-// How a scene is built, what fills it up, how it is looked at, and its sky.
+// A scene's builder, what fills it up, its camera and its sky.
 static const struct scene {
     void (*build)(struct builder *b);
     struct leftover leftover;
@@ -65,7 +65,7 @@ void diorama_destroy(struct diorama *diorama)
     free(diorama);
 }
 
-// Takes what has been built over; the builder keeps nothing of it.
+// Makes a diorama of the builder's faces; the builder keeps nothing.
 static struct diorama *take(struct builder *b, const struct scene *scene)
 {
     struct diorama *d = rg_alloc(1, sizeof(*d), b->name);

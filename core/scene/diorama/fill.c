@@ -1,8 +1,8 @@
-// What brings a diorama to its published numbers of vertices and faces.
+// Brings a diorama to its published numbers of vertices and faces.
 //
-// A pebble is closed and smooth: of F faces it has F/2 + 2 vertices. A blade is a strip: F + 2. So
-// A pebbles of P faces together and B blades of S add P + S faces and (P + S)/2 + S/2 + 2 (A + B)
-// vertices, which makes S = 2 vertices - faces - 4 (A + B).
+// A pebble is closed and smooth: F faces have F/2 + 2 vertices. A blade is a strip of F + 2
+// vertices. So A pebbles of P faces together and B blades of S add P + S faces and (P + S)/2 + S/2
+// + 2 (A + B) vertices; solving for S gives S = 2 vertices - faces - 4 (A + B).
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,7 +15,7 @@ struct shares {
     int pebbles, pebble_faces, blades, blade_faces;
 };
 
-// Whether so many can be made of these faces; `cost` is the less the better they look.
+// Whether these faces can make so many pebbles and blades; a lower `cost` looks better.
 static bool judge(const struct shares *s, int *cost)
 {
     const bool pebbles_fit = s->pebble_faces % 2 == 0 &&
@@ -43,7 +43,7 @@ static bool share_out(int vertices, int faces, struct shares *best)
     return least >= 0;
 }
 
-// A place in the ring, evenly over its area.
+// A pseudo-random place in the ring, uniform over its area.
 static point place_of(const struct leftover *l, uint32_t what, uint32_t which)
 {
     const double inner = l->inner_m * l->inner_m, outer = l->outer_m * l->outer_m;
@@ -64,7 +64,7 @@ static void add_pebbles(struct builder *b, const struct leftover *l, const struc
     }
 }
 
-// In tufts of five.
+// Adds blades in tufts of five.
 static void add_blades(struct builder *b, const struct leftover *l, const struct shares *s)
 {
     int left = s->blade_faces;

@@ -1,17 +1,17 @@
-// Two houses: one under corrugated tiles with shutters, flowers and a rain barrel, and a plain one.
-// Both show their gable to z.
+// Two houses: one with corrugated tiles, shutters, flowers and a rain barrel, and a plain one. Both
+// show their gable to +z.
 #include <math.h>
 
 #include "core/scene/diorama/build.h"
 
 // --- roofs ---
 
-// A slope of a roof, from its eave to its ridge: half the width and the heights of both.
+// One slope of a roof: half the roof's width, and the heights of eave and ridge.
 struct slope {
     double half, eave, ridge, back, front; // z of its ends
 };
 
-// A point of a slope: so far up it, 0 to 1, and off it.
+// A point of a slope: the share 0 to 1 of the way up, and the distance off it.
 static point on_slope(const struct slope *s, int side, double up, double z, double off)
 {
     const double rise = s->ridge - s->eave, length = sqrt(s->half * s->half + rise * rise);
@@ -34,7 +34,7 @@ static void boards(struct builder *b, const struct slope *s, double thick, enum 
 
 enum { TILES = 11, TILE_SEGMENTS = 4, TILE_ROWS = 8, ACROSS = TILES * TILE_SEGMENTS };
 
-// A row of tiles from side to side: waves, lifted where they lie on the row below.
+// A row of tiles from side to side: waves, lifted where they overlap the row below.
 static void tile_row(struct builder *b, const struct slope *s, int side, int row)
 {
     point points[3 * (ACROSS + 1)];
@@ -98,7 +98,7 @@ static void window_bars(struct builder *b, double half, double height)
     bar(b, level, 2, 0.035, 0.035, 6, PAINT_WHITE);
 }
 
-// On the wall of z = 0, its sill in the middle below.
+// A window on the wall z = 0, with `at` in the middle of its sill.
 static void window(struct builder *b, point at, double turn_deg, double half, double height)
 {
     const struct frame was = builder_enter(b, at, turn_deg, 1);

@@ -1,4 +1,4 @@
-// A user's mesh as a diorama.
+// Makes a diorama of a user's mesh.
 
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@ enum { GROUND_SIDES = 64 };
 #define MESH_SIZE_M   4.0
 #define GROUND_SIZE_M 4.5
 
-// Room for a mesh's arrays and those of its ground.
+// Arrays for a mesh and its ground.
 struct arrays {
     int vertices, faces;
     float *positions, *normals;
@@ -51,7 +51,7 @@ static void put_mesh(struct arrays *a, const struct rg_mesh *mesh)
     memcpy(a->indices, mesh->indices, (size_t)mesh->face_count * 3 * sizeof(uint32_t));
 }
 
-// Behind the mesh's own, which begin the arrays: the middle, then the rim.
+// Appends the ground's vertices and faces to the mesh's: the middle, then the rim.
 static void put_ground(struct arrays *a, const struct rg_mesh *mesh)
 {
     const uint32_t middle = (uint32_t)mesh->vertex_count;

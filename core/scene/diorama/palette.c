@@ -1,4 +1,4 @@
-// The paint box that all dioramas share.
+// The materials that all dioramas share.
 #include <assert.h>
 #include <string.h>
 

@@ -37,7 +37,7 @@ static void lamp_post(struct builder *b, point at, int around)
     lathe(b, at, hat, 6, around, 180, PAINT_IRON);
 }
 
-// A path along points, so wide: a flat sheet.
+// A path of this width along points: a flat sheet.
 static void path(struct builder *b, const struct spot *way, int count, double wide_m, double y)
 {
     point points[2 * 40];

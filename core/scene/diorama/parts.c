@@ -1,4 +1,4 @@
-// Parts that dioramas are made of: skins over rings of points, and boxes.
+// Building blocks of dioramas: skins over rings of points, and boxes.
 #include <math.h>
 #include <stdlib.h>
 
@@ -49,15 +49,16 @@ void sheet(struct builder *b, const point *points, int across, int along, enum p
 
 // --- boxes ---
 
-// A point of a box's side by where it lies on the lines that part its edges. Sides are told by
-// their axis and end.
+// A point on a box's side, from its place on the lines that divide the edges. Sides are given by
+// axis and end.
 static point on_side(int axis, const double at[3])
 {
     const double p[3] = {at[(3 - axis) % 3], at[(4 - axis) % 3], at[(5 - axis) % 3]};
     return (point){p[0], p[1], p[2]};
 }
 
-// Pulls a point of a box's surface onto the rounded one: as far from the inner box as the radius.
+// Moves a point of a box's surface onto the rounded one: to the distance `radius` from the inner
+// box.
 static point rounded(point p, point low, point high, double radius)
 {
     const point inner = {fmin(fmax(p.x, low.x + radius), high.x - radius),
@@ -67,7 +68,7 @@ static point rounded(point p, point low, point high, double radius)
     return radius > 0 ? plus(inner, radius, unit(off)) : p;
 }
 
-// The lines across a box along an axis: `steps` at either end, which part the edges' rounding.
+// The grid lines across a box along an axis: `steps` at either end, which divide the rounded edges.
 static int lines_of(double low, double high, double radius, int steps, double *lines)
 {
     for (int i = 0; i <= steps; i++) {
@@ -147,7 +148,7 @@ void ring(struct builder *b, point at, double radius, double wire, int along, in
     lathe(b, at, profile, along + 1, around, 180, paint);
 }
 
-// A ring's directions across a bar, carried on from those of the ring before.
+// A ring's two directions across a bar, continued from the ring before.
 struct across {
     point side, up;
 };

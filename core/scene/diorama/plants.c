@@ -1,4 +1,4 @@
-// What grows, and stones.
+// Plants and stones.
 #include "core/scene/diorama/build.h"
 
 static int finer(double detail, int usual)

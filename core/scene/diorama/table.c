@@ -15,7 +15,7 @@ static void table(struct builder *b)
     lathe(b, (point){0, 0, 0}, top, 7, 64, 180, PAINT_PALE_WOOD);
 }
 
-// It hangs over the table's rim in folds.
+// A tablecloth that hangs over the rim in folds.
 static void cloth(struct builder *b)
 {
     enum { HANGING = 13, RINGS = 20, AROUND = 72 };
@@ -157,7 +157,7 @@ static void chair(struct builder *b, point at, double turn_deg, enum paint paint
     lathe(b, (point){0, 0, 0}, seat, 7, 44, 180, PAINT_WOOD);
     lathe(b, (point){0, 0, 0}, cushion, 7, 44, 180, paint);
     for (int z = -1; z <= 1; z += 2) {
-        // From a foot to the seat, along under it and down to the other foot.
+        // One bar from a foot up to the seat, along under it and down to the other foot.
         point legs[17];
         for (int i = 0; i < 17; i++) {
             const double x = i < 8 ? -1 : 1, down = i == 8 ? 0 : i < 8 ? 7 - i : i - 9;

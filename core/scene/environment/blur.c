@@ -7,7 +7,7 @@
 
 enum { WIDE_TEXELS = 16, LEAST_SIZE = 16 };
 
-// A place in a unit disc: the i-th of `count` that lie evenly (Vogel, 1979).
+// The i-th of `count` evenly distributed places in a unit disc (Vogel, 1979).
 static void place_in_disc(int i, int count, double at[2])
 {
     const double golden = M_PI * (3 - sqrt(5)), radius = sqrt((i + 0.5) / count);
@@ -15,11 +15,11 @@ static void place_in_disc(int i, int count, double at[2])
     at[1] = radius * sin(i * golden);
 }
 
-// The light from a direction of any length, between four texels.
+// Adds the light from a direction of any length, interpolated between four texels.
 static void add_light(const struct rg_environment *e, const double d[3], double light[3])
 {
     const cube_point c = cube_locate(v3_make((float)d[0], (float)d[1], (float)d[2]), e->size);
-    const float fx = c.x + 0.5f, fy = c.y + 0.5f; // from the border's centres
+    const float fx = c.x + 0.5f, fy = c.y + 0.5f; // relative to the border's centres
     const int x = (int)fx, y = (int)fy;
     const float *top = rg_environment_texel(e, c.face, x - 1, y - 1);
     const float *bottom = rg_environment_texel(e, c.face, x - 1, y);
@@ -30,7 +30,7 @@ static void add_light(const struct rg_environment *e, const double d[3], double 
     }
 }
 
-// What a disc is seen by: places in it, around a direction.
+// Sampling places of a disc around a direction.
 struct disc {
     const struct rg_environment *from;
     double places[2 * 256]; // in units of the direction's length
@@ -41,7 +41,7 @@ static void disc_light(const double d[3], const void *user, double light[3])
 {
     const struct disc *disc = user;
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    const int axis = fabs(d[0]) < fabs(d[1]) ? 0 : 1; // far from the direction
+    const int axis = fabs(d[0]) < fabs(d[1]) ? 0 : 1; // the axis farthest from the direction
     double right[3] = {0}, down[3];
     right[axis] = 1;
     const double along = d[axis] / (length * length);

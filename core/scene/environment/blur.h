@@ -4,9 +4,9 @@
 
 #include "core/scene/environment/environment.h"
 
-// The light of a disc of this angular diameter around each direction, as a lens out of focus sees
-// it. The environment is halved first while the disc stays 8 texels wide or more. The caller
-// destroys it. NULL, and one logged line, without memory.
+// Averages the light over a disc of this angular diameter around each direction, as an unfocused
+// lens does. The environment is first halved while the disc stays at least 8 texels wide. The
+// caller destroys the result. NULL, and one logged line, when memory runs out.
 struct rg_environment *rg_environment_blur(const struct rg_environment *environment,
                                            double diameter_rad);
 

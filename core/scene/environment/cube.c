@@ -106,8 +106,8 @@ struct rg_environment *rg_environment_halve(const struct rg_environment *environ
     return half;
 }
 
-// An unsigned float with 5 bits of exponent: drops `dropped` bits of a float's mantissa, rounded up
-// when the noise, of as many bits, says so. What would be subnormal becomes 0.
+// Packs an unsigned float with 5 bits of exponent: drops `dropped` bits of the mantissa, and rounds
+// up where `noise`, of as many bits, decides so. Subnormal results become 0.
 static uint32_t pack_unsigned_float(float value, int dropped, uint32_t noise)
 {
     const float smallest = 6.103515625e-5f, largest = 64512.0f;
@@ -126,8 +126,8 @@ static uint32_t pack_rg11b10f(const float light[3], uint32_t noise)
            pack_unsigned_float(light[2], 18, noise) << 22;
 }
 
-// Where texel `i` of `size_px` reads a face of `size` texels: the first of two, and the weight of
-// the second. The first and the last texel lie on the face's edges.
+// The first of the two texels of a face of `size` texels that texel `i` of `size_px` interpolates,
+// and the weight of the second. The first and last texel lie on the face's edges.
 static int source_of(int i, int size_px, int size, float *weight)
 {
     const double along = size_px > 1 ? (double)i / (size_px - 1) : 0.5;
@@ -153,7 +153,7 @@ static void pack_face(const struct rg_environment *environment, int face, int si
                 float below = bottom[i] + (bottom[i + 3] - bottom[i]) * fx;
                 light[i] = above + (below - above) * fy;
             }
-            // A hash is noise enough, and quick.
+            // Cheap noise from a hash.
             uint32_t noise = ((uint32_t)x * 0x9e3779b9u) ^ ((uint32_t)(y + 7) * 0x85ebca6bu);
             noise = (noise ^ noise >> 15) * 0x2c1b3c6du;
             texels[(size_t)y * (size_t)size_px + (size_t)x] = pack_rg11b10f(light, noise >> 14);
@@ -163,7 +163,7 @@ static void pack_face(const struct rg_environment *environment, int face, int si
 
 bool rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels)
 {
-    // Bilinear filtering alone would skip texels of a larger map.
+    // Bilinear filtering alone would skip texels of a much larger map.
     struct rg_environment *halved = NULL;
     while ((halved ? halved : environment)->size >= 2 * size_px) {
         struct rg_environment *smaller = rg_environment_halve(halved ? halved : environment);

@@ -1,4 +1,4 @@
-// Cube maps on the host: building environments out of any function of direction.
+// Cube maps on the host: environments made from any function of direction.
 #ifndef RG_CORE_SCENE_ENVIRONMENT_CUBE_H
 #define RG_CORE_SCENE_ENVIRONMENT_CUBE_H
 
@@ -9,10 +9,10 @@
 // The direction through the centre of a texel of a face; x and y may lie one outside 0..size-1.
 void rg_cube_direction(int face, int x, int y, int size, double direction[3]);
 
-// An environment of this size, dark; the caller destroys it. NULL, and one logged line, without
-// memory. Without it rg_environment_halve also returns NULL, and rg_environment_pack false.
+// A dark environment of this size; the caller destroys it. NULL, and one logged line, when memory
+// runs out; then rg_environment_halve also returns NULL, and rg_environment_pack false.
 struct rg_environment *rg_environment_create(int size);
-// The red, green and blue of a texel; x and y from -1 to size, the border included.
+// The red, green and blue of a texel; x and y from -1 to size, including the border.
 float *rg_environment_texel(const struct rg_environment *environment, int face, int x, int y);
 // Fills the borders from the neighbouring faces.
 void rg_environment_close_borders(struct rg_environment *environment);
@@ -22,15 +22,15 @@ void rg_environment_close_borders(struct rg_environment *environment);
 typedef void (*rg_light_fn)(const double direction[3], const void *user, double light[3]);
 void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, const void *user);
 
-// The same at half the size, each texel the mean of four; an odd last row or column is left out.
-// From size 2 on. The caller destroys it.
+// Halves an environment, each texel the mean of four; an odd last row or column is dropped. `size`
+// must be at least 2. The caller destroys it.
 struct rg_environment *rg_environment_halve(const struct rg_environment *environment);
 
-// All six faces resampled to size_px^2 texels of RG11B10F each: halved while they are twice as
-// large or more, then bilinearly. The outermost texels' centres lie on the cube's edges, so that
-// neighbouring faces hold the same light there, and filtering within a face shows no seam. The
-// format is coarse (6 bits of mantissa), so a seeded noise dithers what it rounds. Light that is
-// negative or no number becomes 0.
+// Resamples all six faces to size_px^2 texels of RG11B10F each: halves them while they are at least
+// twice as large, then interpolates. The outermost texels' centres lie on the cube's edges, so that
+// neighbouring faces hold the same light there and filtering within a face shows no seam. The
+// format is coarse (6 bits of mantissa), so seeded noise dithers the rounding. Negative light and
+// NaN become 0.
 bool rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels);
 
 #endif

@@ -1,12 +1,12 @@
-// Environment maps: the light that comes from every direction, as a cube map.
+// Environment maps: the light from every direction, as a cube map.
 #ifndef RG_CORE_SCENE_ENVIRONMENT_ENVIRONMENT_H
 #define RG_CORE_SCENE_ENVIRONMENT_ENVIRONMENT_H
 
 #include "core/device/device.h"
 
 // Six faces in the order and orientation of OpenGL (kernels/dialect/image/cube.h), linear light.
-// Each face carries a border of one texel from its neighbours, so that filtering crosses edges
-// without a seam: light[face][y + 1][x + 1][channel], x and y from -1 to size.
+// Each face has a border of one texel from its neighbours, so that filtering crosses edges without
+// a seam: light[face][y + 1][x + 1][channel], x and y from -1 to size.
 struct rg_environment {
     int size; // texels along a face, without the border
     float *light;
@@ -22,8 +22,8 @@ struct rg_environment {
 struct rg_environment *rg_environment_load(const char *name);
 void rg_environment_destroy(struct rg_environment *environment);
 
-// A device's image of it in RG11B10F, 6 layers and `levels` levels, each face resampled to size_px
-// texels a side in level 0. The caller destroys it.
+// Uploads an environment as an image in RG11B10F, 6 layers and `levels` levels, each face resampled
+// to size_px texels a side in level 0. The caller destroys it.
 struct rg_image *rg_environment_upload(const struct rg_environment *environment, int size_px,
                                        int levels, struct rg_device *device);
 

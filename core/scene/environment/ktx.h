@@ -1,4 +1,4 @@
-// KTX 1 cube maps: just what Debian's open3d-gui-data holds.
+// KTX 1 cube maps, as far as Debian's open3d-gui-data needs them.
 #ifndef RG_CORE_SCENE_ENVIRONMENT_KTX_H
 #define RG_CORE_SCENE_ENVIRONMENT_KTX_H
 

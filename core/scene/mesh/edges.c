@@ -6,17 +6,17 @@
 
 #include "core/base/alloc.h"
 
-// A side of a face, from its lower place to its higher one.
+// A side of a face, from its lower vertex to its higher one.
 struct side {
     uint32_t low, high;
     int face;
-    bool goes_down; // the face goes along it from `high` to `low`
+    bool goes_down; // the face traverses it from `high` to `low`
 };
 
 struct work {
     const struct rg_mesh *mesh;
-    uint32_t *places; // of corners: the first vertex that lies there
-    double *normals;  // three a face; 0 of a face without area
+    uint32_t *places; // by corner: the first vertex at that position
+    double *normals;  // three a face; 0 for faces without area
     struct side *sides;
     int side_count;
 };
@@ -70,8 +70,8 @@ static bool is_same(const struct side *p, const struct side *q)
     return p->low == q->low && p->high == q->high;
 }
 
-// Of the sides that lie where the first one does, the place of the one that it is paired with:
-// rather one that goes the other way. `count` where there is none.
+// The index of the side to pair with the first one, among the sides at the same place: preferably
+// one of opposite direction. `count` where there is none.
 static int partner(const struct side *sides, int count)
 {
     for (int i = 1; i < count; i++)
@@ -85,7 +85,7 @@ static void put(struct rg_edges *edges, int room, const struct work *w, const st
                 const struct side *second)
 {
     const double *n = w->normals + 3 * (size_t)first->face;
-    // Where both faces go the same way along it, one of them is inside out.
+    // Two faces that traverse an edge in the same direction have opposite orientation.
     const double sign = second && second->goes_down == first->goes_down ? -1 : 1;
     for (int c = 0; c < 3; c++) {
         const double other = second ? sign * w->normals[3 * (size_t)second->face + (size_t)c] : 0;
@@ -98,7 +98,7 @@ static void put(struct rg_edges *edges, int room, const struct work *w, const st
     edges->count++;
 }
 
-// Pairs the sides that lie together, and takes each pair off.
+// Pairs the sides with equal ends, and writes an edge for each pair.
 static void pair_up(struct rg_edges *edges, int room, const struct work *w, struct side *sides,
                     int count)
 {
@@ -113,7 +113,7 @@ static void pair_up(struct rg_edges *edges, int room, const struct work *w, stru
     }
 }
 
-// Brings the words of `count` edges together that lie `room` apart.
+// Moves the words of `count` edges, `room` apart so far, together.
 static void pack(struct rg_edges *edges, int room)
 {
     for (int word = 1; word < RG_EDGE_WORDS; word++)

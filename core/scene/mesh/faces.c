@@ -1,4 +1,4 @@
-// A mesh with another number of faces: decimated by meshoptimizer, refined by halving edges.
+// Changes a mesh's number of faces: meshoptimizer decimates, halving edges refines.
 #include <math.h>
 #include <meshoptimizer.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include "core/base/log.h"
 #include "core/scene/mesh/mesh.h"
 
-// The error at which meshoptimizer stops, in extents of the mesh: so large that it never does.
+// The error at which meshoptimizer may stop, in extents of the mesh: too large ever to be reached.
 #define ANY_ERROR 1e4f
 
 static bool check_wanted(const struct rg_mesh *mesh, int faces)
@@ -28,15 +28,15 @@ static void rename_mesh(struct rg_mesh *mesh, const char *source, const char *do
 
 // --- fewer faces ---
 
-// Fills `indices` with at most `faces` faces of the mesh's vertices, if that can be; returns how
-// many.
+// Fills `indices` with at most `faces` faces of the mesh's vertices, if possible; returns their
+// number.
 static int simplify(const struct rg_mesh *mesh, int faces, uint32_t *indices)
 {
     const size_t vertices = (size_t)mesh->vertex_count, stride = 3 * sizeof(float);
     const size_t wanted = 3 * (size_t)faces;
     size_t count = meshopt_simplify(indices, mesh->indices, 3 * (size_t)mesh->face_count,
                                     mesh->positions, vertices, stride, wanted, ANY_ERROR, 0, NULL);
-    // Where the topology keeps it from so few faces, the sloppy way reaches them.
+    // Where the topology forbids so few faces, the sloppy mode reaches them.
     if (count > wanted)
         count = meshopt_simplifySloppy(indices, mesh->indices, 3 * (size_t)mesh->face_count,
                                        mesh->positions, vertices, stride, wanted, ANY_ERROR, NULL);
@@ -47,7 +47,8 @@ struct rg_mesh *rg_mesh_decimate(const struct rg_mesh *mesh, int faces)
 {
     if (!check_wanted(mesh, faces))
         return NULL;
-    // One vertex a position: meshoptimizer keeps to seams between normals, which are made anew.
+    // One vertex a position, because meshoptimizer preserves seams between normals, which are made
+    // anew anyway.
     struct rg_mesh *smooth = rg_mesh_smooth(mesh);
     if (!smooth || smooth->face_count <= faces)
         return smooth;
@@ -69,9 +70,9 @@ struct rg_mesh *rg_mesh_decimate(const struct rg_mesh *mesh, int faces)
 
 // --- more faces ---
 
-// One side of a face: from its corner `corner` (3 * face + 0, 1 or 2) to the next.
+// A face's side, from its corner `corner` (3 * face + 0, 1 or 2) to the next.
 struct side {
-    uint64_t key; // the two vertices, the lower one above
+    uint64_t key; // the two vertices, the lower index in the upper half
     uint32_t corner;
 };
 
@@ -81,14 +82,14 @@ struct edge {
     uint32_t first, count;
 };
 
-// Rounds of halving; in a round each face loses at most one edge.
+// Refines in rounds; in one round each face loses at most one edge.
 struct refinement {
     int vertex_count, face_count, wanted;
     float *positions, *normals;
     uint32_t *indices;
     struct side *sides;
     struct edge *edges;
-    bool *taken; // a face: has an edge been halved in this round
+    bool *taken; // by face: one of its edges was halved in this round
 };
 
 static int compare_sides(const void *a, const void *b)
@@ -116,7 +117,7 @@ static double length_squared(const struct refinement *r, uint64_t key)
     return sum;
 }
 
-// Returns the number of edges, longest first.
+// Finds all edges, longest first, and returns their number.
 static size_t find_edges(struct refinement *r)
 {
     size_t sides = 0, edges = 0;
@@ -137,7 +138,7 @@ static size_t find_edges(struct refinement *r)
     return edges;
 }
 
-// Are all of an edge's faces untouched in this round, and different?
+// Whether all of an edge's faces are different and untouched in this round.
 static bool is_free(const struct refinement *r, const struct edge *edge)
 {
     const struct side *sides = r->sides + edge->first;
@@ -154,13 +155,13 @@ static uint32_t add_middle(struct refinement *r, uint64_t key)
     for (size_t c = 0; c < 3; c++) {
         r->positions[3 * middle + c] =
             (float)(((double)r->positions[3 * a + c] + (double)r->positions[3 * b + c]) / 2);
-        // of any length: rg_mesh_create makes it 1
+        // not normalised; rg_mesh_create does that
         r->normals[3 * middle + c] = r->normals[3 * a + c] + r->normals[3 * b + c];
     }
     return (uint32_t)middle;
 }
 
-// Every face of the edge becomes two: one in its place, one at the end.
+// Splits each face of the edge in two: one in its place, one at the end.
 static void halve(struct refinement *r, const struct edge *edge)
 {
     const uint32_t middle = add_middle(r, r->sides[edge->first].key);
@@ -177,7 +178,7 @@ static void halve(struct refinement *r, const struct edge *edge)
 }
 
 // One round: halves edges, from the longest that can be halved down to half its length. False when
-// every edge would lead beyond the wanted number.
+// every edge would exceed the wanted number.
 static bool run_round(struct refinement *r)
 {
     const int before = r->face_count;
@@ -232,7 +233,8 @@ struct rg_mesh *rg_mesh_refine(const struct rg_mesh *mesh, int faces)
 {
     if (!check_wanted(mesh, faces))
         return NULL;
-    // One vertex a position: else a seam between normals would be halved on one side alone.
+    // One vertex a position: otherwise an edge on a seam between normals would be halved on one
+    // side only.
     struct rg_mesh *smooth = rg_mesh_smooth(mesh), *fine = NULL;
     if (!smooth || smooth->face_count >= faces)
         return smooth;

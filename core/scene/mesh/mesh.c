@@ -12,7 +12,7 @@
 #include "core/base/log.h"
 #include "kernels/dialect/mesh/normal.h"
 
-// A position and a normal, as the join compares them.
+// A position and a normal, as joining compares them.
 struct vertex {
     float position[3], normal[3];
 };
@@ -65,7 +65,7 @@ static bool check_counts(const char *name, int vertex_count, int face_count)
         return rg_error("%s: no faces; a mesh needs at least one triangle (points and lines are "
                         "left out)",
                         name);
-    // Before they are joined there may be three vertices a face.
+    // Before joining there may be three vertices a face.
     if (face_count > RG_MESH_MAX_FACES || vertex_count > 3 * RG_MESH_MAX_FACES)
         return rg_error("%s: %d faces and %d vertices would take %.0f MB; at most %d faces are "
                         "taken: decimate it first",
@@ -80,7 +80,7 @@ static bool check_values(const char *name, int vertex_count, int face_count, con
     for (int i = 0; i < vertex_count; i++) {
         const float *p = positions + 3 * (size_t)i;
         for (int c = 0; c < 3; c++)
-            if (!(fabsf(p[c]) <= RG_MESH_FARTHEST)) // also false when it is no number
+            if (!(fabsf(p[c]) <= RG_MESH_FARTHEST)) // also catches NaN
                 return rg_error("%s: vertex %d lies at (%g, %g, %g); coordinates must be numbers "
                                 "up to %g: repair the file",
                                 name, i, (double)p[0], (double)p[1], (double)p[2],
@@ -95,8 +95,8 @@ static bool check_values(const char *name, int vertex_count, int face_count, con
 
 // --- bounds, normals, hash ---
 
-// Subnormal numbers become 0, as some devices would make them; so does -0, so that equal places
-// have equal bits.
+// Turns subnormal numbers into 0, as some devices do, and -0 too, so that equal places have equal
+// bits.
 static float plain(double value)
 {
     return fabs(value) < (double)FLT_MIN ? 0.0f : (float)value;
@@ -136,7 +136,7 @@ static void face_vector(const struct rg_mesh *mesh, int face, double vector[3])
         vector[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
 }
 
-// Fills normals that are 0 with the sum of the faces' vectors.
+// Replaces normals that are 0 by the sum of the adjacent faces' vectors.
 static bool make_normals(struct rg_mesh *mesh)
 {
     double(*sums)[3] = rg_alloc((size_t)mesh->vertex_count, sizeof(*sums), mesh->name);
@@ -192,7 +192,7 @@ static bool find_hash(struct rg_mesh *mesh)
 
 // --- joining ---
 
-// A normal that is no direction becomes 0.
+// A normal without a direction becomes 0.
 static void make_vertex(const float *position, const float *normal, struct vertex *vertex)
 {
     for (int c = 0; c < 3; c++)
@@ -206,7 +206,7 @@ static void make_vertex(const float *position, const float *normal, struct verte
         vertex->normal[c] = direction ? plain((double)normal[c] / length) : 0.0f;
 }
 
-// The arrays as a mesh whose vertices are the distinct ones of `vertices` that faces use.
+// Makes a mesh of the arrays, whose vertices are the distinct ones of `vertices` that faces use.
 static struct rg_mesh *join(const char *name, int vertex_count, int face_count,
                             const struct vertex *vertices, const uint32_t *indices, uint32_t *remap)
 {

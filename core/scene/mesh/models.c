@@ -7,12 +7,12 @@
 
 #include "core/base/log.h"
 
-// Where Debian's glmark2-data and libcgal-demo put their models. RG_MODEL_DIR comes before them.
+// Where Debian's glmark2-data and libcgal-demo install their models. RG_MODEL_DIR has priority.
 #define GLMARK2_DIR  "/usr/share/glmark2/models"
 #define CGAL_ARCHIVE "/usr/share/doc/libcgal-dev/data.tar.gz"
 #define CGAL_FOLDER  "data/meshes/"
 
-// The last three stand for scans that no package brings, with the face counts of Stuppacher and
+// The last three stand in for scans that no package has, with the face counts of Stuppacher and
 // Supan's table of scenes.
 static const struct rg_model models[] = {
     {"bunny", "bunny.obj", false, 0, 0, NULL},
@@ -45,7 +45,7 @@ static const struct rg_model *find_model(const char *name)
 
 // --- files ---
 
-// NAME in the user's folder, as any format; `path` is then filled.
+// Looks for NAME in the user's folder, in any format, and fills in `path`.
 static bool find_own(const char *name, char *path, size_t size)
 {
     static const char *const extensions[] = {"obj", "ply", "off", "stl", "gltf", "glb", "3ds"};
@@ -85,7 +85,8 @@ static struct rg_mesh *read_archived(const char *name, const struct rg_model *mo
 
 // --- by name ---
 
-// Brings a model to the paper's number of faces and says in its name what it stands for.
+// Brings a model to the paper's number of faces, and notes in its name which model it stands in
+// for.
 static struct rg_mesh *stand_in(struct rg_mesh *mesh, const struct rg_model *model, bool own)
 {
     struct rg_mesh *resized = mesh ? rg_mesh_resize(mesh, model->faces) : NULL;

@@ -1,29 +1,29 @@
-// Models by name: which file of which Debian package a name stands for.
+// Models by name: the Debian package and file of each name.
 #ifndef RG_CORE_SCENE_MESH_MODELS_H
 #define RG_CORE_SCENE_MESH_MODELS_H
 
 #include "core/scene/mesh/mesh.h"
 
-// What rg_mesh_load takes:
-//   "sphere", "torus"   computed, always there
-//   "bunny", "horse"... a row of the table below, from a Debian package, upright: y points up
-//   "cow", "homer"...   any other mesh of libcgal-demo's archive, without its ".off", as it lies
-//   any path            a file (a name with a '.' or a '/' in it)
+// The names that rg_mesh_load takes:
+//     "sphere", "torus"   computed, always available
+//     "bunny", "horse"... a row of the table below, from a Debian package, turned so that y points
+//     up "cow", "homer"...   any other mesh of libcgal-demo's archive, without its ".off", not
+//     turned any path            a file (a name with a '.' or a '/' in it)
 // In the folder RG_MODEL_DIR, if that variable is set, NAME.obj, .ply, .off, .stl, .gltf, .glb or
-// .3ds comes before the packages.
+// .3ds has priority over the packages.
 struct rg_model {
     const char *name;
     const char *file;       // in glmark2-data's folder or in libcgal-demo's archive
-    bool in_archive;        // the latter
-    int quarter_turns;      // about the x axis, from y to z, that set it upright
-    int faces;              // as a paper says; 0: as many as the file has
-    const char *stands_for; // the paper's model that it is shown for, NULL: itself
+    bool in_archive;        // the file is in the archive
+    int quarter_turns;      // about the x axis, from y to z, to set it upright
+    int faces;              // as the paper prints; 0: as many as the file has
+    const char *stands_for; // the paper's model that it replaces; NULL: none
 };
 
-// The names of the table, in order; NULL after the last.
+// A row of the table by index; NULL after the last.
 const struct rg_model *rg_model_at(int index);
 
-// The computed models: closed, of about 28,000 and 33,000 faces, of extent 2.
+// The computed models: closed, with about 28,000 and 33,000 faces and an extent of 2.
 struct rg_mesh *rg_mesh_make_sphere(void);
 struct rg_mesh *rg_mesh_make_torus(void);
 

@@ -87,11 +87,11 @@ static bool find_importer(char *path, size_t size)
                     path);
 }
 
-// Reading ten million faces from a binary PLY file of 190 MB took five times its size, and two
-// million from an OBJ file of 59 MB nine times.
+// Memory grows with the file: ten million faces of a binary PLY (190 MB) took five times its size,
+// two million of an OBJ (59 MB) nine times.
 enum { MEMORY_A_BYTE = 4 };
 
-// What is refused before anything is opened.
+// Refuses bad paths before anything is opened.
 static bool check_file(const char *path, int64_t *bytes)
 {
     struct stat st;
@@ -120,7 +120,7 @@ struct rg_mesh *rg_mesh_read(const char *path, const char *member)
     int64_t bytes = 0;
     if (!check_file(path, &bytes) || !find_importer(program, sizeof(program)))
         return NULL;
-    // Long enough for the CPU time that the importer allows itself, however busy the machine is.
+    // Long enough for the CPU time that the importer allows itself, even on a busy machine.
     struct rg_mesh *mesh =
         rg_mesh_read_by(program, (int)(60 + 10 * bytes / 1000000), path, path, member);
     if (mesh) {

@@ -1,4 +1,4 @@
-// Models that are computed: grids of quads, each two triangles, bent into shape.
+// Computed models: grids of quads, each two triangles, bent into shape.
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,16 +7,17 @@
 
 enum { SPHERE_CELLS = 48, TORUS_AROUND = 256, TORUS_THROUGH = 64 };
 
-// u and v go from -1 to 1. Points where patches meet must be equal to the bit, to be joined.
+// u and v go from -1 to 1. Points where patches meet must be bitwise equal, so that they are
+// joined.
 typedef void (*surface_fn)(int patch, double u, double v, float position[3], float normal[3]);
 
-// Makes the cells of a cube's side nearly equal on the sphere; -1, 0 and 1 stay.
+// Makes the cells of a cube's side nearly equal on the sphere; keeps -1, 0 and 1.
 static double spread(double u)
 {
     return fabs(u) < 1 ? tan(u * M_PI / 4) : u;
 }
 
-// A side of a cube, blown up to a sphere of radius 1.
+// A side of a cube, projected to a sphere of radius 1.
 static void sphere_point(int patch, double u, double v, float position[3], float normal[3])
 {
     const int axis = patch / 2;
@@ -30,7 +31,7 @@ static void sphere_point(int patch, double u, double v, float position[3], float
         position[c] = normal[c] = (float)(p[c] / length);
 }
 
-// About the y axis; the radii are 0.7 and 0.3.
+// A torus about the y axis, with radii 0.7 and 0.3.
 static void torus_point(int patch, double u, double v, float position[3], float normal[3])
 {
     (void)patch;

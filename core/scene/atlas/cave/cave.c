@@ -11,14 +11,14 @@
 #include "core/scene/atlas/optics/drop.h"
 #include "core/scene/atlas/levels.h"
 
-// The widths of the database are levels 0 to 3.
+// The database has the widths of levels 0 to 3.
 enum { WIDTHS = 4, PATH_SIZE = 1024, SETS = RG_ATLAS_OSCILLATIONS * RG_ATLAS_VIEWS };
 
 struct packing {
     const char *folder;
     struct rg_atlas *atlas;
     struct rg_cave_factors factors[RG_ATLAS_VIEWS];
-    bool is_mirrored; // the light stands on the left of the pictures
+    bool is_mirrored; // the light is on the left in the pictures
 };
 
 static bool is_file(const char *path)
@@ -35,7 +35,7 @@ static void point_path(const struct packing *p, int oscillation, int view, int l
              20 * phi + 10, oscillation);
 }
 
-// Packs a cell, from one path for each of its levels.
+// Packs a cell from one file for each of its levels.
 static bool pack_cell(const struct packing *p, enum rg_atlas_part part, int oscillation, int view,
                       int column, const char paths[WIDTHS][PATH_SIZE], struct rg_cave_why *why)
 {
@@ -55,7 +55,7 @@ static bool pack_cell(const struct packing *p, enum rg_atlas_part part, int osci
     return good;
 }
 
-// The azimuth under which a direction of light is stored: its own; at the poles, any that is there.
+// The azimuth under which a direction of light is stored: its own, or at the poles any that exists.
 static int stored_phi(const struct packing *p, int oscillation, int view, int light, int phi)
 {
     char path[PATH_SIZE];
@@ -122,8 +122,8 @@ static bool read_factors(struct packing *p, struct rg_cave_why *why)
     return true;
 }
 
-// Copies of the database differ in the side of the light. A drop that does not swing is brightest
-// on the side that the light is on where that stands at right angles to the view.
+// Finds the light's side, in which copies of the database differ: a drop that does not oscillate is
+// brightest on the side of a light at right angles to the view.
 static bool find_side(struct packing *p, struct rg_cave_why *why)
 {
     enum { OSCILLATION = 0, VIEW = 0, LIGHT = 5, PHI = 4 };

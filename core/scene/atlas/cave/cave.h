@@ -4,9 +4,9 @@
 
 #include "core/scene/atlas/atlas.h"
 
-// A factor of the database times this is a radiance for an irradiance of 1: the factor that brings
-// the 18 streaks of rows theta_light 10 and 50, seen from the front, nearest to those that are
-// traced (least squares of the logarithms).
+// Converts a factor of the database to radiance for an irradiance of 1. It brings the 18 streaks of
+// rows theta_light 10 and 50, seen from the front, nearest to the traced ones (least squares of the
+// logarithms).
 #define RG_CAVE_POINT_SCALE 0.2726f
 
 // Packs the database under a folder that holds point_light_database and env_light_database:
@@ -16,12 +16,12 @@
 //   env_light_database/size{32,16,8,4}/cv{V}_osc{K}.png
 //   env_light_database/txt/normalized_env_max.txt            "cv{V}", then f0 ... f9
 //
-// Four widths become levels 0 to 3, each resampled to its row's height. Where the light is at 90 or
-// -90 degrees, one azimuth, no matter which, is enough. Environment factors are scaled so that
-// oscillation 0 from the front covers its middle for the time that a drop takes to fall its own
-// diameter. `size` is RG_ATLAS_CAVE or RG_ATLAS_CAVE_SMALL, which needs widths 8 and 4 alone.
-// `progress` may be NULL. NULL, and one logged line that names the file, when a file is missing or
-// is not what it should be. The caller destroys it.
+// The four widths become levels 0 to 3, each resampled to its row's height. At light elevations 90
+// and -90 any one azimuth is enough. Environment factors are scaled so that oscillation 0 from the
+// front covers its middle for the time that a drop takes to fall its own diameter. `size` is
+// RG_ATLAS_CAVE or RG_ATLAS_CAVE_SMALL, which needs widths 8 and 4 alone. `progress` may be NULL.
+// NULL, and one logged line that names the file, when a file is missing or invalid. The caller
+// destroys it.
 struct rg_atlas *rg_cave_pack(const char *folder, enum rg_atlas_size size,
                               const struct rg_atlas_progress *progress);
 

@@ -20,7 +20,7 @@ struct work {
 
 // --- ours ---
 
-// The oscillation that is the mirror image of another: drops that swing to one side and the other.
+// The oscillation that is the mirror image of another: drops swing to one side or the other.
 static int mirror_of(int oscillation)
 {
     static const int mirrors[RG_ATLAS_OSCILLATIONS] = {0, 1, 4, 3, 2, 5, 8, 7, 6, 9};
@@ -45,7 +45,7 @@ static void read_cell(const struct rg_atlas *atlas, const struct rg_cave_found *
 
 // --- figures ---
 
-// False where one of them is even.
+// Correlates two pictures (Pearson). False where one of them is constant.
 static bool correlate(const float *a, const float *b, int count, double *correlation)
 {
     double sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;

@@ -8,7 +8,7 @@
 
 #include "core/base/files/file.h"
 
-// A reader of words, one after the other. `line` is for messages.
+// Reads a file word by word. `line` is for messages.
 struct reader {
     FILE *file;
     const char *path;
@@ -42,7 +42,7 @@ static bool next_word(struct reader *r)
     return length > 0;
 }
 
-// The whole number behind a prefix such as "cv"; false when the word is none.
+// The whole number after a prefix such as "cv"; false when the word is not of that form.
 static bool take_angle(const char *word, const char *prefix, int *angle)
 {
     const size_t length = strlen(prefix);

@@ -9,7 +9,7 @@
 
 #include "core/scene/atlas/cave/picture.h"
 
-enum { DEEPEST = 8 }; // folders in folders; links to one's own folder end here
+enum { DEEPEST = 8 }; // depth of nested folders; also ends cycles of links
 
 struct search {
     struct rg_cave_files *files;
@@ -17,14 +17,14 @@ struct search {
     int room;
 };
 
-// The index of an angle among `count` that begin at `first` and are 20 degrees apart; -1: none.
+// The index of an angle among `count` angles, 20 degrees apart from `first` on; -1: none.
 static int index_of(int angle, int first, int count)
 {
     const int index = (angle - first) / 20;
     return angle >= first && (angle - first) % 20 == 0 && index < count ? index : -1;
 }
 
-// What a name says that the picture is of; false where it is none of the database's.
+// Reads from a file name which picture it is; false where it is not one of the database.
 static bool read_name(const char *name, struct rg_cave_found *found)
 {
     int view, light = -90, phi = 10, k, end = 0;
@@ -71,7 +71,7 @@ static void keep_factors(struct rg_cave_files *files, const char *name, const ch
         memcpy(files->env_factors, path, RG_CAVE_PATH_SIZE);
 }
 
-// Looks at all that a folder holds, in the order of names, so that messages are always the same.
+// Searches a folder in the order of names, so that messages are always the same.
 static bool search_folder(struct search *s, const char *folder, int depth)
 {
     struct dirent **entries;
@@ -106,7 +106,7 @@ static int place_of(const struct rg_cave_found *f)
            f->oscillation;
 }
 
-// By place, the widest first.
+// Sorts by place in the atlas, the widest first.
 static int compare_found(const void *a, const void *b)
 {
     const struct rg_cave_found *x = a, *y = b;

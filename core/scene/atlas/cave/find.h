@@ -1,5 +1,5 @@
-// The database's files, wherever they lie under a folder: whoever has pictures of it seldom has
-// all, or in their own folders.
+// Finds the database's files anywhere under a folder, because copies are seldom complete or in
+// their original folders.
 #ifndef RG_CORE_SCENE_ATLAS_CAVE_FIND_H
 #define RG_CORE_SCENE_ATLAS_CAVE_FIND_H
 
@@ -7,23 +7,24 @@
 
 enum { RG_CAVE_PATH_SIZE = 1024 };
 
-// A picture by its name: cv{V}_v{L}_h{P}_osc{K}.png, or cv{V}_osc{K}.png of light from everywhere.
+// A picture identified by its name: cv{V}_v{L}_h{P}_osc{K}.png, or cv{V}_osc{K}.png for light from
+// everywhere.
 struct rg_cave_found {
     bool env;
-    int oscillation, view, light, phi; // as the atlas counts them; light and phi 0 of env
+    int oscillation, view, light, phi; // as the atlas counts them; light and phi are 0 for env
     int width;                         // pixels
     char path[RG_CAVE_PATH_SIZE];
 };
 
 struct rg_cave_files {
     int count;
-    struct rg_cave_found *items; // in the order of the atlas; of each picture the widest alone
+    struct rg_cave_found *items; // in the order of the atlas; only the widest of each picture
     char point_factors[RG_ATLAS_VIEWS][RG_CAVE_PATH_SIZE]; // dcam{NN}_point_max.txt; "": none
     char env_factors[RG_CAVE_PATH_SIZE];                   // normalized_env_max.txt; "": none
 };
 
-// Looks through a folder and those in it. False, and a sentence in `why`, when it cannot be read or
-// holds no such picture. The caller frees `items`.
+// Searches a folder and its subfolders. False, and a sentence in `why`, when one cannot be read or
+// there is no such picture. The caller frees `items`.
 bool rg_cave_find(const char *folder, struct rg_cave_files *files, struct rg_cave_why *why);
 
 #endif

@@ -10,7 +10,7 @@
 #include "core/image/files/format.h"
 #include "core/scene/atlas/levels.h"
 
-enum { WIDTHS = 4 }; // of the database: levels 0 to 3
+enum { WIDTHS = 4 }; // the database's: levels 0 to 3
 
 static bool check_size(const char *path, const struct rg_picture *picture, int width, int height,
                        struct rg_cave_why *why)
@@ -32,7 +32,8 @@ static void mirror(float *texels, int width, int height)
         }
 }
 
-// The picture as codes over the largest code, its first channel alone: they are grey, or nearly.
+// Reads the first channel of a picture as codes over the largest code; the pictures are grey, or
+// nearly.
 static bool read_grey(const char *path, struct rg_picture *picture, struct rg_cave_why *why)
 {
     struct stat st;
@@ -74,7 +75,7 @@ float rg_cave_leaning(const float *texels, int width, int height)
 
 int rg_cave_picture_width(const char *path)
 {
-    unsigned char head[24]; // the signature, and of the first chunk its length, name and width
+    unsigned char head[24]; // the signature, and the first chunk's length, name and width
     const char *why;
     FILE *file = rg_file_open(path, &why);
     const bool is_whole = file && fread(head, 1, sizeof(head), file) == sizeof(head);

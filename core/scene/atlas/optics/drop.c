@@ -5,9 +5,9 @@
 #define TENSION_N_M   0.0728
 #define DENSITY_KG_M3 1000.0
 
-// The amplitudes of the modes (2,0) and (3,1), in radii, and the azimuth of the second, recovered
-// from the database's pictures: from the widths and the swing of its streaks, and (3,1) from what
-// light makes of them.
+// The amplitudes of the modes (2,0) and (3,1), in radii, and the azimuth of the second. They were
+// fitted to the database's pictures: to the widths and swing of its streaks, and (3,1) to the
+// shapes of its highlights.
 static const struct {
     double a20, a31, phi_deg;
 } oscillations[10] = {
@@ -15,9 +15,9 @@ static const struct {
     {0.1, 0.1, 180}, {0.2, 0.1, 270}, {0.2, 0.1, 0},   {0.2, 0.1, 90}, {0.2, 0.1, 180},
 };
 
-// The mode (2,0) swings at Rayleigh's frequency, sqrt(8 tension / (density r^3)). The mode (3,1)
-// does so twice as often in the database, two whole times in its exposure, where Rayleigh's would
-// be 1.94 times.
+// The angular frequency of a mode. (2,0) swings at Rayleigh's frequency, sqrt(8 tension / (density
+// r^3)). In the database (3,1) swings twice as often, two whole times an exposure; Rayleigh's value
+// is 1.94 times.
 static double angular_frequency(int n)
 {
     const double r3 = RG_DROP_RADIUS_M * RG_DROP_RADIUS_M * RG_DROP_RADIUS_M;

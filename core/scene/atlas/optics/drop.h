@@ -1,5 +1,5 @@
-// The oscillating drop of Garg and Nayar: its ten oscillations, its shape at a moment, and how its
-// image moves over the exposure.
+// The oscillating drop of Garg and Nayar: its ten oscillations, its shape at a moment, and the
+// motion of its image over the exposure.
 #ifndef RG_CORE_SCENE_ATLAS_OPTICS_DROP_H
 #define RG_CORE_SCENE_ATLAS_OPTICS_DROP_H
 
@@ -10,7 +10,7 @@ struct rg_drop_shape {
     float a, b, mx, mz;
 };
 
-// No surface reaches further from its centre, in radii.
+// An upper bound of the distance of the surface from its centre, in radii.
 #define RG_DROP_REACH 1.31f
 
 // The index of refraction of water in visible light, and the radius of the drop.
@@ -18,10 +18,10 @@ struct rg_drop_shape {
 #define RG_DROP_RADIUS_M 1.6e-3
 #define RG_EXPOSURE_S    (1.0 / 60)
 
-// How far the drop falls in the exposure, in its diameters: 8.16 m/s.
+// The drop's fall in the exposure, in its diameters: 8.16 m/s.
 #define RG_DROP_FALL 42.5
 
-// An oscillation of the database, 0 to 9, at a time in seconds.
+// The shape in an oscillation of the database, 0 to 9, at a time in seconds.
 struct rg_drop_shape rg_drop_shape(int oscillation, double time_s);
 
 #endif

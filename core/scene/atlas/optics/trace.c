@@ -7,22 +7,22 @@
 
 #define INLINE static inline __attribute__((always_inline))
 
-// How often Newton's method improves a point on the surface: from outside, and through the drop,
-// where the sphere's chord is a good guess. With a step less through the drop, light of the most
-// bent one goes astray.
+// Steps of Newton's method that find a point on the surface: from outside, and through the drop,
+// where the sphere's chord is a good guess. One step fewer through the drop, and the rays that bend
+// most go astray.
 enum { STEPS_IN = 7, STEPS_THROUGH = 6 };
 
 struct vector {
     float x, y, z;
 };
 
-// How far a point is outside the surface (negative: inside), and the gradient of that.
+// The distance of a point from the surface (negative: inside), and its gradient.
 struct field {
     float value;
     struct vector gradient;
 };
 
-// What meets a surface: the share that is reflected, and where the two parts go.
+// A ray split at the surface: the share that is reflected, and both directions.
 struct parted {
     float reflectance;
     struct vector reflected, refracted;
@@ -54,7 +54,8 @@ INLINE struct vector scaled(struct vector a, float t)
     return (struct vector){a.x * t, a.y * t, a.z * t};
 }
 
-// f = |p| - r(direction of p), with c = cos theta and q = sin theta cos(phi - phi_drop).
+// The distance function |p| - r(direction of p), with c = cos theta and q = sin theta cos(phi -
+// phi_drop).
 INLINE struct field field_at(struct rg_drop_shape s, struct vector p)
 {
     const float squared = most(dot(p, p), 1e-6f);
@@ -68,7 +69,7 @@ INLINE struct field field_at(struct rg_drop_shape s, struct vector p)
                            p.z * radial - inverse * lobe * s.mz}};
 }
 
-// Where the ray p + t d meets the surface, t between low (inside) and high (outside).
+// The t between low (inside) and high (outside) at which the ray p + t d meets the surface.
 INLINE float solve(struct rg_drop_shape s, struct vector p, struct vector d, float guess, float low,
                    float high, int steps)
 {
@@ -86,12 +87,12 @@ INLINE float solve(struct rg_drop_shape s, struct vector p, struct vector d, flo
     return t;
 }
 
-// The point of a line in direction d nearest to the viewer at which it enters the drop, as a
-// distance along d; `hit` becomes 0 where it passes by.
+// The distance along d at which a line enters the drop, on the viewer's side; `hit` becomes 0 where
+// the line misses it.
 INLINE float enter(struct rg_drop_shape s, struct vector p, struct vector d, float *hit)
 {
-    // p is nearest to the centre. Where p is outside of the drop, near the rim, a lower place on
-    // the ray is looked for; near the centre the field is too steep for that.
+    // p is the line's point nearest to the centre. Near the rim p may be outside the drop, so a
+    // point deeper in the field is searched; near the centre the field is too steep for that.
     const float outside_here = field_at(s, p).value > 0 ? 1.0f : 0.0f;
     float deepest = 0;
 #pragma GCC unroll 8
@@ -103,7 +104,7 @@ INLINE float enter(struct rg_drop_shape s, struct vector p, struct vector d, flo
     return solve(s, p, d, outside, deepest, outside, STEPS_IN);
 }
 
-// From a point on the surface through the drop in direction d, to the surface.
+// The other end of a ray that goes from a point on the surface through the drop in direction d.
 INLINE struct vector cross(struct rg_drop_shape s, struct vector p, struct vector d)
 {
     const float middle = -dot(p, d);
@@ -113,9 +114,9 @@ INLINE struct vector cross(struct rg_drop_shape s, struct vector p, struct vecto
     return along(p, solve(s, p, d, chord, 0.05f, most(outside, chord), STEPS_THROUGH), d);
 }
 
-// Light in direction d at a surface with unit normal n against d; `ratio` is the index of
-// refraction on this side over that on the other. Unpolarised; all is reflected beyond the
-// critical angle.
+// Splits unpolarised light in direction d at a surface with unit normal n against d; `ratio` is the
+// index of refraction on this side over that on the other. Beyond the critical angle all is
+// reflected.
 INLINE struct parted part(struct vector d, struct vector n, float ratio)
 {
     const float cos_in = least(most(-dot(d, n), 0), 1);
@@ -140,7 +141,7 @@ INLINE void keep(struct rg_drop_row *row, int way, int i, struct vector d, float
     row->share[way][i] = share;
 }
 
-// One ray from the viewer, against the light's way.
+// Traces one ray backwards, from the viewer to the light.
 INLINE void trace(struct rg_drop_shape s, struct vector towards, struct vector start, int i,
                   struct rg_drop_row *row)
 {

@@ -1,22 +1,22 @@
-// Rays through a drop: where the light that leaves it towards the viewer came from.
+// Rays through a drop: the directions from which the light came that the viewer sees.
 #ifndef RG_CORE_SCENE_ATLAS_OPTICS_TRACE_H
 #define RG_CORE_SCENE_ATLAS_OPTICS_TRACE_H
 
 #include "core/scene/atlas/optics/drop.h"
 
-// The ways of light: reflected outside; refracted in and out; the same with one to three
+// The paths of light: reflected outside; refracted in and out; the same with one to three
 // reflections inside.
 enum { RG_DROP_WAYS = 5, RG_TRACE_MAX = 512 };
 
-// A camera without perspective. `towards` points from the drop to the viewer; all are unit vectors.
+// An orthographic camera. `towards` points from the drop to the viewer; all are unit vectors.
 struct rg_drop_view {
     float towards[3], right[3], up[3];
 };
 
-// What the viewer sees along a row of rays: for each way the direction in which the light's source
-// lies (a unit vector) and its share of that source's radiance, 0 where the ray misses the drop.
-// The shares add up to less than 1 by what is still inside after three reflections: 0.1 % of the
-// light that meets a sphere, 3.1 % over an exposure of a drop that is bent to or from the viewer.
+// A row of rays as the viewer sees it: for each path the direction of the light's source (a unit
+// vector) and its share of that source's radiance, 0 where the ray misses the drop. The shares sum
+// to less than 1, because light still inside after three reflections is dropped: 0.1 % for a
+// sphere, 3.1 % over an exposure for a drop that is bent towards or away from the viewer.
 struct rg_drop_row {
     float hit[RG_TRACE_MAX]; // 1 where the ray meets the drop, else 0
     float x[RG_DROP_WAYS][RG_TRACE_MAX], y[RG_DROP_WAYS][RG_TRACE_MAX],

@@ -1,4 +1,4 @@
-// Buildings: tiers that step back, with facades, cornices, roofs and what stands on them.
+// Buildings: tiers that step back, with facades, cornices, roofs and structures on them.
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,22 +10,22 @@ enum { CHANCE_HEIGHT = 300, CHANCE_STYLE, CHANCE_TIER, CHANCE_ROOF, CHANCE_SHOP 
 
 #define SHOP_M    4.4 // a ground floor's height
 #define CORNICE_M 0.35
-#define WITHIN_M  0.6 // this far inside a tier's sides all is hidden behind its faces
+#define WITHIN_M  0.6 // so far inside a tier's sides, its faces hide everything
 
-// A building that is being made.
+// The state of a building in construction.
 struct building {
     struct city_builder *b;
     struct city_facades *facades;
     struct city_lot lot;
     double height_m;
-    int texture; // of its facades
+    int texture; // texture of its facades
     struct look wall, roof;
-    bool landmark; // the highest
+    bool landmark; // the highest building
 };
 
 struct tier {
     double x0, z0, x1, z1, y0, y1;
-    int street; // sides with windows
+    int street; // bits of the sides with windows
 };
 
 static double chance(const struct building *t, int what, uint32_t k)
@@ -35,7 +35,7 @@ static double chance(const struct building *t, int what, uint32_t k)
 
 // --- facades ---
 
-// The ground floor: shops behind posts, a band with their signs above.
+// The ground floor: shops behind posts, with a band of signs above.
 static void build_shops(struct building *t, const struct city_facade *f, double y0)
 {
     const struct look look = {PAINT_SHOP + (int)(12 * chance(t, CHANCE_SHOP, 0)),
@@ -50,7 +50,7 @@ static void build_shops(struct building *t, const struct city_facade *f, double 
     city_facade_quad(t->b, f, d, f->length - d, y0, y1, -d, surface);
     if (!framed)
         return;
-    // the band over the windows, and its lower side
+    // the band over the windows, and its underside
     city_quad(t->b, city_facade_at(f, 0, y1 - 0.45, 0), city_facade_at(f, f->length, y1 - 0.45, 0),
               city_facade_at(f, f->length, y1, 0), city_facade_at(f, 0, y1, 0), &t->wall);
     city_quad(
@@ -85,7 +85,7 @@ static void build_side(struct building *t, const struct tier *r, int side)
     else
         f.out.x = side == BOX_X1 ? 1 : -1;
     f.length = f.out.z != 0 ? wide : deep;
-    if (!(r->street & side)) { // a wall that a neighbour may hide
+    if (!(r->street & side)) { // a blank wall, which a neighbour may hide
         city_quad(t->b, city_facade_at(&f, 0, r->y0, 0), city_facade_at(&f, f.length, r->y0, 0),
                   city_facade_at(&f, f.length, r->y1, 0), city_facade_at(&f, 0, r->y1, 0),
                   &t->wall);
@@ -109,7 +109,7 @@ static void build_side(struct building *t, const struct tier *r, int side)
 
 // --- roofs ---
 
-// A ring of a box without lid: its outside, top, inside, and lower side where it juts out.
+// A box-shaped ring without lid: outside, top, inside, and the overhanging underside.
 static void build_cornice(struct building *t, const struct tier *r)
 {
     const double out = CORNICE_M, in = 0.3, y0 = r->y1 - 0.5, y1 = r->y1 + 0.8;
@@ -123,7 +123,7 @@ static void build_cornice(struct building *t, const struct tier *r)
     const point i[4] = {{ix0, y1, iz1}, {ix1, y1, iz1}, {ix1, y1, iz0}, {ix0, y1, iz0}};
     const point f[4] = {{ix0, r->y1, iz1}, {ix1, r->y1, iz1}, {ix1, r->y1, iz0}, {ix0, r->y1, iz0}};
     const point under_o[4] = {{ox0, y0, oz1}, {ox1, y0, oz1}, {ox1, y0, oz0}, {ox0, y0, oz0}};
-    const double c = 0.5; // far enough in to meet the windows' plane
+    const double c = 0.5; // deep enough to meet the windows' plane
     const point under_i[4] = {{r->x0 + c, y0, r->z1 - c},
                               {r->x1 - c, y0, r->z1 - c},
                               {r->x1 - c, y0, r->z0 + c},
@@ -153,7 +153,8 @@ static void build_plant(struct building *t, const struct tier *r)
                  i ? &metal : &t->wall);
     }
     if (t->b->settings.size == CITY_FULL && r->y1 < 60 && chance(t, CHANCE_ROOF, 1) < 0.4) {
-        const struct look wood = {PAINT_BARK, SCENERY_KIND_WALL, 2, 0x80a0c0u, 0}; // a water tank
+        const struct look wood = {PAINT_BARK, SCENERY_KIND_WALL, 2, 0x80a0c0u, 0}; // for a water
+                                                                                   // tank
         const double x = (r->x0 + r->x1) / 2, z = (r->z0 + r->z1) / 2, y = r->y1;
         for (int i = 0; i < 4; i++)
             city_post(t->b, x + (i & 1 ? 1 : -1), z + (i & 2 ? 1 : -1), y, y + 2.2, 0.1, 0.1, 4,
@@ -166,7 +167,7 @@ static void build_plant(struct building *t, const struct tier *r)
                   r->y1 + 6 + 10 * chance(t, CHANCE_ROOF, 2), 0.15, 0.05, 4, &metal);
 }
 
-// The landmark's mast ends in three faces: with them the city's triangles are odd in number.
+// The landmark's mast ends in three faces, which make the city's number of triangles odd.
 static void build_mast(struct building *t, const struct tier *r)
 {
     const struct look metal = {PAINT_METAL, SCENERY_KIND_METAL, 2, 0, 0};
@@ -197,13 +198,14 @@ static void build_tier(struct building *t, const struct tier *r, bool top)
         build_plant(t, r);
 }
 
-// The next tier stands back by `in` on all sides; all have windows, for it is above its neighbours.
+// The next tier steps back by `in` on all sides; all sides have windows, because it is above its
+// neighbours.
 static struct tier next_tier(const struct tier *r, double in, double y1)
 {
     return (struct tier){r->x0 + in, r->z0 + in, r->x1 - in, r->z1 - in, r->y1, y1, BOX_WALLS};
 }
 
-// Where tiers end; returns how many there are.
+// Finds the heights at which tiers end; returns their number.
 static int find_ends(const struct building *t, double ends[4])
 {
     const double h = t->height_m;
@@ -229,7 +231,7 @@ static void build_tiers(struct building *t)
         const double side = fmin(r.x1 - r.x0, r.z1 - r.z0);
         const double in = i == 0 ? 1.0 + 2 * chance(t, CHANCE_TIER, 2) : 1.4;
         if (i + 1 == count ||
-            side - 2 * in < (t->landmark ? 6 : 9)) { // too slender to step back once more
+            side - 2 * in < (t->landmark ? 6 : 9)) { // too slender for another step back
             r.y1 = t->height_m;
             count = i + 1;
         }
@@ -238,7 +240,7 @@ static void build_tiers(struct building *t)
     }
 }
 
-// Buildings rise towards the middle.
+// The height of a building: the nearer to the middle, the higher.
 static double height_at(const struct building *t)
 {
     const struct city_lot *lot = &t->lot;
@@ -261,7 +263,7 @@ static void choose_looks(struct building *t)
                             6, 0, 0};
 }
 
-// The landmark: on the lot at the avenue and the plaza's far corner.
+// Whether a lot is the landmark's: the one at the avenue and the plaza's far corner.
 static bool is_landmark(const struct city_block *block, const struct city_lot *lot)
 {
     const bool here = block->index == (CITY_ROWS / 2 - 1) * CITY_COLUMNS + CITY_COLUMNS / 2;

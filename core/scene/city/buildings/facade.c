@@ -29,7 +29,7 @@ void city_facade_core(struct city_builder *b, struct city_facade *f)
     const struct look look = {
         f->texture, f->texture < PAINT_CURTAIN ? SCENERY_KIND_WALL : SCENERY_KIND_GLASS, 0, 0, 0};
     const struct mapping m = city_facade_mapping(f, PAINT_CELLS, f->y0, PAINT_CELLS * f->floor_m);
-    // In a frame, the windows' plane ends where those of the sides begin.
+    // With a frame, the windows' plane ends where that of the adjacent sides begins.
     const bool framed = b->settings.size == CITY_FULL;
     const double in = framed ? f->style.depth_m : 0;
     f->core = -in;

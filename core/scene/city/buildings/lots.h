@@ -1,10 +1,10 @@
-// How blocks are cut into lots, a building on each.
+// Cuts blocks into lots with one building each.
 #ifndef RG_CORE_SCENE_CITY_BUILDINGS_LOTS_H
 #define RG_CORE_SCENE_CITY_BUILDINGS_LOTS_H
 
 #include "core/scene/city/build.h"
 
-// A piece of a block, and which of its sides (BOX_X0 and so on) lie at the street.
+// A part of a block, and which of its sides (BOX_X0 and so on) face the street.
 struct city_lot {
     double x0, z0, x1, z1;
     int street;
@@ -13,7 +13,7 @@ struct city_lot {
 
 enum { CITY_MOST_LOTS = 16 };
 
-// A block's lots; returns how many.
+// Finds a block's lots; returns their number.
 int city_lots(const struct city_builder *b, const struct city_block *block,
               struct city_lot lots[CITY_MOST_LOTS]);
 

@@ -1,4 +1,4 @@
-// Relief near the streets in the middle comes first, until all triangles are spent.
+// Adds relief, first near the streets in the middle, until all triangles are used.
 #include "core/scene/city/buildings/relief.h"
 
 #include <math.h>
@@ -10,14 +10,14 @@
 // A part of the relief, which is built whole or not at all.
 enum part_kind { PART_BAND, PART_PIER, PART_WINDOW, PART_FRAME };
 struct part {
-    double order; // the least first
+    double order; // parts with lower values come first
     int facade, kind, bay, floor;
 };
 
 enum { BAND_FACES = 3, END_FACES = 2, PIER_FACES = 3, SILL_FACES = 5, BAR_FACES = 3 };
 enum { WINDOW_FACES = 2 * SILL_FACES + 2 * BAR_FACES, FRAME_FACES = 4 * BAR_FACES };
 
-// A box on the facade's plane: its front and some sides, without its back.
+// A box on the facade's plane: front and some sides, no back.
 enum { SIDE_LEFT = 1, SIDE_RIGHT = 2, SIDE_LOWER = 4, SIDE_UPPER = 8 };
 struct bar {
     double u0, u1, y0, y1, back, front;
@@ -42,7 +42,7 @@ static void build_bar(struct city_builder *b, const struct city_facade *f, const
             city_quad(b, back[i], back[(i + 1) % 4], front[(i + 1) % 4], front[i], look);
 }
 
-// The wall from the windows of one floor to those of the next.
+// The wall between the windows of one floor and those of the next.
 static void build_band(struct city_builder *b, const struct city_facade *f, int floor)
 {
     const double top = f->y0 + f->height_m, y = f->y0 + floor * f->floor_m;
@@ -52,7 +52,7 @@ static void build_band(struct city_builder *b, const struct city_facade *f, int 
                           fmin(top, y + f->style.bottom * f->floor_m),
                           f->core,
                           f->front};
-    // Without a frame of posts its ends are seen.
+    // Without posts at its ends, the ends are visible.
     const int ends = b->settings.size == CITY_FULL ? 0 : SIDE_LEFT | SIDE_RIGHT;
     build_bar(b, f, &r, ends | SIDE_LOWER | SIDE_UPPER, &f->wall, &f->painted);
 }
@@ -106,7 +106,7 @@ static void build_frame(struct city_builder *b, const struct city_facade *f, int
               &frame, NULL);
 }
 
-// A thin bar of one face before a window: what the last triangles are spent on.
+// A thin bar of one face in front of a window, which uses up the last triangles.
 static void build_rung(struct city_builder *b, const struct city_facade *f, int bay, int floor,
                        int k)
 {
@@ -148,7 +148,7 @@ static int compare_parts(const void *a, const void *b)
     return i < k ? -1 : i > k;
 }
 
-// How soon a place gets relief: low and near to the avenue first.
+// The priority of a place for relief: low places near the avenue come first.
 static double order_of(const struct city_facade *f, double u, double y)
 {
     const point p = city_facade_at(f, u, y, 0);
@@ -190,7 +190,7 @@ static int most_parts(const struct city_facades *all)
     return most;
 }
 
-// The last faces go to the windows that have come last.
+// The last faces go to the windows that came last.
 static void build_rungs(struct city_builder *b, const struct city_facades *all,
                         const struct part *p, int faces)
 {

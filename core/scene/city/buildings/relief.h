@@ -4,7 +4,7 @@
 
 #include "core/scene/city/buildings/facade.h"
 
-// Spends what is left of `triangles` on the facades' relief, to the last one.
+// Adds relief to the facades until all of `triangles` are used.
 void city_relief(struct city_builder *b, const struct city_facades *facades, int triangles);
 
 #endif

@@ -24,7 +24,7 @@ static struct paint lined(const struct spot *s, struct paint ground, struct pain
     return off < 1 && !worn ? paint_scaled(line, 0.85f + 0.15f * paint_cloud(s, 1)) : ground;
 }
 
-// Lanes run along v. Distances in metres from the road's middle.
+// Lanes along v; distances are in metres from the road's middle.
 static struct paint lanes(const struct spot *s, float width_m)
 {
     const float from_middle = rg_abs(s->u - 0.5f) * width_m, to_edge = width_m / 2 - from_middle;
@@ -58,7 +58,7 @@ static struct paint stop(const struct spot *s)
     return lined(s, p, white_line, rg_abs(s->u - 0.5f) / 0.008f);
 }
 
-// Slabs of stone, `across` a texture's width.
+// Stone slabs, `across` of them in a texture's width.
 static struct paint slabs(const struct spot *s, int across, struct paint colour, float joint)
 {
     const int x = (int)(s->u * (float)across), y = (int)(s->v * (float)across);

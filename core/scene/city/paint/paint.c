@@ -1,4 +1,4 @@
-// Paints the city's textures: shared noise, and which painter paints what.
+// Paints the city's textures: the shared noise, and which painter paints which texture.
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
@@ -11,7 +11,7 @@ enum { CHANCE_NOISE = 401 };
 
 // --- noise ---
 
-// Smooth noise of `across` x `down` cells over the unit square; it repeats.
+// Periodic smooth noise of `across` x `down` cells over the unit square.
 static float smooth(float u, float v, int across, int down, uint32_t seed)
 {
     const float x = u * (float)across, y = v * (float)down;

@@ -19,7 +19,7 @@ static const struct wall walls[PAINT_WALLS] = {
     {WALL_STONE, {0.70f, 0.69f, 0.68f, 0}},   {WALL_PANELS, {0.74f, 0.71f, 0.66f, 0}},
 };
 
-// A brick or block: how much lighter or darker than others, and 0 in a joint.
+// A brick or block: its brightness relative to others, and 0 in a joint.
 struct block {
     float shade, joint;
 };
@@ -66,7 +66,7 @@ struct paint paint_wall(const struct spot *s, int wall, float u, float v, int ac
 
 // --- windows ---
 
-// What is behind a window: (x, y) from 0 to 1 within its glass, y from below; `id` tells windows
+// The view through a window: (x, y) from 0 to 1 within its glass, y upwards; `id` tells windows
 // apart.
 static struct paint behind_glass(const struct spot *s, int id, float x, float y, float lit_share)
 {
@@ -83,7 +83,7 @@ static struct paint behind_glass(const struct spot *s, int id, float x, float y,
         glass = paint_scaled(glass, fall * things);
         glass.a *= (0.45f + 0.55f * paint_chance(s, 4 * id + 3)) * fall * things;
     }
-    // A blind that is let down some way, or curtains at the sides.
+    // A partly lowered blind, or curtains at the sides.
     const struct paint cloth = {0.72f, 0.70f, 0.65f, glass.a * 0.5f};
     if (drawn < 0.3f && y > 1 - 2.5f * drawn)
         return paint_scaled(cloth, paint_line(y, 0.06f) < 0.15f ? 0.82f : 0.95f);
@@ -92,7 +92,7 @@ static struct paint behind_glass(const struct spot *s, int id, float x, float y,
     return glass;
 }
 
-// A spot's bay: which one, and where in it, y from the floor's lower edge.
+// A texel's bay: its number, and the place in it, y from the floor's lower edge.
 struct bay {
     int id;
     float x, y;
@@ -113,7 +113,7 @@ struct paint paint_facade(const struct spot *s)
     const float bottom = (float)style.bottom, top = (float)style.top;
     if (bay.x < left || bay.x > right || bay.y < bottom || bay.y > top) {
         struct paint wall = paint_wall(s, s->texture % PAINT_WALLS, s->u, s->v, 16 * 3, 40 * 3);
-        // Water runs from the sills, and dirt stays under them.
+        // Water runs down from the sills, and dirt stays under them.
         if (bay.y < bottom && bay.x > left && bay.x < right)
             wall = paint_scaled(wall, 0.80f + 0.2f * (bottom - bay.y) / bottom * paint_stain(s));
         return bay.y < 0.02f ? paint_scaled(wall, 0.8f) : wall;
@@ -125,7 +125,7 @@ struct paint paint_facade(const struct spot *s)
                           rg_abs(x - 0.5f) < 0.02f || rg_abs(y - 0.66f) < 0.015f;
     if (in_frame)
         return paint_scaled(frame, 0.85f + 0.15f * paint_cloud(s, 0));
-    // The reveal's shadow falls on the glass.
+    // The reveal casts a shadow on the glass.
     const float shade = y > 0.9f ? 0.75f : 1;
     return paint_scaled(behind_glass(s, bay.id, x, y, 0.30f), shade);
 }
@@ -143,14 +143,14 @@ struct paint paint_curtain(const struct spot *s)
         rg_abs(bay.y - bottom) < 0.015f)
         return paint_scaled((struct paint){0.42f, 0.43f, 0.44f, 0},
                             0.9f + 0.2f * paint_cloud(s, 0));
-    if (bay.y < bottom) // the panel before the floor's slab
+    if (bay.y < bottom) // the panel in front of the floor slab
         return paint_scaled(tint, 0.46f + 0.08f * paint_cloud(s, 0));
     const float y = (bay.y - bottom) / (1 - bottom);
     struct paint glass = behind_glass(s, bay.id, bay.x, y, 0.26f);
     const float panes = 0.9f + 0.2f * paint_chance(s, 2000 + bay.id);
     if (glass.a > 0)
         return glass;
-    // Coated glass throws the sky back.
+    // Coated glass reflects the sky.
     const float sky = (0.30f + 0.3f * paint_cloud(s, 2) + 0.10f * y) * panes;
     return paint_mix(glass, paint_scaled(tint, sky * 1.7f), 0.72f);
 }
@@ -166,7 +166,7 @@ static struct paint sign_colour(const struct spot *s, int k)
     return colours[(int)(8 * paint_chance(s, k))];
 }
 
-// The board over the windows: letters as bars.
+// The sign over the windows, with letters as bars.
 static struct paint paint_sign(const struct spot *s, float y)
 {
     const bool bright = paint_chance(s, 3) < 0.6f;
@@ -200,7 +200,7 @@ struct paint paint_shop(const struct spot *s)
         door ? rg_abs(rg_abs(s->u - 0.72f) - 0.085f) : paint_line(s->u + 0.06f, 0.33f) * 0.33f;
     if (frame < 0.008f || rg_abs(y - 0.60f) < 0.008f || y > 0.725f)
         return paint_scaled(trim, 0.7f);
-    // The lit inside: shelves and goods, and what is darker near the floor.
+    // The lit interior: shelves and goods, darker near the floor.
     const float depth = 0.55f + 0.45f * y;
     const int shelf = (int)(y * 20), place = (int)(s->u * 80);
     const float goods = paint_chance(s, 500 + shelf * 90 + place);

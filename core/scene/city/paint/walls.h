@@ -4,7 +4,7 @@
 
 #include "core/scene/city/paint/spot.h"
 
-// A wall's kind at (u, v) in whole walls of `across` x `down` bricks.
+// A kind of wall at (u, v), whose unit square has `across` x `down` bricks.
 struct paint paint_wall(const struct spot *s, int wall, float u, float v, int across, int down);
 struct paint paint_facade(const struct spot *s);
 struct paint paint_curtain(const struct spot *s);

@@ -1,5 +1,4 @@
-// The files that glTF keeps its arrays in. In the cage nothing can be opened, so they are read
-// before.
+// Reads the buffer files of glTF in advance, because nothing can be opened in the cage.
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -21,7 +20,8 @@ unsigned char *import_read_whole(const char *path, size_t *size)
         errno = EFBIG;
         return NULL;
     }
-    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // what took its place may block
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // a file that was replaced
+                                                                  // meanwhile may block
     if (fd < 0)
         return NULL;
     unsigned char *bytes = NULL;
@@ -42,7 +42,7 @@ unsigned char *import_read_whole(const char *path, size_t *size)
 
 // --- names ---
 
-// Undoes %20 and the like, in place.
+// Decodes %20 and the like, in place.
 static void decode_percents(char *text)
 {
     char *to = text;
@@ -55,14 +55,13 @@ static void decode_percents(char *text)
     *to = 0;
 }
 
-// Whether it names a file beside the mesh's: neither data in itself, nor another place.
+// Whether a URI names a file relative to the mesh's, not embedded data or another location.
 static bool is_relative(const char *uri)
 {
     return *uri && *uri != '/' && uri[strcspn(uri, ":/?#")] != ':';
 }
 
-// Whether a name leads out of the folder that it is looked for in: a mesh that comes from elsewhere
-// opens nothing there.
+// Whether a path leaves the folder: a foreign mesh must not open files elsewhere.
 static bool leads_out(const char *name)
 {
     for (const char *at = strstr(name, ".."); at; at = strstr(at + 1, ".."))
@@ -79,7 +78,8 @@ static bool has_buffer(const struct import *import, const char *path)
     return false;
 }
 
-// The name in the mesh's folder; the caller frees it. NULL where it leads out of that.
+// The path of a name in the mesh's folder; the caller frees it. NULL where the name leaves the
+// folder.
 static char *path_of(const struct import *import, const char *name)
 {
     const char *slash = strrchr(import->name, '/');
@@ -92,8 +92,8 @@ static char *path_of(const struct import *import, const char *name)
     return path;
 }
 
-// Some programs write names as they are: a file of that very name counts where the decoded one is
-// absent.
+// Some programs write names unencoded, so a file of exactly that name is used where the decoded one
+// is missing.
 static void read_buffer(struct import *import, const char *uri)
 {
     struct import_buffer *buffer = &import->buffers[import->buffer_count];
@@ -119,7 +119,7 @@ static void read_buffer(struct import *import, const char *uri)
 
 // --- the text that names them ---
 
-// A GLB's first chunk is the text; all of a glTF is.
+// The JSON text: a GLB's first chunk, or a whole glTF file.
 static const char *text_of(const struct import *import, size_t *size)
 {
     enum { HEAD = 12, CHUNK = 8 };

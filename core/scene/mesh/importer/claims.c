@@ -1,4 +1,4 @@
-// What a file says about itself before it is parsed.
+// The numbers of faces and vertices that a file's header claims, read before parsing.
 #define _GNU_SOURCE // memmem
 #include <stdlib.h>
 #include <string.h>
@@ -7,17 +7,17 @@
 #include "core/scene/mesh/importer/importer.h"
 #include "core/scene/mesh/mesh.h"
 
-// No header that makes sense is longer.
+// Longer than any sensible header.
 enum { HEADER_BYTES = 65536 };
 
 struct claim {
-    bool is_known, is_binding; // binding: a file with fewer faces is cut short
+    bool is_known, is_binding; // binding: a file with fewer faces is truncated
     int64_t vertices, faces;
 };
 
 // --- PLY ---
 
-// Adds up the header's elements of any kind.
+// Adds up the counts of the header's elements of any kind.
 static int64_t read_elements(const char *header, struct claim *claim)
 {
     static const char words[] = "\nelement ";
@@ -45,14 +45,14 @@ static int64_t count_lines(const unsigned char *c, const unsigned char *end)
     return lines;
 }
 
-// Assimp (5.2) loops on lines that do not belong to a header, if the header has no end, and repeats
-// the last line of a text that is cut short. So these are refused here.
+// Refuses headers without end, on which Assimp (5.2) loops, and truncated texts, whose last line it
+// repeats.
 static bool check_ply_header(struct import *import, const char *header)
 {
     static const char *const words[] = {"ply",      "format ",  "comment",
                                         "obj_info", "element ", "property "};
-    // Before the elements Assimp passes over any line, and so it is done here; but it takes a word
-    // for an element behind blanks, too, which is not counted here.
+    // Like Assimp, this skips any line before the first element. Assimp also accepts an element
+    // after blanks, which is not counted here.
     bool in_elements = false;
     int number = 1;
     for (const char *line = header; *line; number++) {
@@ -107,7 +107,7 @@ static bool claim_of_ply(struct import *import, struct claim *claim)
 
 // --- STL and OBJ ---
 
-// Binary files may begin with "solid" like text ones, but their size is that of their faces.
+// Binary files may begin with "solid" like text ones, but their size matches their number of faces.
 static bool claim_of_stl(struct import *import, struct claim *claim)
 {
     uint32_t faces = 0;
@@ -124,7 +124,7 @@ static bool claim_of_stl(struct import *import, struct claim *claim)
     return true;
 }
 
-// OBJ promises nothing, but its lines can be counted: v is a vertex, f a face.
+// OBJ has no header, but its lines can be counted: v is a vertex, f a face.
 static bool count_of_obj(struct import *import, struct claim *claim)
 {
     const unsigned char *c = import->bytes, *end = c + import->size;
@@ -135,7 +135,7 @@ static bool count_of_obj(struct import *import, struct claim *claim)
         c = memchr(c, '\n', (size_t)(end - c));
         c = c ? c + 1 : NULL;
     }
-    // A face may be indented or end in a tab: Assimp will tell whether there are none.
+    // A face may be indented or end in a tab; Assimp will notice if there are none.
     claim->faces = claim->faces ? claim->faces : 1;
     return true;
 }

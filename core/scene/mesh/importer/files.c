@@ -9,7 +9,7 @@
 #include "core/base/text/mark.h"
 #include "core/scene/mesh/importer/importer.h"
 
-// A file in memory and the place in it, behind Assimp's callbacks.
+// A file in memory and the position in it, behind Assimp's callbacks.
 struct memory_file {
     struct aiFile callbacks;
     unsigned char *bytes;
@@ -18,7 +18,7 @@ struct memory_file {
 
 // --- texts and archives ---
 
-// Assimp (5.2) takes a byte order mark for the beginning of a word, and so loses a vertex.
+// Drops the byte order mark, which Assimp (5.2) takes for the beginning of a word, losing a vertex.
 static void drop_mark(struct import *import)
 {
     const size_t mark = rg_mark_bytes(import->bytes, import->size);
@@ -128,7 +128,7 @@ static enum aiReturn seek(struct aiFile *file, size_t offset, enum aiOrigin orig
     const size_t start = origin == aiOrigin_SET   ? 0
                          : origin == aiOrigin_CUR ? memory->at
                                                   : memory->size;
-    const size_t at = start + offset; // wraps round for a step back
+    const size_t at = start + offset; // wraps around for a step back
     if (at > memory->size)
         return aiReturn_FAILURE;
     memory->at = at;
@@ -159,7 +159,7 @@ static struct aiFile *open_file(struct aiFileIO *files, const char *name, const 
     return &memory->callbacks;
 }
 
-// The bytes stay until the process ends, since Assimp may open the file again.
+// The bytes stay until the process ends, since Assimp may reopen the file.
 static void close_file(struct aiFileIO *files, struct aiFile *file)
 {
     (void)files;

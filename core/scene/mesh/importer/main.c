@@ -1,8 +1,8 @@
-// raingauge_importer: reads one mesh with Assimp and hands back plain arrays
+// raingauge_importer: reads one mesh with Assimp and returns plain arrays
 // (core/scene/mesh/reply.h).
 //
-// Assimp reads 40 formats, and crashes or loops on some damaged files. In a process of its own it
-// harms nobody.
+// Assimp reads 40 formats, and crashes or loops on some damaged files, which does no harm in a
+// process of its own.
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -10,8 +10,8 @@
 #include "core/base/cage/cage.h"
 #include "core/scene/mesh/importer/importer.h"
 
-// Bounds what one file may take: two seconds of CPU time and one more a megabyte, of which Assimp
-// reads ten or more in a second, and the memory of core/scene/mesh/reply.h.
+// Limits CPU time to two seconds and one more a megabyte, of which Assimp reads ten or more in a
+// second, and memory as core/scene/mesh/reply.h says.
 static void set_limits(size_t file_bytes)
 {
     rg_cage_limit(&(struct rg_cage_limits){
@@ -44,6 +44,6 @@ int main(int argc, char **argv)
         _exit(RG_CAGE_REFUSED);
     if (!opened || !import_read_member(&import) || !import_load(&import))
         import.reply.vertex_count = import.reply.face_count = 0;
-    // Not exit: destructors of libraries are not part of the work.
+    // _exit skips the destructors of libraries.
     _exit(put_reply(&import) ? 0 : 1);
 }

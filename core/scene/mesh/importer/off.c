@@ -1,5 +1,5 @@
-// OFF files, rewritten as OBJ for Assimp, whose own reader of OFF (5.2) takes comments for data,
-// bends indices that are out of range, loses polygons of ten corners and crashes on short files.
+// Rewrites OFF files as OBJ for Assimp, whose own reader of OFF (5.2) takes comments for data,
+// clamps bad indices, loses polygons of ten corners and crashes on short files.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "core/scene/mesh/importer/importer.h"
 #include "core/scene/mesh/mesh.h"
 
-// The lines of a text without comments and blank lines; `end` can be written to.
+// The lines of a text without comments and blank lines; the byte at `end` is writable.
 struct text {
     char *next, *end;
     int line; // number of the last one, from 1
@@ -30,8 +30,8 @@ static char *next_line(struct text *text)
     return NULL;
 }
 
-// "OFF", perhaps of vertices with texture coordinates, colours or normals, which are left out; then
-// the counts, on this line or the next.
+// "OFF", with prefixes for vertices with texture coordinates, colours or normals, which are
+// ignored; then the counts, on this line or the next.
 static bool read_header(struct import *import, struct text *text, int64_t *vertices, int64_t *faces)
 {
     char *line = next_line(text);
@@ -78,7 +78,7 @@ static bool copy_face(struct import *import, struct text *text, int64_t vertices
         return import_refuse(import, "ends within its faces, at line %d; copy or export it again",
                              text->line);
     const long corners = strtol(line, &rest, 10);
-    const char *separator = corners > 2 ? "f " : NULL; // points and lines are left out
+    const char *separator = corners > 2 ? "f " : NULL; // points and lines are dropped
     for (long i = 0; i < corners; i++) {
         line = rest;
         const long long index = strtoll(line, &rest, 10);

@@ -6,7 +6,7 @@
 #include "core/scene/mesh/importer/importer.h"
 #include "core/scene/mesh/mesh.h"
 
-// A node's placement: rows of a 3x4 matrix. Nodes nest at most so deep.
+// A node's placement: rows of a 3x4 matrix, and the limit of nesting.
 struct placement {
     double m[3][4];
 };
@@ -24,7 +24,7 @@ static bool check_mesh(struct import *import, const struct aiScene *scene, unsig
     for (unsigned int i = 0; i < mesh->mNumVertices; i++) {
         const struct aiVector3D *p = &mesh->mVertices[i];
         if (!(fabsf(p->x) <= RG_MESH_FARTHEST && fabsf(p->y) <= RG_MESH_FARTHEST &&
-              fabsf(p->z) <= RG_MESH_FARTHEST)) // also when one is no number
+              fabsf(p->z) <= RG_MESH_FARTHEST)) // false for NaN, too
             return import_refuse(import,
                                  "vertex %u of mesh %u lies at (%g, %g, %g); coordinates must be "
                                  "numbers up to %g: repair the file",
@@ -41,7 +41,7 @@ static bool check_mesh(struct import *import, const struct aiScene *scene, unsig
     return true;
 }
 
-// The triangles that a mesh's polygons become.
+// The number of triangles in a mesh's polygons.
 static int64_t count_triangles(const struct aiMesh *mesh)
 {
     int64_t count = 0;
@@ -50,7 +50,7 @@ static int64_t count_triangles(const struct aiMesh *mesh)
     return count;
 }
 
-// Adds up what all nodes hold; a mesh counts as often as nodes name it.
+// Adds up the vertices and faces of all nodes; a mesh counts once for each node that names it.
 static bool count_node(struct import *import, const struct aiScene *scene,
                        const struct aiNode *node, int depth, int64_t *vertices, int64_t *faces)
 {
@@ -113,8 +113,8 @@ static struct placement place_within(const struct placement *parent, const struc
     return result;
 }
 
-// The matrix of cofactors: it turns normals, up to their length, whatever the placement scales.
-// Returns the determinant, which is negative where the placement mirrors.
+// The matrix of cofactors, which turns normals whatever the placement scales; they need to be
+// normalised again. Returns the determinant, which is negative where the placement mirrors.
 static double find_cofactors(const double m[3][4], double cofactors[3][3])
 {
     double determinant = 0;
@@ -132,7 +132,7 @@ static void place_vertices(const struct import *import, const struct aiMesh *mes
 {
     double cofactors[3][3];
     const double sign = find_cofactors(at->m, cofactors) < 0 ? -1 : 1;
-    // STL's normals belong to facets; vertices that are joined need their own.
+    // STL has one normal a facet, but joined vertices need their own.
     const bool has_normals = mesh->mNormals && strcasecmp(import->extension, "stl") != 0;
     for (size_t i = 0; i < mesh->mNumVertices; i++) {
         const struct aiVector3D *p = &mesh->mVertices[i];
@@ -149,7 +149,7 @@ static void place_vertices(const struct import *import, const struct aiMesh *mes
     }
 }
 
-// Appends a mesh; a mirrored one turns its faces round, so that their outside stays outside.
+// Appends a mesh; a mirrored one reverses its faces, so that their outside stays outside.
 static void append_mesh(struct import *import, const struct aiMesh *mesh,
                         const struct placement *at)
 {
