@@ -75,7 +75,7 @@ static bool set_number(const struct rg_param *param, void *settings, const char 
     return true;
 }
 
-// The n-th of the words in `choices`, and its length; NULL when there are fewer.
+// The n-th word of `choices`, and its length; NULL when there are fewer.
 static const char *choice_at(const char *choices, int n, size_t *length)
 {
     for (; n > 0 && choices; n--) {
@@ -108,7 +108,7 @@ static bool set_path(const struct rg_param *param, void *settings, const char *t
     return true;
 }
 
-// A preset stands for other assignments.
+// Assigns the parameters that a preset stands for.
 static bool follow_preset(const struct rg_param_table *table, const struct rg_param *param,
                           void *settings)
 {

@@ -1,5 +1,6 @@
-// What `raingauge verify` proves a technique with: scenes to run it on, laws that its state obeys,
-// and small changes of the model that a comparison of images must notice. Data, one a technique.
+// The evidence by which `raingauge verify` proves a technique: scenes to run, laws that its state
+// obeys, and small changes of the model that a comparison of images must notice. One set of data a
+// technique.
 #ifndef RG_CORE_TECHNIQUES_PROOF_H
 #define RG_CORE_TECHNIQUES_PROOF_H
 
@@ -10,8 +11,8 @@ struct rg_instance;
 
 enum { RG_POSE_LEFT_OUT = -1 };
 
-// A scene of verify. It takes so many steps with --full and with --quick; 0: as many as verify
-// takes of its own, RG_POSE_LEFT_OUT: it is not run. With neither it takes a part of the full ones.
+// A scene of verify, and its numbers of steps with --full and with --quick; 0 takes verify's
+// default, RG_POSE_LEFT_OUT skips it. Without either option it takes a part of the full number.
 struct rg_pose {
     const char *set; // "panes=mirror"
     int full_steps, quick_steps;
@@ -20,34 +21,36 @@ struct rg_pose {
 // A law that the state obeys on every device, whatever happened before.
 struct rg_law {
     const char *name; // "conservation"
-    // Whether it holds now; else `detail` says in one line what is wrong.
+    // Whether the law holds now; if not, `detail` says in one line what is wrong.
     bool (*holds)(const struct rg_instance *instance, char *detail, size_t size);
 };
 
-// A model that is a little off: a numeric parameter becomes value * factor + offset, which is
-// within its range and not the value itself.
+// A slightly wrong model: a numeric parameter becomes value * factor + offset, which must be within
+// its range and differ from the value.
 struct rg_mutant {
     const char *about; // "one drop fewer"
     const char *param;
     double factor, offset;
 };
 
-// A mutant in a scene of its own, or one that no factor makes: `truth` is assigned over the
-// defaults, and the mutant has `mutant` over both.
+// A mutant with a scene of its own, or one that no factor makes: `truth` is assigned over the
+// defaults, and `mutant` over both for the mutant.
 struct rg_contrast {
-    const char *about;  // "culling turned round"
+    const char *about;  // "culling reversed"
     const char *truth;  // "scene=mesh"
     const char *mutant; // "cull=front"
 };
 
-// Assignments are "key=value key=value", "" for none; they go over what the user sets.
+// Assignments are "key=value key=value", "" for none; they override the user's settings.
 struct rg_proof {
-    const struct rg_pose *poses;     // the last has no assignments, which is NULL
-    const char *dry;                 // takes all rain away: the background of the rain mask
-    const char *mutant_scene;        // over the defaults, where the mutants are drawn; NULL: none
-    const struct rg_law *laws;       // the last has no name
-    const struct rg_mutant *mutants; // likewise, no about
-    const struct rg_contrast *contrasts; // likewise; NULL: none
+    const struct rg_pose *poses;     // ends with one whose `set` is NULL
+    const char *dry;                 // assignments that remove all rain: they draw the background
+                                     // for the rain mask
+    const char *mutant_scene;        // assignments over the defaults for drawing mutants; NULL: no
+                                     // mutants
+    const struct rg_law *laws;       // ends with one without a name
+    const struct rg_mutant *mutants; // ends with one without an `about`
+    const struct rg_contrast *contrasts; // ends with one without an `about`; NULL: none
 };
 
 #endif

@@ -7,7 +7,7 @@
 #include "core/base/alloc.h"
 #include "core/device/work.h"
 
-// Opens it on whatever room the device has now.
+// Opens an instance; objects are made or only counted, as the device's room says.
 static struct rg_instance *open_instance(const struct rg_technique *technique,
                                          struct rg_device *device, const void *settings, int width,
                                          int height)
@@ -26,7 +26,8 @@ static struct rg_instance *open_instance(const struct rg_technique *technique,
     return NULL;
 }
 
-// Closes what was opened on counted room, once its first frame is counted too. Returns its bytes.
+// Counts the memory of the first frame of an instance whose objects are only counted, and closes
+// it. Returns the bytes.
 static int64_t count_frame(const struct rg_technique *technique, struct rg_device *device,
                            struct rg_instance *instance)
 {

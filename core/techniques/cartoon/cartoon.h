@@ -1,11 +1,11 @@
-// cartoon: rain in cartoon style that falls on a scene in one of the styles of drawings, after Z.
-// Feng et al., "Real-time Rain Simulation in Cartoon Style". docs/cartoon.md explains.
+// cartoon: rain in cartoon style over a scene drawn in one of several styles, after Z. Feng et al.,
+// "Real-time Rain Simulation in Cartoon Style". docs/cartoon.md explains.
 #ifndef RG_CORE_TECHNIQUES_CARTOON_CARTOON_H
 #define RG_CORE_TECHNIQUES_CARTOON_CARTOON_H
 
 #include "core/techniques/cartoon/rain/settings.h"
 
-enum { CARTOON_MESH = 7 }; // of scenes: a user's mesh; those before it are enum diorama_scene
+enum { CARTOON_MESH = 7 }; // the scene that is a user's mesh; lower values are enum diorama_scene
 enum cartoon_style {
     CARTOON_GOOCH,
     CARTOON_GOOCH_OUTLINES,
@@ -16,7 +16,7 @@ enum cartoon_style {
     CARTOON_STYLES
 };
 
-// When the scene is drawn anew.
+// When the scene is redrawn: each frame, or when its view has moved.
 enum cartoon_redraw { CARTOON_ALWAYS, CARTOON_MOVED };
 
 struct cartoon_settings {
@@ -25,13 +25,13 @@ struct cartoon_settings {
     int scene;
     char mesh[RG_PATH_SIZE];
     int style; // enum cartoon_style
-    // The camera, against that of the scene, and the light.
+    // The camera and the light, relative to the scene's own camera.
     double turn_deg, rise_deg, zoom, spin_deg;
     double light_turn_deg, light_rise_deg;
     double ink[3], paper[3]; // red, green, blue, as display values
     // Outlines.
     double outline_px, inner_px, crease_deg;
-    // The style of Gooch.
+    // Gooch shading.
     double gooch_blue, gooch_yellow, gooch_alpha, gooch_beta;
     // Cartoon tones.
     double shadow_tone, middle_tone, middle_from, lit_from, tone_softness, glint_from, shadow_blue;

@@ -1,4 +1,4 @@
-// What the files of cartoon share.
+// Shared declarations of cartoon's files.
 #ifndef RG_CORE_TECHNIQUES_CARTOON_INSTANCE_H
 #define RG_CORE_TECHNIQUES_CARTOON_INSTANCE_H
 
@@ -19,7 +19,7 @@ enum cartoon_stage {
     CARTOON_RUN_SOLID_NUMBERS,
     CARTOON_RUN_THIN_NUMBERS,
     CARTOON_RUN_INK,
-    // One of these draws the picture.
+    // Exactly one of these draws the picture.
     CARTOON_RUN_GOOCH,
     CARTOON_RUN_TONES,
     CARTOON_RUN_PAPER,
@@ -28,13 +28,14 @@ enum cartoon_stage {
     CARTOON_STAGES
 };
 
-// The strokes of hatching: a tile's side, and its levels.
+// The texture of hatching strokes: a tile's side, and its levels.
 enum { CARTOON_TILE_PX = 256, CARTOON_LEVELS = 4 };
 
-// How the scene is looked at in the present frame.
+// The scene's view in the current frame.
 struct cartoon_view {
     struct rg_camera camera;
-    m4 to_clip, from_pixel; // from the world; from pixels and depth to the world, over w
+    m4 to_clip, from_pixel; // to_clip: from the world; from_pixel: from pixels and depth to the
+                            // world, over w
     float to_eye[16];       // from the world to the camera's own space (core/scene/camera.h)
     float to_light[3];      // of unit length
 };
@@ -45,14 +46,15 @@ struct cartoon {
     struct diorama *diorama; // its mesh has the triangles and bounds
     struct cartoon_view view;
     struct rg_asset *normal_map, *depth_map, *face_map, *number_depth, *ink;
-    struct rg_asset *picture; // in its style; of one texel where it is drawn onto the target
+    struct rg_asset *picture; // the styled picture; one texel where it is drawn directly onto the
+                              // target
     int edge_count;
-    cartoon_faces_params solids, thin; // solids are seen from outside alone
+    cartoon_faces_params solids, thin; // solids are visible from outside only
     cartoon_ink_params outlines;
     cartoon_shade_params shade;
-    m4 found_by;      // the view whose normal map, depth and ink are there
-    int64_t found_in; // one more than the frame that drew them; 0: none did
-    bool has_picture; // of that view
+    m4 found_by;      // the view of the current normal map, depth and ink
+    int64_t found_in; // the frame that drew them, plus one; 0: none
+    bool has_picture; // the picture of that view is there, too
     struct cartoon_rain rain;
     struct cartoon_water water;
 };
@@ -64,29 +66,28 @@ void cartoon_close(struct rg_instance *instance);
 bool cartoon_step(struct rg_instance *instance);
 bool cartoon_draw(struct rg_instance *instance);
 
-// The scene, in scene/.
+// Functions of scene/.
 
-// Loads the diorama and adds its assets: the mesh as `positions`, `normals`, `indices` and
-// `materials`, the `palette`, and two images of the target's size that each drawing of the scene
-// leaves: `normal_map`, RGBA16F, the normal in the world on the side that is seen, and one more
-// than the number of the material, all 0 in the sky; and `depth_map`, D32F, 1 in the sky. Where
-// collisions ask for faces, `face_map`, RGBA8: which face is nearest, as numbers.h packs it. With
-// outlines the `edges` and their `ink`; with hatching its `strokes`. Fills in the view of frame 0.
+// Loads the diorama and adds its assets. The mesh becomes `positions`, `normals`, `indices`,
+// `materials` and `palette`. Two images of the target's size are written with each drawing of the
+// scene: `normal_map`, RGBA16F, has the world's normal on the visible side and the material's
+// number plus one, all 0 in the sky; `depth_map`, D32F, is 1 in the sky. Collisions with faces add
+// `face_map`, RGBA8, the nearest face packed as in numbers.h; outlines add `edges` and `ink`,
+// hatching `strokes`. Fills in the view of frame 0.
 bool cartoon_scene_open(struct cartoon *c);
-// Finds how the scene is looked at in a frame. False, and one logged line, where it cannot be.
+// Computes the view of a frame. False, and one logged line, where the camera cannot see.
 bool cartoon_look(struct cartoon *c, int64_t frame);
-// Whether a place is inside of a solid of the mesh.
+// Whether a place is inside a solid of the mesh.
 bool cartoon_is_inside(const struct rg_mesh *mesh, const float eye[3]);
-// Draws the scene into the normal map and the depth, and in its style onto the target.
-// Draws the scene into the normal map, the depth and the ink, unless what the camera sees is there.
+// Draws the scene into the normal map, the depth and the ink, unless they hold this view already.
 bool cartoon_scene_find(struct cartoon *c);
-// The same, and draws it in its style onto the target.
+// The same, and then draws the styled scene onto the target.
 bool cartoon_scene_draw(struct cartoon *c);
 
 // Adds the image `strokes`: RGBA8, CARTOON_LEVELS levels, tones 0 to 3 in the channels of its first
 // layer, 3 to 6 in those of its second.
 void cartoon_add_strokes(struct cartoon *c);
-// Hands over each tone of them as a texture of its own (core/techniques/technique.h).
+// Hands over each tone as a texture (core/techniques/technique.h).
 bool cartoon_make_strokes(rg_take_texture *take, void *user);
 
 #endif

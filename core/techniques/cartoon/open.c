@@ -1,4 +1,4 @@
-// Opens cartoon on a device: the scene, stages.
+// Opens cartoon on a device: its scene and stages.
 #include <string.h>
 
 #include "core/techniques/cartoon/instance.h"
@@ -64,7 +64,7 @@ static const struct rg_stage stages[CARTOON_STAGES] = {
     [CARTOON_RUN_KEPT] = {"cartoon_kept", keeps_picture, .params = AT(shade), .colour = "target"},
 };
 
-// A picture that is not kept is drawn onto the target itself.
+// Opens the stages; a picture that is never reused is drawn directly onto the target.
 static bool open_stages(struct cartoon *c)
 {
     struct rg_stage rows[CARTOON_STAGES];

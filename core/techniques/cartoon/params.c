@@ -76,7 +76,7 @@ static const struct rg_param rows[] = {
 };
 // clang-format on
 
-// The settings of the paper's figure 6, and a storm of ours, in the order of the choices.
+// The presets, in the order of the choices: settings of the paper's figure 6, and a storm of ours.
 static const char *const presets[] = {
     "",
     "scene=car style=cartoon_outlines drops_s=15000",

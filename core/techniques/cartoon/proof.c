@@ -1,4 +1,4 @@
-// What proves cartoon: scenes, and mutants.
+// The proof of cartoon: scenes, and mutants.
 #include "core/techniques/cartoon/instance.h"
 #include "core/techniques/proof.h"
 
@@ -8,7 +8,8 @@ static const struct rg_pose poses[] = {
     {"scene=house1 style=hatching spin_deg=5", 100, 50},
     {"scene=table style=outlines spin_deg=5 zoom=2", 100, 45},
     {"scene=mesh style=cartoon zoom=1.5", 60, 45},
-    // The rain: each way to count, to fall and to blow; 600 steps of a storm at length.
+    // Poses of the rain: each kind of counting, falling and wind; a storm of 600 steps in full
+    // runs.
     {"preset=storm drops_s=2000 collide=faithful query=spheres", 600, 60},
     {"preset=table drops_s=3000 collide=any answers=late drag=quadratic", 600, 90},
     {"scene=house2 drops_s=3000 spin_deg=3 steps_s=30", 600, 60},

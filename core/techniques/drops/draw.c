@@ -1,7 +1,7 @@
 // Draws drops: the lit pane, or one of the simulation's maps.
 #include "core/techniques/drops/instance.h"
 
-// What is drawn onto the target goes over items of its own.
+// Runs a stage that draws onto the target, over `items` items.
 static bool draw(struct drops *d, int stage, int items)
 {
     const struct rg_draw how = rg_stage_draw(&d->base, stage);

@@ -1,5 +1,5 @@
-// drops: drops that run down a pane, follow trails, merge and leave others behind, after A. Chin,
-// "Animating Raindrops on a Surface". docs/drops.md explains.
+// drops: drops that run down a pane, follow trails, merge and leave others on their way, after A.
+// Chin, "Animating Raindrops on a Surface". docs/drops.md explains.
 #ifndef RG_CORE_TECHNIQUES_DROPS_DROPS_H
 #define RG_CORE_TECHNIQUES_DROPS_DROPS_H
 
@@ -21,17 +21,17 @@ struct drops_settings {
     int columns, rows; // cells
     double cell_mm;
     double tilt_deg; // 90: upright
-    double turn_deg; // of the pane in its plane; 180: upside down
+    double turn_deg; // rotation of the pane in its plane; 180: upside down
     // Drops.
     int max_drops;
-    double drops_s; // that land a second
+    double drops_s; // drops that land a second
     double critical_mass_mg, max_mass_mg;
     double meander_rad;
     double residual_beta, residual_max_s, residual_low, residual_high;
     // Time.
     double step_s;
     int substeps;
-    double remove_s; // when all drops are removed; below 0: never
+    double remove_s; // time at which all drops are removed; below 0: never
     // Maps.
     int rules; // enum drops_rules
     int trail; // enum drops_trail
@@ -42,7 +42,7 @@ struct drops_settings {
     int view;                        // enum drops_view
     double distance_mm, aperture_mm; // of the camera
     double refractive_index, contact_mm;
-    int rays_px; // along a side of a pixel
+    int rays_px; // rays along each side of a pixel
     char environment[RG_PATH_SIZE], background[RG_PATH_SIZE];
     int environment_px;
     double background_m, background_deg;

@@ -1,4 +1,4 @@
-// What the files of drops share.
+// Shared declarations of drops' files.
 #ifndef RG_CORE_TECHNIQUES_DROPS_INSTANCE_H
 #define RG_CORE_TECHNIQUES_DROPS_INSTANCE_H
 
@@ -40,7 +40,7 @@ enum drops_stage {
     DROPS_STAGES
 };
 
-// The paper's cells and steps.
+// The paper's cell and step.
 #define DROPS_PAPER_CELL_MM 0.5
 #define DROPS_PAPER_STEP_S  (1.0 / 60)
 
@@ -55,8 +55,9 @@ struct drops {
     drops_pane_params pane;
     struct rg_asset *drops, *packed, *flags, *before, *tally, *tiles;
     struct rg_asset *background;                            // of the lit pane
-    struct rg_asset *height, *next_height, *ids, *next_ids; // which take turns
-    uint32_t tiles_before;                                  // DROPS_TILES at the step's beginning
+    struct rg_asset *height, *next_height, *ids, *next_ids; // swapped after each step
+    uint32_t tiles_before;                                  // DROPS_TILES at the beginning of the
+                                                            // step
 };
 
 extern const struct rg_proof drops_proof;
@@ -69,14 +70,15 @@ void drops_close(struct rg_instance *instance);
 bool drops_step(struct rg_instance *instance);
 bool drops_draw(struct rg_instance *instance);
 
-// The pictures, in view/.
+// Functions of view/.
 
-// The whole pane as large as a picture of width x height pixels has room for, in its middle.
+// The placement of the whole pane, as large as fits, in the middle of a picture of width x height
+// pixels.
 drops_view_params drops_view_of(const struct drops *d, int width, int height);
-// The same of the lit pane, as `view` has it; the camera stands before the pane's middle.
+// The parameters of the lit pane, placed as in `view`; the camera is in front of the pane's middle.
 drops_pane_params drops_pane_of(const struct drops *d, const drops_view_params *view);
-// Adds the images `environment` and `background`, out of focus as a lens sees them that is focused
-// on the pane. Without a background it is one dark texel.
+// Adds the images `environment` and `background`, blurred as by a lens focused on the pane. Without
+// a background it is one dark texel.
 void drops_add_outside(struct drops *d);
 
 #endif

@@ -69,19 +69,19 @@ static int parts(int whole, int part)
     return (whole + part - 1) / part;
 }
 
-// A sine or cosine that is 0 where the angle says so.
+// Replaces a sine or cosine that rounding left near 0 by 0.
 static float exact(double value)
 {
     return (float)(fabs(value) < 1e-9 ? 0 : value);
 }
 
-// What a cell of the paper's is wide, by which its rules go.
+// The width of a cell by which the rules go: the paper's or the pane's own.
 static double ruling_cell_mm(const struct drops_settings *s)
 {
     return s->rules == DROPS_PHYSICAL ? DROPS_PAPER_CELL_MM : s->cell_mm;
 }
 
-// Whether water flattens once in each step: else tiles do not sleep.
+// Whether water flattens once a step; if not, tiles never sleep.
 static bool has_one_pass(const struct drops_settings *s)
 {
     return s->rules == DROPS_PAPER || fabs(s->step_s / DROPS_PAPER_STEP_S - 1) < 1e-6;
@@ -90,7 +90,7 @@ static bool has_one_pass(const struct drops_settings *s)
 drops_params drops_params_of(const struct drops_settings *s)
 {
     const double gravity_mm_s2 = 9800, turn = s->turn_deg * M_PI / 180;
-    const double along = sin(s->tilt_deg * M_PI / 180); // of gravity
+    const double along = sin(s->tilt_deg * M_PI / 180); // share of gravity along the pane
     const int tile_columns = parts(s->columns, DROPS_TILE_COLUMNS);
     const int stride = tile_columns * DROPS_TILE_COLUMNS + 2 * DROPS_MARGIN;
     const double l = s->cell_mm, ruling = ruling_cell_mm(s);
@@ -138,7 +138,7 @@ drops_params drops_params_of(const struct drops_settings *s)
     return p;
 }
 
-// Cells of a map: whole tiles, and margins.
+// The cells of a map: whole tiles and margins.
 static int64_t cells_of(const struct drops *d)
 {
     return (int64_t)d->params.stride * (d->params.tile_rows * DROPS_TILE_ROWS + 2 * DROPS_MARGIN);
@@ -166,7 +166,7 @@ static void add_maps(struct drops *d)
     free(nobody);
 }
 
-// Each drop has a slot of its own for a child, and one for what it becomes when waters meet.
+// Each drop has one slot for a child, and one for the drop that a merge makes of it.
 static void add_drops(struct drops *d)
 {
     struct rg_instance *i = &d->base;
@@ -188,7 +188,7 @@ static void add_drops(struct drops *d)
     rg_add_state(i, d->tally, "tally", 0, 0);
 }
 
-// Whether settings go together; else one logged line says which do not.
+// Whether settings go together; if not, one logged line says which do not.
 static bool are_sound(const struct drops_settings *s)
 {
     const double ruling = ruling_cell_mm(s), least_mg = 2 * ruling * ruling * ruling;

@@ -1,4 +1,4 @@
-// What proves drops: panes, conservation in whole quanta, and mutants.
+// The proof of drops: panes, conservation in whole quanta, and mutants.
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -7,7 +7,7 @@
 #include "core/techniques/drops/instance.h"
 #include "core/techniques/proof.h"
 
-// All that a law looks at.
+// The data that laws check.
 struct reading {
     uint32_t tally[DROPS_TALLY];
     drops_drop *drops;
@@ -24,7 +24,7 @@ static bool read_drops(const struct drops *d, struct reading *r, char *detail, s
     return ok;
 }
 
-// What lands is on the pane, has left it or was removed.
+// Water that has landed is on the pane, has left it or was removed.
 static bool mass_is_conserved(const struct rg_instance *instance, char *detail, size_t size)
 {
     struct reading r;
@@ -42,7 +42,7 @@ static bool mass_is_conserved(const struct rg_instance *instance, char *detail, 
     return holds;
 }
 
-// Drops run in the order of their IDs, each on the pane, and those that are too heavy to rest move.
+// Drops are in the order of their IDs, lie on the pane, and move if they are too heavy to rest.
 static const char *fault_of(const struct drops *d, const drops_drop *drop, uint32_t before)
 {
     const drops_params *p = &d->params;
@@ -76,8 +76,8 @@ static bool drops_are_sound(const struct rg_instance *instance, char *detail, si
 #define SMALL "columns=250 rows=150 drops_s=20 max_drops=300 "
 #define WET   "columns=250 rows=150 drops_s=120 max_drops=300 "
 
-// Each operation is switched off by itself at length, and several together where time is short: so
-// quick runs get more rain, that something happens in them.
+// Full runs switch off each operation alone, quick runs several together; quick runs get more rain,
+// so that something happens in them.
 static const struct rg_pose poses[] = {
     {SMALL, 2000, 30},
     {SMALL "erode=off", 300, RG_POSE_LEFT_OUT},
@@ -85,7 +85,7 @@ static const struct rg_pose poses[] = {
     {SMALL "residual=off", 300, RG_POSE_LEFT_OUT},
     {SMALL "smooth=off", 300, RG_POSE_LEFT_OUT},
     {SMALL "trail=lines", 300, RG_POSE_LEFT_OUT},
-    {SMALL "remove_s=0.8", 300, RG_POSE_LEFT_OUT}, // after 48 steps: before the usual run ends
+    {SMALL "remove_s=0.8", 300, RG_POSE_LEFT_OUT}, // after 48 steps, before the usual run ends
     {SMALL "tilt_deg=50", 300, RG_POSE_LEFT_OUT},
     {SMALL "turn_deg=-110", 300, RG_POSE_LEFT_OUT},
     {WET "turn_deg=180 trail=lines substeps=2 residual=off", 300, 20},

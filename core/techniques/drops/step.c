@@ -1,5 +1,5 @@
-// A step of drops (figure 1): running drops shed others and move, waters that meet merge, drops at
-// rest are put back on the pane, water flattens and thins, and new drops land.
+// A step of drops (figure 1): running drops shed others and move, touching drops merge, resting
+// drops are put back on the pane, water flattens and thins, and new drops land.
 #include <float.h>
 #include <math.h>
 
@@ -32,7 +32,7 @@ static bool move(struct drops *d)
     return ok && run(d, DROPS_RUN_CLAIM, d->params.count, DROPS_ROWS_A_DROP);
 }
 
-// Drops whose waters meet become new ones.
+// Turns drops whose water has merged into new ones.
 static bool join(struct drops *d)
 {
     const int count = d->params.count;
@@ -45,7 +45,7 @@ static bool join(struct drops *d)
            run(d, DROPS_RUN_LOWEST, count, 1) && run(d, DROPS_RUN_MERGE, count, 1);
 }
 
-// Many steps have nothing to merge, which is worth a look: water is labelled on the whole pane.
+// Labels water on the whole pane, unless nothing can merge, as in many steps.
 static bool merge(struct drops *d)
 {
     uint32_t meets = 0;
@@ -58,7 +58,7 @@ static bool merge(struct drops *d)
            (!meets || join(d));
 }
 
-// Drops that stay close ranks, and new ones land behind them.
+// Compacts the list of surviving drops, and appends new ones.
 static bool close_ranks(struct drops *d)
 {
     drops_params *p = &d->params;
@@ -82,16 +82,16 @@ static bool put_at_rest(struct drops *d)
            run(d, DROPS_RUN_OWN, slots, DROPS_ROWS_A_DROP);
 }
 
-// How often water flattens and thins in a step: once by the paper's rules, and as often a second as
-// with the paper's steps by physical ones.
+// How often water flattens and thins in a step: once by the paper's rules; by physical rules as
+// often a second as with the paper's steps.
 static int passes_in(const struct drops_settings *s, int64_t step)
 {
     const double rate = s->rules == DROPS_PHYSICAL ? s->step_s / DROPS_PAPER_STEP_S : 1;
     return (int)(floor((double)(step + 1) * rate + 1e-6) - floor((double)step * rate + 1e-6));
 }
 
-// kernels/drops/water/flatten.h. Heights are rounded where they are smoothed, so that less than
-// half a step is none.
+// kernels/drops/water/flatten.h. Smoothing rounds heights, so that a change of less than half a
+// unit vanishes.
 static bool flatten(struct drops *d)
 {
     const struct drops_settings *s = &d->settings;
@@ -109,7 +109,7 @@ static bool flatten(struct drops *d)
     return ok;
 }
 
-// Drops that land in a step: each by chance, as in the paper's program.
+// The number of drops that land in a step: each with a probability, as in the paper's program.
 static int arrivals_at(const struct drops_settings *s, int64_t step)
 {
     const double expected = s->drops_s * s->step_s, whole = floor(expected);

@@ -1,5 +1,5 @@
-// The level of detail: how many texels a pane has, as the distance of the camera asks for. Buffers
-// are as large as the finest level needs; a level uses the first part of them.
+// The level of detail: the number of texels of a pane, which follows the camera's distance. Buffers
+// have the size of the finest level; coarser levels use their beginning.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +9,8 @@
 #include "core/techniques/flow/instance.h"
 #include "kernels/flow/panes/normal_map.h"
 
-// A coarser level is taken only where it would do by so much, so that a camera on the border does
-// not change it at every frame.
+// A coarser level must suffice by this factor, so that a camera at the border does not switch
+// levels each frame.
 #define SPARE 1.1
 
 static int wanted_texels(const struct flow *flow, double spare)
@@ -26,7 +26,7 @@ void flow_open_detail(struct flow *flow)
     flow->finest_px = flow->settings.resolution_px;
     flow->settings.resolution_px = wanted_texels(flow, 1);
     if (flow->settings.camera_mm_s == 0)
-        flow->finest_px = flow->settings.resolution_px; // it stays so
+        flow->finest_px = flow->settings.resolution_px; // fixed from here on
 }
 
 struct flow_sizes flow_most_sizes(const struct flow *flow)
@@ -72,8 +72,8 @@ void flow_use_detail(struct flow *flow)
 
 // --- from one level to the next ---
 
-// Panes of n x n texels in whole droplets, without margins. A texel's droplet is a quarter of the
-// next coarser one's.
+// Panes of n x n texels in whole droplets, without margins. A droplet has a quarter of the volume
+// of the next coarser level's.
 struct panes {
     int n, count;
     int64_t *droplets;
@@ -91,7 +91,8 @@ static int64_t magnitude(int64_t a)
     return a < 0 ? -a : a;
 }
 
-// A quarter of the lesser of two slopes, 0 at an extreme: so no drop gets higher or below 0.
+// A quarter of the smaller of two slopes, 0 at an extremum, so that no texel overshoots or falls
+// below 0.
 static int64_t limited(int64_t before, int64_t here, int64_t after)
 {
     const int64_t a = here - before, b = after - here;
@@ -100,7 +101,8 @@ static int64_t limited(int64_t before, int64_t here, int64_t after)
     return (magnitude(a) < magnitude(b) ? a : b) / 4;
 }
 
-// Four texels for each, which lean as their surroundings do and hold four times as many droplets.
+// Splits each texel into four, which slope as its neighbours do and hold four times as many
+// droplets.
 static void refine(const struct panes *from, struct panes *to)
 {
     for (int i = 0; i < from->count * from->n * from->n; i++) {
@@ -114,8 +116,8 @@ static void refine(const struct panes *from, struct panes *to)
     }
 }
 
-// One texel for four. What is left of the division goes on to the next texel, so that a pane loses
-// less than a droplet.
+// Merges four texels into one. Remainders of the division carry over to the next texel, so that a
+// pane loses less than a droplet.
 static void coarsen(const struct panes *from, struct panes *to)
 {
     for (int pane = 0; pane < to->count; pane++) {
@@ -165,7 +167,7 @@ static bool read_panes(const struct flow *flow, struct panes *panes)
     return ok;
 }
 
-// All maps as they are in the beginning, dry.
+// Resets all maps to dry.
 static bool clear_maps(struct flow *flow)
 {
     static const char *const names[] = {
@@ -186,8 +188,8 @@ static bool clear_maps(struct flow *flow)
     return ok;
 }
 
-// The map of beads twice beside itself, so that a pane whose beads are shifted reads on to the
-// right.
+// Writes the map of beads twice, side by side, so that a pane with shifted beads can read beyond
+// its right edge.
 bool flow_write_beads(struct flow *flow)
 {
     const struct rg_asset *beads = rg_asset_find(&flow->base, "beads");
@@ -209,7 +211,7 @@ static bool write_panes(struct flow *flow, const struct panes *panes)
     const int n = panes->n;
     const int64_t length = (int64_t)panes->count * flow_map_length(n);
     float *maps = rg_alloc((size_t)length, sizeof(*maps), "flow's water");
-    uint32_t ledger[FLOW_LEDGER_WORDS] = {0}; // counts from now on, in droplets of this level
+    uint32_t ledger[FLOW_LEDGER_WORDS] = {0}; // restarts the counts, in droplets of this level
     for (int i = 0; maps && i < panes->count * n * n; i++) {
         maps[flow_pane_index(n, i / (n * n), i % n, i / n % n)] =
             (float)panes->droplets[i] / FLOW_DROPLETS_PER_UNIT;

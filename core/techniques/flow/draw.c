@@ -1,4 +1,4 @@
-// A drawing of flow: the water's surface, what lies behind the panes, the panes, the glow.
+// Draws a frame of flow: the water's surface, the picture behind the panes, the panes, the glow.
 #include "core/techniques/flow/instance.h"
 
 static bool draw_model(struct flow *flow)
@@ -12,9 +12,9 @@ static bool draw_model(struct flow *flow)
     return rg_stage(&flow->base, FLOW_MODEL);
 }
 
-// The paper's first pass draws all that does not refract: the sky, dry mirrors, the model. Panes
-// read this picture, and are drawn onto a copy of it. The model stands before far panes, whose
-// drops cannot show it: these read the picture without.
+// The paper's first pass draws everything that does not refract: the sky, dry mirrors, the model.
+// Panes read this picture, and are drawn onto a copy of it. The model is in front of far panes,
+// whose drops cannot show it, so these read a picture without the model.
 static bool draw_behind(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
@@ -25,7 +25,7 @@ static bool draw_behind(struct flow *flow)
            rg_stage(i, FLOW_COPY);
 }
 
-// Spreads some of the bright light of the lit panes on its way to the target.
+// Copies the lit panes to the target, and adds the glow of their bright parts.
 static bool draw_glow(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
@@ -33,8 +33,8 @@ static bool draw_glow(struct flow *flow)
            rg_stage(i, FLOW_GLOW_DOWN) && rg_stage(i, FLOW_GLOW);
 }
 
-// The last pass. Of panes of glass the far ones are drawn first, for one sees through near ones.
-// Of mirrors only those that face the viewer are drawn: nothing is seen through them.
+// The last pass. Far panes of glass come first, because they are visible through near ones. Mirrors
+// are opaque, so only those that face the viewer are drawn.
 static bool draw_final(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;

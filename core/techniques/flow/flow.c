@@ -1,7 +1,7 @@
 // flow: water on panes of glass or mirror as a cellular automaton on height maps. Stuppacher &
-// Supan, "Rendering of Water Drops in Real-Time" (2007). The order of the stages is in step.c and
-// draw.c, what they are bound to in open.c, formulas are in kernels/flow/, what the host computes
-// in simulation.c and view.c, and docs/flow.md explains.
+// Supan, "Rendering of Water Drops in Real-Time" (2007). step.c and draw.c have the order of the
+// stages, open.c their bindings, kernels/flow/ the formulas, simulation.c and view.c the host's
+// computations. docs/flow.md explains.
 #include "core/techniques/flow/instance.h"
 
 const struct rg_technique rg_technique_flow = {

@@ -1,4 +1,4 @@
-// An open flow: what open.c makes, step.c moves and draw.c draws.
+// An open flow: open.c makes it, step.c moves it and draw.c draws it.
 #ifndef RG_CORE_TECHNIQUES_FLOW_INSTANCE_H
 #define RG_CORE_TECHNIQUES_FLOW_INSTANCE_H
 
@@ -35,7 +35,7 @@ enum flow_pass {
     // the water's surface
     FLOW_BLUR,
     FLOW_NORMALS,
-    // what does not refract, and the final image
+    // everything that does not refract, and the final image
     FLOW_SKY,
     FLOW_DRY_MIRRORS,
     FLOW_BEHIND_MODEL,
@@ -57,25 +57,26 @@ enum flow_counter { FLOW_DROPS, FLOW_TEXELS, FLOW_PIXELS, FLOW_TRIANGLES, FLOW_C
 
 enum { FLOW_DROP_SIZES = 5 };
 
-// Facts of `survey`; NULL without it.
+// The facts of `survey`; NULL without it.
 struct flow_told {
     struct rg_fact *wet, *centre, *drops[FLOW_DROP_SIZES];
 };
 
 struct flow {
     struct rg_instance base;
-    struct flow_settings settings; // resolution_px is what flow_texels made of it
+    struct flow_settings settings; // resolution_px holds flow_texels' result
     int pane_count, noise_size;
-    int finest_px;                   // the most that resolution_px becomes as the camera moves
-    struct rg_fact *texels;          // resolution_px, where the camera decides; else NULL
-    struct rg_asset *water, *moved;  // of this frame, and scratch for the next
-    struct rg_asset *kept, *heading; // directions of texels, likewise; NULL: they keep none
-    struct rg_asset *panes;          // how they stand
-    struct rg_asset *ways;           // how far water slides, of flow_ways_at; NULL: nothing slides
+    int finest_px;                   // the largest resolution_px as the camera moves
+    struct rg_fact *texels;          // the fact with resolution_px where the camera decides it;
+                                     // else NULL
+    struct rg_asset *water, *moved;  // the maps of this frame and of the next, swapped
+    struct rg_asset *kept, *heading; // the texels' directions, likewise; NULL: they have none
+    struct rg_asset *panes;          // the panes' orientations
+    struct rg_asset *ways;           // how far water slides (flow_ways_at); NULL: nothing slides
     struct flow_told told;
     int model_faces; // 0: no model
     float model_low[3], model_high[3];
-    // Of the present frame, for its stages.
+    // Parameters of the current frame's stages.
     flow_splat_params drop;
     flow_params movement;
     flow_slide_params sliding;
@@ -90,29 +91,29 @@ bool flow_open(struct rg_instance *instance);
 bool flow_step(struct rg_instance *instance);
 bool flow_draw(struct rg_instance *instance);
 
-// Lands `count` drops on each pane: the seeded ones (`frame` is -1), or those of a frame.
+// Lands `count` drops on each pane: the initial ones if `frame` is -1, else those of a frame.
 bool flow_land(struct flow *flow, int64_t frame, int count);
 // --- the level of detail (detail.c) ---
 
-// Words of all panes' maps, at the level that needs most.
+// Sizes in words of all panes' maps, at the level that needs most.
 struct flow_sizes {
     int64_t texels, cells, rows;
 };
 struct flow_sizes flow_most_sizes(const struct flow *flow);
-// Sets the level of the first frame; then, once the maps are there, what depends on it.
+// Set the level of the first frame, and, once there are maps, everything that depends on it.
 void flow_open_detail(struct flow *flow);
 void flow_use_detail(struct flow *flow);
-// Takes the level that the camera's distance asks for at the present frame, with the water that is
-// there: its volume is kept but for a droplet a pane. Directions of texels are forgotten.
+// Changes to the level that the current camera distance asks for. The panes keep their water, to
+// one droplet a pane; texels' directions are reset.
 bool flow_follow_camera(struct flow *flow);
 bool flow_change_detail(struct flow *flow, int texels);
-// Writes the map of beads of the present level.
+// Writes the current level's map of beads.
 bool flow_write_beads(struct flow *flow);
 
-// Tells what is on the panes: the facts, all 0, and what they are at the present frame.
+// Adds the facts about water on the panes, all 0, and updates them for the current frame.
 void flow_add_survey(struct flow *flow);
 bool flow_survey(struct flow *flow);
-// Writes how the panes stand at the present frame.
+// Writes the panes' orientations at the current frame.
 bool flow_turn_panes(struct flow *flow);
 
 #endif

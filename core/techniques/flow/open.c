@@ -39,7 +39,7 @@ static bool is_mirror(const struct rg_instance *i)
     return is_final(i) && settings_of(i)->panes == FLOW_MIRROR;
 }
 
-// A pane of mirror that fills the view hides all else.
+// A mirror pane that fills the view hides everything else.
 static bool has_sky(const struct rg_instance *i)
 {
     return is_glass(i) || (is_mirror(i) && settings_of(i)->view == FLOW_BOX);
@@ -154,7 +154,7 @@ static const struct rg_stage stages[FLOW_PASS_COUNT] = {
 
 // --- maps ---
 
-// The normal map's margin is never written, and reads as flat and dry.
+// The normal map's margin is never written; it reads as flat and dry.
 static void add_normals(struct flow *flow, int64_t texels)
 {
     uint32_t *flat = rg_alloc((size_t)texels, sizeof(*flat), "normal map");
@@ -165,12 +165,12 @@ static void add_normals(struct flow *flow, int64_t texels)
     free(flat);
 }
 
-// Maps of all panes, one behind the other.
+// Adds the maps of all panes, one after the other.
 static void add_water(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
     const int64_t texels = flow_most_sizes(flow).texels;
-    const int row = 1; // flow_use_detail sets it
+    const int row = 1; // placeholder; flow_use_detail sets it
     flow->water = rg_add_buf(i, "water", texels, NULL);
     flow->moved = rg_add_buf(i, "moved", texels, NULL);
     rg_add_buf(i, "given", texels, NULL);
@@ -195,7 +195,7 @@ static void add_map(struct flow *flow, const char *name, float *values, int64_t 
     free(values);
 }
 
-// Maps of the lattice over all panes, and what the texels have beside water.
+// Adds maps of the lattice over all panes, and other properties of texels beside water.
 static void add_sliding(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
@@ -248,7 +248,7 @@ static flow_glow_params glow_of(const struct rg_image_desc *from, int step_x, in
                               .last_y = from->height - 1};
 }
 
-// The image before the glow, and the light that is spread, at a quarter of the size.
+// Adds the image before the glow, and the glow at a quarter of the size.
 static void add_glow(struct flow *flow)
 {
     const struct rg_image_desc *target = &flow->base.target->desc;
@@ -263,8 +263,8 @@ static void add_glow(struct flow *flow)
     flow->glow_down = glow_of(&small, 0, 1, &flow->settings);
 }
 
-// What water shows, a picture of its own: far panes of glass show what is around the box, near ones
-// the model too.
+// Adds the pictures that water refracts: for far panes the surroundings of the box, for near ones
+// also the model.
 static void add_behind(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;

@@ -1,4 +1,4 @@
-// What proves flow: panes, conservation in whole droplets, and mutants.
+// The proof of flow: panes, conservation in whole droplets, and mutants.
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +9,10 @@
 #include "core/techniques/proof.h"
 #include "core/techniques/technique.h"
 
-// All that a law looks at.
+// The data that laws check.
 struct reading {
     int64_t length; // of all panes' maps, in texels
-    int row;        // texels a row, margins included
+    int row;        // texels in a row, including margins
     float *water;
     uint32_t ledger[FLOW_LEDGER_WORDS];
 };
@@ -29,11 +29,11 @@ static bool read_state(const struct rg_instance *instance, struct reading *r)
                        sizeof(r->ledger));
 }
 
-// Every texel holds a whole number of droplets, and none in the margin.
+// Every texel holds a whole number of droplets, and none in margins.
 static bool droplets_are_whole(const struct reading *r, char *detail, size_t size)
 {
     for (int64_t i = 0; i < r->length; i++) {
-        const int at = (int)(i % ((int64_t)r->row * r->row)); // of its pane
+        const int at = (int)(i % ((int64_t)r->row * r->row)); // its place in its pane
         const int x = at % r->row - FLOW_MARGIN, y = at / r->row - FLOW_MARGIN;
         const float droplets = r->water[i] * FLOW_DROPLETS_PER_UNIT;
         const bool whole =
@@ -46,7 +46,7 @@ static bool droplets_are_whole(const struct reading *r, char *detail, size_t siz
     return true;
 }
 
-// What is on the pane is what came less what left.
+// The water on a pane equals what came less what left.
 static bool ledger_balances(const struct reading *r, char *detail, size_t size)
 {
     uint32_t sum = 0;
@@ -73,8 +73,8 @@ static bool water_is_conserved(const struct rg_instance *instance, char *detail,
     return holds;
 }
 
-// The box has small panes, since there are six of them; one pane alone is as large as the user
-// asks. Sliding drops take more passes: two poses have them, the last as the user asks.
+// The box has six panes, so they are small; a single pane has the user's size. Sliding drops take
+// more passes, so only two poses have them, the last in the user's size.
 static const struct rg_pose poses[] = {
     {.set = "resolution_px=96 move=paper"},
     {.set = "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 direction=split run_on=on "

@@ -46,8 +46,8 @@ static void swap(struct flow *flow)
     rg_swap(flow->water, flow->moved);
 }
 
-// Each texel gives, then takes, in one direction or in its own; what crosses a pane's edge arrives
-// last.
+// Moves water: each texel gives, then takes, in one common direction or in its own; water that
+// crosses a pane's edge arrives last.
 static bool move(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
@@ -61,7 +61,7 @@ static bool move(struct flow *flow)
     return ok;
 }
 
-// Panes that go through a run together, one after the other or all at once.
+// Panes that one stage handles together, one group after the other.
 struct group {
     struct flow *flow;
     int first, count;
@@ -75,8 +75,8 @@ static bool run(const struct group *g, enum flow_pass pass)
                          (struct rg_extent){all.width, all.height, g->count});
 }
 
-// Smooths the lattice of heights: two runs for the pull of the water around, two more for how much
-// there is.
+// Smooths the lattice of heights: two runs for the pull of surrounding water, two more for its
+// amount.
 static bool look_around(const struct group *g)
 {
     return run(g, FLOW_LEVEL) && run(g, FLOW_SMOOTH_ONCE) && run(g, FLOW_SMOOTH_TWICE) &&
@@ -94,15 +94,15 @@ static bool relax(const struct group *g)
     return ok;
 }
 
-// Water of a group dries, levels, and slides to `moved`.
+// Dries and levels the water of a group, and slides it to `moved`.
 static bool slide_group(const struct group *g)
 {
     return look_around(g) && relax(g) && run(g, FLOW_CLING) && run(g, FLOW_SLIDE_OFF) &&
            run(g, FLOW_SLIDE);
 }
 
-// So many texels of all panes go through a run at once: what a run reads and writes of them stays
-// in a processor's cache. Larger panes go one by one.
+// A group has at most this many texels, so that a run's data stays in the processor's cache. Larger
+// panes form groups of their own.
 #define TEXELS_AT_ONCE (1 << 21)
 
 static bool slide_panes(struct flow *flow)
@@ -113,13 +113,13 @@ static bool slide_panes(struct flow *flow)
     bool ok = true;
     for (int first = 0; ok && first < panes; first += at_once) {
         if (first > 0 && is_odd)
-            swap(flow); // back to how the first group found them
+            swap(flow); // restores what the first group saw
         ok = slide_group(&(struct group){flow, first, at_once});
     }
     return ok;
 }
 
-// The time of a frame, run by run: water dries, levels, and slides.
+// Advances the time of a frame in several runs: water dries, levels and slides.
 static bool slide(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;

@@ -1,12 +1,11 @@
-// What is on flow's panes, told as facts: the wet share, where the water is, and drops by size.
+// Tells facts about flow's panes: the wet share, where the water is, and drops by size.
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
 #include "core/techniques/flow/instance.h"
 
-// Upper bounds of the sizes that are told, diameters of circles as large as the drops; the last has
-// none.
+// Upper bounds of the size classes: diameters of circles of a drop's area; the last class has none.
 static const double below_mm[FLOW_DROP_SIZES - 1] = {1, 2, 4, 8};
 static const char *const size_names[FLOW_DROP_SIZES] = {
     "drops_below_1_mm", "drops_1_to_2_mm", "drops_2_to_4_mm", "drops_4_to_8_mm", "drops_above_8_mm",
@@ -24,12 +23,12 @@ void flow_add_survey(struct flow *flow)
 // A pane without its margin.
 struct pane {
     int size;
-    float *water; // of a map with margins; what has been counted is dry
-    int *stack;   // texels to look at
-    float wet;    // height from which on a texel is wet
+    float *water; // a map with margins; counted drops are set to dry
+    int *stack;   // texels still to visit
+    float wet;    // height from which a texel counts as wet
 };
 
-// Texels of the drop at (x, y), all that are wet and side by side; they are dry afterwards.
+// Counts the connected wet texels around (x, y) and dries them.
 static int64_t take_drop(const struct pane *p, int x, int y)
 {
     const int stride = p->size + 2 * FLOW_MARGIN, beside[4] = {1, -1, stride, -stride};
@@ -61,7 +60,8 @@ static int size_of(double texels, double texel_mm)
 }
 
 struct sums {
-    double wet, water, down; // texels; units of height; and these by the share of the pane above
+    double wet, water, down; // wet: texels; water: units of height; down: water weighted by the
+                             // share of the pane above it
     int64_t drops[FLOW_DROP_SIZES];
 };
 

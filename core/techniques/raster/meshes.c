@@ -1,4 +1,4 @@
-// What raster draws: models, the knot, and panes.
+// The meshes of raster: models, the knot, and panes.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ void raster_mesh_free(struct raster_mesh *shape)
     *shape = (struct raster_mesh){0};
 }
 
-// How far the positions reach from the middle of their bounds.
+// Finds the distance of the farthest position from the middle of the bounds.
 static void find_radius(struct raster_mesh *shape)
 {
     double longest = 0, farthest = 0;
@@ -98,15 +98,15 @@ static struct point unit(struct point a)
     return (struct point){a.x / length, a.y / length, a.z / length};
 }
 
-// A trefoil: it winds three times about the ring while it goes round twice.
+// A point of a trefoil knot, which winds three times around the ring while it goes round twice.
 static struct point on_knot(double t)
 {
     const double out = 2 + cos(3 * t);
     return (struct point){out * cos(2 * t), out * sin(2 * t), sin(3 * t)};
 }
 
-// A point of the tube around it, and which way is out. The tube is fluted, so that neighbouring
-// triangles differ in their light.
+// A point of the tube around the knot, and its outward direction. The tube is fluted, so that
+// neighbouring triangles differ in brightness.
 static struct point on_tube(double t, double around, struct point *out)
 {
     const double step = 1e-4;
@@ -131,7 +131,7 @@ static void put_vertex(struct raster_mesh *shape, int i, struct point at, struct
     }
 }
 
-// The normal of the fluted tube, from its neighbours on it.
+// The normal of the fluted tube, from finite differences.
 static struct point tube_normal(double t, double around)
 {
     const double step = 1e-4;
@@ -172,8 +172,8 @@ bool raster_mesh_knot(int triangles, struct raster_mesh *shape)
 
 enum { PLACE_STREAM = 21, SHAPE_STREAM, COLOUR_STREAM };
 
-// Sides from half a thousandth of the target's height to all of it, as many small ones as large
-// ones; none is wider than long.
+// Sides are from half a thousandth of the target's height to all of it, evenly on a logarithmic
+// scale; none is wider than long.
 static void put_quad(float *quad, uint32_t seed, uint32_t i)
 {
     const rg_uint4 place = rg_random(seed, i, 0, PLACE_STREAM);

@@ -1,4 +1,4 @@
-// What proves raster: its scenes, drops that lie evenly, and mutants.
+// The proof of raster: its scenes, an even distribution of drops, and mutants.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,8 +9,8 @@
 #include "core/techniques/raster/raster.h"
 #include "core/techniques/technique.h"
 
-// The drops' coordinates are 0 to 1, all x first, and their mean is 1/2 to five standard deviations
-// of the mean of so many.
+// The drops' coordinates are 0 to 1, all x first; their mean must be 1/2 to within five standard
+// errors.
 static bool axis_is_even(const float *drops, int count, const char *axis, char *detail, size_t size)
 {
     double sum = 0;
@@ -31,7 +31,7 @@ static bool axis_is_even(const float *drops, int count, const char *axis, char *
 static bool drops_lie_evenly(const struct rg_instance *instance, char *detail, size_t size)
 {
     if (!instance->state_count)
-        return true; // another scene
+        return true; // does not apply to other scenes
     const struct rg_buf *buf = instance->state[0].asset->buf;
     const int count = instance->state[0].row;
     float *drops = rg_alloc(1, buf->size, "drops");

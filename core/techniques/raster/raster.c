@@ -1,6 +1,6 @@
-// raster: drawing itself as the thing measured, so that rasterisers can be compared: rain as
-// billboards, a model, a million tiny triangles, panes of all sizes. Programs are in
-// kernels/raster/, what the host computes in meshes.c and view.c, and docs/raster.md explains.
+// raster: drawing itself as the thing measured, to compare rasterisers: rain as billboards, a
+// model, a million tiny triangles, panes of all sizes. kernels/raster/ has the programs, meshes.c
+// and view.c the host's computations, and docs/raster.md explains.
 #include "core/techniques/raster/raster.h"
 
 #include <stdlib.h>
@@ -9,12 +9,12 @@
 #include "core/base/alloc.h"
 #include "core/techniques/technique.h"
 
-// A scene's program, and how the scene is drawn where the settings leave that to it.
+// A scene's program, and its default way of drawing.
 static const struct scene {
     const char *program;
     enum rg_blend blend;
     enum rg_depth_mode depth;
-    enum rg_cull cull; // of a closed mesh seen from outside
+    enum rg_cull cull; // for a closed mesh seen from outside
 } scenes[RASTER_SCENES] = {
     [RASTER_BILLBOARDS] = {"raster_streaks", RG_BLEND_OVER, RG_DEPTH_OFF, RG_CULL_NONE},
     [RASTER_MESH] = {"raster_mesh", RG_BLEND_OFF, RG_DEPTH_WRITE, RG_CULL_BACK},
@@ -31,11 +31,11 @@ enum raster_pass { SCATTER, DRAW, COUNT, SHOW, PASS_COUNT };
 struct raster {
     struct rg_instance base;
     struct raster_settings settings;
-    int item_count, drawn_items; // of the scene, and those that the share leaves
-    struct raster_mesh mesh;     // its bounds; the arrays are on the device
-    struct rg_image *colour;     // drawn to: the target, or one of another format
-    uint32_t *counts;            // samples an item, where they are counted
-    // The stages' parameters at the present frame.
+    int item_count, drawn_items; // items of the scene, and those drawn after applying the share
+    struct raster_mesh mesh;     // only its bounds; the arrays are on the device
+    struct rg_image *colour;     // the image drawn to: the target, or one of another format
+    uint32_t *counts;            // samples of each item, where they are counted
+    // The stages' parameters at the current frame.
     raster_drops_params drops;
     raster_show_params show;
     union {
@@ -77,7 +77,7 @@ static void add_quads(struct raster *r)
     free(quads);
 }
 
-// The stage SCATTER writes the drops, so that they need no contents here.
+// The stage SCATTER fills in the drops, so they start without contents.
 static void add_drops(struct raster *r)
 {
     r->drops = (raster_drops_params){.count = r->settings.billboards, .seed = r->settings.seed};
@@ -124,7 +124,7 @@ static void add_counting(struct raster *r)
     r->base.has_failed |= !r->counts;
 }
 
-// What a setting chooses: 0 leaves it to the scene, 1 is the first value of the enum.
+// Resolves a setting: 0 leaves the choice to the scene, 1 is the first value of the enum.
 static int choose(int setting, int of_scene)
 {
     return setting ? setting - 1 : of_scene;
@@ -146,7 +146,7 @@ static bool open_stages(struct raster *r)
         [DRAW] = {scene->program, .params = AT(view), .colour = "drawn",
                   .depth = depth == RG_DEPTH_OFF ? NULL : "depth", .depth_mode = depth,
                   .blend = (enum rg_blend)choose(s->blend, (int)scene->blend), .cull = cull},
-        // Draws once more to count, into a depth image of its own, so that nothing is hidden.
+        // Draws once more to count, with a depth image of its own, so that nothing is hidden.
         [COUNT] = {s->count ? scene->program : NULL, .params = AT(view), .depth = "counted",
                    .samples = "samples", .cull = cull},
         [SHOW] = {s->format == RASTER_RGBA8     ? "raster_show_rgba8"
@@ -190,7 +190,7 @@ static bool clear(struct raster *r)
 {
     static const float background[4] = {0.0625f, 0.078125f, 0.109375f, 1};
     static const uint8_t codes[4] = {16, 20, 28, 255};
-    static const uint16_t halves[4] = {0x2c00, 0x2d00, 0x2f00, 0x3c00}; // the same
+    static const uint16_t halves[4] = {0x2c00, 0x2d00, 0x2f00, 0x3c00}; // the same as half floats
     static const float farthest = 1;
     const void *texel = r->settings.format == RASTER_RGBA32F ? (const void *)background
                         : r->settings.format == RASTER_RGBA8 ? (const void *)codes
@@ -218,7 +218,7 @@ static bool draw_items(struct raster *r, enum raster_pass pass)
     return !r->drawn_items || rg_stage_onto(&r->base, pass, r->drawn_items, &draw);
 }
 
-// Draws once more, and reads what each item covers.
+// Draws once more, and reads how many samples each item covers.
 static bool count_items(struct raster *r)
 {
     const int64_t bytes = (int64_t)r->item_count * 4;

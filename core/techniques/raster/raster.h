@@ -18,7 +18,7 @@ struct raster_settings {
     int scene, seed;
     double share;
     int count;
-    // how it is drawn; blend, depth and cull are 0 where the scene decides
+    // How it is drawn; in blend, depth and cull 0 leaves the choice to the scene.
     int blend, depth, cull, format;
     // billboards
     int billboards;
@@ -35,20 +35,20 @@ struct raster_settings {
 extern const struct rg_param_table raster_param_table;
 extern const struct rg_proof raster_proof;
 
-// A mesh as raster_mesh draws it.
+// A mesh in the form that raster_mesh draws.
 struct raster_mesh {
     int vertex_count, face_count;
     float *positions;      // x, y, z a vertex
     uint32_t *normals;     // mesh_normal_pack
     uint32_t *indices;     // three vertices a face, counter-clockwise seen from outside
     float low[3], high[3]; // bounds
-    double radius;         // of the ball about the bounds' middle, in halves of their longest side
+    double radius;         // of the ball around the bounds' middle, in halves of the longest side
     char name[160];
-    uint64_t hash; // of a model; 0: none
+    uint64_t hash; // of a model's file; 0: no model
 };
 
-// The settings' model; or the knot, a closed tube of `triangles` faces, rounded down to whole
-// rings. raster_mesh_free in either case. False, with one logged line, on failure.
+// Loads the settings' model, or makes the knot, a closed tube of `triangles` faces, rounded down to
+// whole rings. Call raster_mesh_free in either case. False, with one logged line, on failure.
 bool raster_mesh_load(const struct raster_settings *settings, struct raster_mesh *shape);
 bool raster_mesh_knot(int triangles, struct raster_mesh *shape);
 void raster_mesh_free(struct raster_mesh *shape);

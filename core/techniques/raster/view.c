@@ -1,4 +1,4 @@
-// Where raster's eye is, and what moves with the frames.
+// Raster's camera, and what moves from frame to frame.
 #include <math.h>
 
 #include "core/scene/camera.h"
@@ -17,7 +17,7 @@ static double smaller(double a, double b)
 
 // --- billboards ---
 
-// How many times a box was crossed since the start, less the whole times.
+// How far something has fallen, modulo a box's size, as a share of it.
 static float fallen(double speed_m_s, double seconds, double size_m)
 {
     const double boxes = speed_m_s * seconds / size_m;
@@ -29,7 +29,8 @@ raster_streaks_params raster_streaks_at(const struct raster_settings *s, int wid
 {
     const double seconds = (double)frame * s->step_s;
     const double speed = hypot(s->fall_m_s, s->wind_m_s);
-    const double length_s = s->streak_length_mm / 1000 / speed; // how long a streak's fall takes
+    const double length_s = s->streak_length_mm / 1000 / speed; // the time in which a drop falls a
+                                                                // streak's length
     const double scale = 1 / tan(radians(s->view_angle_deg) / 2);
     const double near_m = 0.1, far_m = 2 * s->reach_m;
     return (raster_streaks_params){
@@ -55,7 +56,7 @@ raster_streaks_params raster_streaks_at(const struct raster_settings *s, int wid
 
 // --- meshes ---
 
-// The corners of a dodecahedron, the pleasing one first.
+// Directions to the corners of a dodecahedron; the best-looking one is first.
 static void direction_of(int view, double direction[3])
 {
     const double golden = (1 + sqrt(5)) / 2, length = sqrt(3);
@@ -93,7 +94,7 @@ static struct rg_camera camera_of(const struct raster_settings *s, const struct 
     return camera;
 }
 
-// The light comes over the viewer's left shoulder; here as the mesh's own space sees it.
+// Lights the mesh from over the viewer's left shoulder, in the mesh's own space.
 static void light(const float view[16], raster_mesh_params *p)
 {
     static const double towards[3] = {-0.6, 0.6, 0.53};

@@ -4,8 +4,8 @@
 
 // --- outside, and turned away ---
 
-// Homogeneous coordinates of the eye: w is 0 where rays are parallel, and the rest then points
-// towards where depth is less.
+// The eye in homogeneous coordinates: for parallel rays w is 0, and the rest points towards smaller
+// depth.
 static void find_eye(const m4 *m, double eye[4])
 {
     const double r[3][4] = {{(double)m->xx, (double)m->xy, (double)m->xz, (double)m->xw},
@@ -24,10 +24,10 @@ static void find_eye(const m4 *m, double eye[4])
         eye[i] = -eye[i];
 }
 
-// Whether all faces of a chunk turn away: the eye lies behind all their planes.
+// Whether all faces of a chunk are back faces: the eye is behind all their planes.
 static bool turns_away(const struct city_chunk *chunk, const double eye[4])
 {
-    double towards = 0; // of the corner of the bounds whose plane lies furthest back
+    double towards = 0; // for the bounds' corner whose plane is farthest back
     bool alike = false;
     for (int c = 0; c < 3; c++) {
         const double n = (double)chunk->normal[c];
@@ -50,7 +50,7 @@ static struct corner corner_of(const float low[3], const float high[3], int i, c
     return (struct corner){c.x, c.y, c.z, c.w};
 }
 
-// The sides of the view beyond which a corner lies, a bit each.
+// The bits of the view's sides beyond which a corner lies.
 static int outside(const struct corner *c)
 {
     return (c->x < -c->w) | (c->x > c->w) << 1 | (c->y < -c->w) << 2 | (c->y > c->w) << 3 |
@@ -59,7 +59,7 @@ static int outside(const struct corner *c)
 
 // --- hidden ---
 
-// A convex polygon on the view, in cells, with depth: a box's face behind the near plane.
+// A convex polygon on the view, in cells, with depth: a face of a box, beyond the near plane.
 struct polygon {
     int count;
     float x[5], y[5], z[5];
@@ -98,7 +98,7 @@ static float area_of(const struct polygon *g)
     return area;
 }
 
-// Where a line across the view at y enters and leaves the polygon; false if it misses.
+// The interval in which a horizontal line at y crosses the polygon; false if it misses.
 static bool cross(const struct polygon *g, float y, float *left, float *right)
 {
     *left = INFINITY;
@@ -114,7 +114,8 @@ static bool cross(const struct polygon *g, float y, float *left, float *right)
     return *left <= *right;
 }
 
-// A cell that lies whole within the polygon hides all behind the polygon's farthest point there.
+// In each cell that is wholly inside the polygon, hides everything beyond the polygon's farthest
+// point there.
 static void hide(struct scenery_cull *cull, const struct polygon *g, float slack)
 {
     float low = INFINITY, high = -INFINITY, farthest = 0;
@@ -124,7 +125,7 @@ static void hide(struct scenery_cull *cull, const struct polygon *g, float slack
         farthest = rg_max(farthest, g->z[i]);
     }
     const float area = area_of(g);
-    // depth = z0 + ax (x - x0) + ay (y - y0), from the widest of the corners' triangles
+    // depth = z0 + ax (x - x0) + ay (y - y0), from the corners' largest triangle
     const float *x = g->x, *y = g->y, *z = g->z;
     float ax = 0, ay = 0, most = 0;
     for (int i = 1; i + 1 < g->count; i++) {
@@ -157,7 +158,7 @@ static void hide(struct scenery_cull *cull, const struct polygon *g, float slack
     }
 }
 
-// The faces of a box that look at the viewer.
+// Hides what is behind the faces of a box that face the viewer.
 static void hide_box(struct scenery_cull *cull, const struct city_box *box, const m4 *m)
 {
     static const int faces[6][4] = {{0, 4, 6, 2}, {5, 1, 3, 7}, {0, 1, 5, 4},
@@ -178,13 +179,13 @@ static void hide_box(struct scenery_cull *cull, const struct city_box *box, cons
     }
 }
 
-// The cell of a coordinate over w; what lies beyond the view has the outermost one.
+// The cell of a coordinate over w; beyond the view the outermost one.
 static int cell_of(float over_w, int cells)
 {
     return (int)rg_clamp((over_w + 1) * 0.5f * (float)cells, 0, (float)(cells - 1));
 }
 
-// Whether boxes hide all of the chunk.
+// Whether boxes hide the whole chunk.
 static bool hidden(const struct scenery_cull *cull, const struct corner corners[8])
 {
     float x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY, nearest = INFINITY;

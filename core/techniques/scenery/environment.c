@@ -15,7 +15,7 @@
 
 enum { FACES = 6, LIGHTS = 8, SHADOW_MAP_PX = 1024 };
 
-// The city on a device, and what is drawn of it.
+// The city on a device, with its draw targets.
 struct stage {
     struct rg_instance instance;
     struct scenery *scene;
@@ -54,8 +54,8 @@ static bool open_stage(struct rg_device *device, enum scenery_time time, int siz
            (stage->depth = rg_image_create(device, &depth, "environment"));
 }
 
-// A camera that sees one face of the cube, upright as the face is, but mirrored: faces are seen
-// from outside.
+// A camera that sees one face of the cube upright but mirrored, because cube faces are seen from
+// outside.
 static struct rg_camera camera_of(int face)
 {
     const float ahead[FACES][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
@@ -69,7 +69,7 @@ static struct rg_camera camera_of(int face)
     return camera;
 }
 
-// Pixels of a face into its texels.
+// Copies a face's pixels into its texels.
 static void put_face(struct rg_environment *environment, int face, const uint16_t *pixels)
 {
     const int size = environment->size;

@@ -1,4 +1,4 @@
-// Frusta as lines: what a matrix takes to clip space, and how far lights reach.
+// Frusta as lines, from a matrix to clip space, shown as far as lights reach.
 #include <math.h>
 
 #include "core/scene/matrix.h"
@@ -7,7 +7,7 @@
 
 #define SHOWN_M 10.0f
 
-// The world's corners of clip space between two depths; false where there are none.
+// The world positions of clip space's corners between two depths; false where there are none.
 static bool find_corners(const float to_clip[16], float near_depth, float far_depth,
                          float corners[8][3])
 {
@@ -27,8 +27,8 @@ void scenery_overlay_frustum(struct scenery_overlay *overlay, const float to_cli
         scenery_overlay_box(overlay, corners, ink);
 }
 
-// Depth in a light's map at SHOWN_M, up to which its frustum is shown. Depth at w metres is
-// scale + offset / w; a perspective matrix has both in its third row.
+// The depth in a light's map at SHOWN_M, where its frustum ends in the picture. Depth at w metres
+// is scale + offset / w; a perspective matrix has both in its third row.
 static float reach_depth(const scenery_light *light, const float to_clip[16])
 {
     if (light->kind == SCENERY_SUN)

@@ -1,12 +1,12 @@
-// A scene's lights for who looks at it.
+// A scene's lights for a camera.
 #include <math.h>
 #include <string.h>
 
 #include "core/scene/matrix.h"
 #include "core/techniques/scenery/scenery.h"
 
-// The place that lamps are chosen near: so far ahead of the camera, on level ground, since these
-// light what it sees.
+// The place near which lamps are chosen: a distance ahead of the camera, on level ground, since
+// lamps there light the view.
 static void look_ahead(const struct rg_camera *camera, float place_m[3])
 {
     const double ahead_m = 20, x = (double)camera->target[0] - (double)camera->position[0];
@@ -17,7 +17,7 @@ static void look_ahead(const struct rg_camera *camera, float place_m[3])
     place_m[2] += (float)(z / level * ahead_m);
 }
 
-// Draws the depth of what casts shadows: scenery_lights_shade calls it for each map.
+// Draws the depth of shadow casters: scenery_lights_shade calls it for each map.
 static bool draw_shadow(void *user, const float to_clip[16], const struct rg_draw *onto)
 {
     return scenery_depth(user, rg_m4_of(to_clip), onto);

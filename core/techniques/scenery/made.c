@@ -1,4 +1,4 @@
-// What instances of a device share of a scene: its faces, surfaces and textures there.
+// The parts of a scene on a device that instances share: faces, surfaces and textures.
 #include "core/techniques/scenery/made.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ static int levels_of(int size)
     return levels;
 }
 
-// A level of half the side, from texels of square roots of light.
+// Halves a level whose texels are square roots of light.
 static void halve(const uint32_t *from, int size, uint32_t *to)
 {
     const int half = size / 2;

@@ -1,4 +1,4 @@
-// What instances of a device share of a scene (core/device/shared.h).
+// The parts of a scene that instances of a device share (core/device/shared.h).
 #ifndef RG_CORE_TECHNIQUES_SCENERY_MADE_H
 #define RG_CORE_TECHNIQUES_SCENERY_MADE_H
 
@@ -10,10 +10,11 @@ struct scenery_made {
     struct city *city;
     struct rg_buf *faces, *surface_of, *surfaces, *openness;
     struct rg_image *textures;
-    int levels; // of the textures
+    int levels; // levels of the textures
 };
 
-// NULL, and one logged line, on failure. scenery_made_put before the device closes.
+// Gets the shared parts; NULL, and one logged line, on failure. Call scenery_made_put before the
+// device closes.
 const struct scenery_made *scenery_made_get(struct rg_device *device,
                                             const struct scenery_settings *settings);
 void scenery_made_put(struct rg_device *device, const struct scenery_made *made);

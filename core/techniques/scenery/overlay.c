@@ -10,22 +10,22 @@
 
 enum overlay_pass { SHEETS, LINES, INSET, PLATE, PASS_COUNT };
 
-// Items of one stage, on the host and on the device.
+// The items of one stage, on the host and on the device.
 struct items {
     const char *name;
-    int words; // an item
+    int words; // words of an item
     struct rg_asset *asset;
     float *list;
     int count; // items
     int64_t room;
-    bool full; // there was no memory
+    bool full; // memory ran out
 };
 
 struct scenery_overlay {
     struct rg_instance *instance;
     int first_stage;
     struct items sheets, lines;
-    struct rg_asset *map; // of the inset or the plate
+    struct rg_asset *map; // the inset's or the plate's map
     scenery_lines_params view;
     scenery_inset_params inset;
     scenery_plate_params plate;
@@ -76,7 +76,8 @@ void scenery_overlay_begin(struct scenery_overlay *overlay)
     overlay->sheets.full = overlay->lines.full = false;
 }
 
-// The words of a new item; NULL without memory, which is logged for the first item that is lost.
+// Appends an item and returns its words; NULL when memory runs out, which is logged for the first
+// lost item.
 static float *add_item(struct items *items)
 {
     items->full = items->full || !rg_array_fit(&items->list, &items->room, items->count + 1,

@@ -18,12 +18,12 @@ struct scenery {
     struct rg_instance *instance;
     const struct scenery_made *made;
     int first_stage;
-    // Assets that a draw sets: blocks that are seen, numbers of the target's size, and what the
-    // caller brings.
+    // Assets that each draw sets: visible blocks, surface numbers of the target's size, and the
+    // caller's objects.
     struct rg_asset *blocks, *numbers, *depths, *lights, *shadows;
     struct scenery_cull cull;
-    bool *seen;            // by chunk: in the last draw
-    uint32_t *block_words; // two each
+    bool *seen;            // by chunk, in the last draw
+    uint32_t *block_words; // two for each block
     struct scenery_work work;
     scenery_city_params faces_params;
     scenery_city_shade_params shade_params;
@@ -116,8 +116,8 @@ struct scenery_work scenery_last(const struct scenery *s)
 
 // --- drawing ---
 
-// Writes the blocks of the chunks that are seen, and returns how many.
-// kernels/scenery/city_params.h says what a block's words are.
+// Lists the blocks of the visible chunks, and returns their number. kernels/scenery/city_params.h
+// describes a block's words.
 static int list_blocks(struct scenery *s)
 {
     const struct city_faces *f = &s->made->city->faces;

@@ -1,4 +1,4 @@
-// Which scene is drawn.
+// Selects the scene to draw.
 #ifndef RG_CORE_TECHNIQUES_SCENERY_SETTINGS_H
 #define RG_CORE_TECHNIQUES_SCENERY_SETTINGS_H
 
@@ -7,11 +7,11 @@
 
 struct scenery_settings {
     struct city_settings city;
-    char model[RG_PATH_SIZE]; // a user's mesh instead, as rg_mesh_load takes it; "": the city
+    char model[RG_PATH_SIZE]; // a user's mesh, as rg_mesh_load takes it; "": the city
 };
 
-// The settings that users name: "city", of this size and seed, or a mesh. `scene` is RG_PATH_SIZE
-// characters long.
+// The settings for a user's choice: "city", with this size and seed, or a mesh. `scene` holds up to
+// RG_PATH_SIZE characters.
 struct scenery_settings scenery_named(const char *scene, enum city_size size, int seed);
 
 #endif

@@ -1,4 +1,4 @@
-// The scene seen from straight above: what particles land on.
+// The scene's depth map from straight above, which shows where particles land.
 #include "core/scene/matrix.h"
 #include "core/techniques/shower/instance.h"
 
@@ -14,7 +14,7 @@ static void set_extent(shower_params *p, const struct city_faces *faces)
     p->map_height_m = p->map_top_m - (faces->low[1] - margin_m);
 }
 
-// From the world to the clip space of the map: its rows run along z, its depth down.
+// The matrix from the world to the map's clip space: rows run along z, depth downwards.
 static m4 matrix_of(const shower_params *p)
 {
     float rows[16] = {0};
@@ -28,7 +28,7 @@ static m4 matrix_of(const shower_params *p)
     return rg_m4_of(rows);
 }
 
-// Without a scene to land on no place lies within the map.
+// Without a scene to land on, every place is outside the map.
 static void set_no_extent(shower_params *p)
 {
     p->map_x = p->map_z = 1e9f;

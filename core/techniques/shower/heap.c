@@ -1,6 +1,6 @@
 // The traditional system as the paper's program ran it: one thread of the host allocates each
-// particle when it is born and frees it when it dies. What a particle does is the kernels' own
-// text, so that its numbers are those of the free list.
+// particle at birth and frees it at death. Particles use the kernels' own functions, so that the
+// numbers equal those of the free list.
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
@@ -10,12 +10,12 @@
 #include "kernels/shower/heights.h"
 
 struct shower_heap {
-    shower_particle **at; // by slot; NULL: it is free
+    shower_particle **at; // by slot; NULL: free
     int slots;
-    float *words; // as the device has them: planes, the attributes' behind the others'
+    float *words; // as on the device: planes, the attributes' after the others'
     int planes;
     int map_px;
-    float *depths; // of the scene seen from above
+    float *depths; // the scene's depth from above
     uint32_t tally[SHOWER_TALLY];
 };
 
@@ -59,7 +59,7 @@ static float ground_at(const struct shower_heap *h, const shower_params *p, v3 a
     return shower_height(*p, h->depths[(size_t)m.z * (size_t)h->map_px + (size_t)m.x], m.outside);
 }
 
-// Whether a particle lives on after a step.
+// Moves a particle; false when it dies in this step.
 static bool move(const struct shower_heap *h, const shower_params *p, bool by_point,
                  shower_particle *q)
 {
@@ -95,7 +95,7 @@ static bool bear_particles(struct shower_heap *h, const shower_params *p)
     return true;
 }
 
-// The particles as the device has them.
+// Writes the particles in the device's layout.
 static void list_words(struct shower_heap *h)
 {
     const shower_particle none = {0};

@@ -1,4 +1,4 @@
-// What the files of shower share.
+// Shared declarations of shower's files.
 #ifndef RG_CORE_TECHNIQUES_SHOWER_INSTANCE_H
 #define RG_CORE_TECHNIQUES_SHOWER_INSTANCE_H
 
@@ -34,14 +34,14 @@ struct shower {
     struct shower_settings settings;
     struct scenery *scene;         // NULL: none
     struct scenery_lights *lights; // likewise
-    struct shower_heap *heap;      // NULL: particles live on the device alone
-    struct rg_scan *scan;          // of the free list; NULL: there is none
+    struct shower_heap *heap;      // NULL: particles exist on the device only
+    struct rg_scan *scan;          // for the free list; NULL: there is none
     shower_params params;
     shower_view_params view;
-    struct rg_camera camera; // of the present frame
+    struct rg_camera camera; // of the current frame
     uint32_t tally[SHOWER_TALLY];
     struct rg_asset *particles, *attributes, *marks, *unused, *found, *counts;
-    int first_stage; // of enum shower_stage, behind those of the scene
+    int first_stage; // of enum shower_stage, after the scene's stages
 };
 
 extern const struct rg_proof shower_proof;
@@ -51,21 +51,22 @@ void shower_close(struct rg_instance *instance);
 bool shower_step(struct rg_instance *instance);
 bool shower_draw(struct rg_instance *instance);
 
-// The region and the body that is seen (eqs. 2 to 8, section III.B), for a picture of so many
-// pixels, at a frame: the camera and the parameters of both. False, and one logged line, where the
+// Computes the region of births and the visible body (eqs. 2 to 8, section III.B) for a picture's
+// size, at a frame: the camera and the parameters of both. False, and one logged line, where the
 // eye is below the ground or nothing is large enough to be seen.
 bool shower_look(struct shower *shower, int64_t frame);
 
-// The scene from above, which tells how high what particles land on is: adds the image `heights`,
-// and draws it where particles land on the scene. False, and one logged line, on failure.
+// Adds the image `heights`, the scene's depth map from above, and draws it where particles land on
+// the scene. False, and one logged line, on failure.
 bool shower_add_heights(struct shower *shower);
 
 // --- the host's own particles: each is allocated when it is born and freed when it dies ---
 
-// None yet; `heights` is the scene from above. NULL, and one logged line, on failure.
+// Makes a heap without particles; `heights` is the depth map from above. NULL, and one logged line,
+// on failure.
 struct shower_heap *shower_heap_open(const struct shower *shower, struct rg_image *heights);
 void shower_heap_close(struct shower_heap *heap);
-// A step, after which the particles are on the device. False, and one logged line, on failure.
+// Makes a step and uploads the particles. False, and one logged line, on failure.
 bool shower_heap_step(struct shower *shower);
 
 #endif

@@ -1,17 +1,17 @@
-// What the viewer sees at a frame: the body of the horizon and the region of births.
+// The viewer's part of a frame: the visible body (up to the horizon) and the region of births.
 #include <math.h>
 
 #include "core/base/log.h"
 #include "core/techniques/shower/instance.h"
 
-// A side of the body: a unit normal that points into it, and a point on it.
+// A side of the body, from a unit normal that points inwards and a point on it.
 static shower_plane plane_of(const double normal[3], const double point[3])
 {
     const double at = normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2];
     return (shower_plane){(float)normal[0], (float)normal[1], (float)normal[2], (float)-at};
 }
 
-// The view, in double precision.
+// The view in double precision.
 struct outlook {
     double eye[3], ahead_x, ahead_z;
     double half_across_rad, half_above_rad;
@@ -30,7 +30,7 @@ static void set_ends(shower_params *p, const struct outlook *o)
     p->back = plane_of(back, last);
 }
 
-// The sides go through the eye. The right is (-ahead z, ahead x).
+// The sides contain the eye. The right is (-ahead z, ahead x).
 static void set_sides(shower_params *p, const struct outlook *o)
 {
     const double s = sin(o->half_across_rad), c = cos(o->half_across_rad);
@@ -65,8 +65,8 @@ static void set_region(shower_params *p, const struct shower_settings *set, cons
     p->far_m = (float)o->far_m;
 }
 
-// The view of a frame, of a picture of width x height pixels. Eq. 2 has the largest distance: that
-// at which a drop is a pixel high.
+// The view of a frame for a picture of width x height pixels. Eq. 2 gives the largest distance, at
+// which a drop is one pixel high.
 static struct outlook outlook_of(const struct shower_settings *set, int width, int height,
                                  int64_t frame)
 {
@@ -85,15 +85,15 @@ static struct outlook outlook_of(const struct shower_settings *set, int width, i
     };
 }
 
-// The share of what leaves through one side that the wind brings in through the other, each by its
-// speed across the side; none where it leaves through both.
+// The fraction of the particles leaving through one side that the wind brings in through the other,
+// by their speeds across the sides; 0 where they leave through both.
 static float share_of(double in_m_s, double out_m_s)
 {
     return out_m_s > 0 ? (float)fmax(fmin(in_m_s / out_m_s, 1), 0) : 0;
 }
 
-// The wind goes by the viewer, who may walk. What it carries away from the viewer draws together,
-// as the view widens, and leaves room at the sides.
+// The wind is relative to the viewer, who may walk. Particles carried away from the viewer become
+// relatively denser, since the view widens, and leave room at the sides.
 static void set_inflow(shower_params *p, const struct shower_settings *set)
 {
     const double x = (double)p->wind_x - set->walk_m_s * (double)p->ahead_x;

@@ -43,7 +43,8 @@ static bool create_scene(struct shower *s)
 
 // --- particles ---
 
-// Slots for the most particles that eq. 1 can want; promoted ones are always as many as expected.
+// The slots for the most particles that eq. 1 can ask for; promotion keeps exactly the expected
+// number.
 static int64_t slots_of(const struct shower_settings *s)
 {
     const double most = 1 + (shower_is_new(s, s->renewal) ? 0 : s->variation);
@@ -51,12 +52,12 @@ static int64_t slots_of(const struct shower_settings *s)
     return slots ? slots : 1;
 }
 
-// Bytes that particles take on the device, and with renewal=heap also on the host.
+// The bytes of particles on the device, and with renewal=heap on the host too.
 static int64_t bytes_of(const struct shower_settings *s, int64_t slots)
 {
     const int64_t words = SHOWER_WORDS + (shower_is_new(s, s->state) ? 0 : SHOWER_ATTRIBUTES) +
                           (shower_is_new(s, s->renewal) ? 1 : 2);
-    // A pointer, an allocation and the copy that goes to the device.
+    // For each particle a pointer, an allocation, and the copy for the device.
     const int64_t on_host = s->renewal == SHOWER_HEAP ? 8 + 64 + 4 * words : 0;
     return slots * (4 * words + on_host);
 }
@@ -87,7 +88,7 @@ static void set_params(struct shower *s)
     p->width_m = (float)set->drop_width_m;
 }
 
-// The free list is what births take their slots from.
+// Whether births take their slots from a free list.
 static bool has_free_list(const struct shower *s)
 {
     return !s->params.is_promoted && s->settings.renewal != SHOWER_HEAP;
@@ -118,7 +119,7 @@ static bool add_particles(struct shower *s)
 
 // --- the drop's texture ---
 
-// How much a drop hides at a place of its picture, 0 to 1: most along its middle, nothing at its
+// How much a drop hides at a point of its picture, 0 to 1: most along its middle, nothing at its
 // rims.
 static double thickness(double u, double v)
 {

@@ -1,4 +1,4 @@
-// What proves shower: scenes, laws of its population and its region, and mutants.
+// The proof of shower: scenes, laws of its population and its region, and mutants.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,8 +10,8 @@
 
 // --- laws ---
 
-// There are as many as the tally says, and no more than eq. 1 can want; what was born has died or
-// is there.
+// The number of particles is the tally's, and at most what eq. 1 can ask for; each one born is
+// alive or has died.
 static bool population_is_sound(const struct rg_instance *instance, char *detail, size_t size)
 {
     const struct shower *s = (const struct shower *)instance;
@@ -36,15 +36,15 @@ static bool population_is_sound(const struct rg_instance *instance, char *detail
     return holds;
 }
 
-// By how much a drop's upper end may lie beside its lower one, in the layer that falls slowest.
+// The largest sideways distance between a drop's ends, in the layer that falls slowest.
 static double lean_m(const shower_params *p)
 {
     const double wind_m_s = hypot((double)p->wind_x, (double)p->wind_z);
     return (double)p->height_m * (1 + 3 * wind_m_s / (double)p->fall_m_s);
 }
 
-// A particle falls, and lies within the body that is seen, but for the drop's other end; where all
-// are promoted, also above the ground.
+// A particle falls, and is in the visible body except perhaps for the drop's other end; where all
+// are promoted, it is also above the ground.
 static const char *fault_of(const shower_params *p, const float at[3], float fall)
 {
     const double x = (double)at[0] - (double)p->eye_x, y = (double)at[1] - (double)p->eye_y;
@@ -118,7 +118,7 @@ static const struct rg_mutant mutants[] = {
     {NULL, NULL, 0, 0},
 };
 
-// Rain that shows: a wider space in front of a small picture, and bright drops.
+// Settings that make rain visible: a wider space in front of a small picture, and bright drops.
 #define BRIGHT      "particles=20000 drop_height_m=1 opacity=1 light=3 "
 #define BARE        "geometry=off " BRIGHT
 #define TRADITIONAL BARE "system=traditional "

@@ -8,8 +8,8 @@
 #include "core/techniques/params.h"
 
 enum shower_system { SHOWER_TRADITIONAL, SHOWER_IMPROVED };
-// Each improvement has a switch: as the system has it, as the traditional one, or as the improved.
-// There are two traditional ways of renewal: on the device, and with the host's own memory.
+// Each improvement has a switch: as the system's default, as the traditional system, or as the
+// improved one. Renewal has two traditional ways: on the device, and with memory of the host.
 enum shower_switch { SHOWER_AUTO, SHOWER_OLD, SHOWER_NEW, SHOWER_HEAP };
 enum shower_birth { SHOWER_PAPER, SHOWER_WHOLE, SHOWER_VOLUME };
 
@@ -21,7 +21,7 @@ struct shower_settings {
     int system;                                      // enum shower_system
     int state, shape, crop, motion, renewal, layers; // enum shower_switch
     int memory_mb;
-    // Where they are born, and how they move.
+    // Their birth and motion.
     int birth; // enum shower_birth
     double near_m, drop_height_m, drop_width_m;
     double wind_m_s, wind_deg, gust, gust_s;
@@ -36,7 +36,7 @@ struct shower_settings {
     double light, opacity;
 };
 
-// Whether a switch stands for the improved way, or the system does where the switch leaves it.
+// Whether a switch selects the improved way, directly or by the system's default.
 bool shower_is_new(const struct shower_settings *settings, int choice);
 
 extern const struct rg_param_table shower_param_table;

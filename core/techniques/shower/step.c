@@ -1,12 +1,12 @@
-// A step of shower: particles move and end; then as many are born as there should be (section II),
-// or those that ended are promoted (section III.D).
+// A step of shower: particles move and die; then new ones are born up to the expected number
+// (section II), or the dead are promoted (section III.D).
 #include <math.h>
 #include <string.h>
 
 #include "core/techniques/shower/instance.h"
 #include "kernels/dialect/rng.h"
 
-// Eq. 1 without the particles that there are: so many there should be. R0 is even in [-1, 1).
+// The number of particles by eq. 1. R0 is uniform in [-1, 1).
 static int wanted_at(const struct shower_settings *s, int64_t frame)
 {
     const rg_uint4 words = rg_random((uint32_t)s->seed, 0, (uint32_t)frame, SHOWER_NUMBER);
@@ -14,7 +14,7 @@ static int wanted_at(const struct shower_settings *s, int64_t frame)
     return s->particles + (int)floor(r0 * s->variation * s->particles + 0.5);
 }
 
-// The wind of a frame (eqs. 9 and 11), which rises and falls in gusts.
+// The wind of a frame (eqs. 9 and 11), with gusts.
 static void set_wind(struct shower *s, int64_t frame)
 {
     const struct shower_settings *set = &s->settings;
@@ -40,7 +40,7 @@ static bool renew_by_promotion(struct shower *s)
                          (struct rg_extent){chunks, 1, 1});
 }
 
-// The counters go on from the tally, whose words are modulo 2^32.
+// Advances the counters by the tally's increase, whose words are modulo 2^32.
 static bool count(struct shower *s)
 {
     static const int words[] = {SHOWER_BORN, SHOWER_DIED, SHOWER_RAISED, SHOWER_PASSED,

@@ -11,7 +11,7 @@ static void *fail(struct rg_instance *instance)
     return NULL;
 }
 
-// A new asset that holds nothing yet.
+// Adds an empty asset.
 static struct rg_asset *add(struct rg_instance *instance, const char *name)
 {
     if (instance->has_failed)
@@ -59,7 +59,7 @@ struct rg_asset *rg_add_room(struct rg_instance *instance, const char *name, int
     return rg_make_room(instance, asset, count) ? asset : fail(instance);
 }
 
-// In pieces, so that the host holds no second one as large.
+// Writes in pieces, so that the host needs no second buffer as large.
 static bool write_zeroes(struct rg_buf *buf, int64_t bytes)
 {
     const int64_t piece = (int64_t)4 << 20;

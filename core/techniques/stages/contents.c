@@ -43,7 +43,8 @@ bool rg_contents_read(const struct rg_asset *asset, struct rg_contents *contents
         contents->desc = asset->image->desc;
         contents->size = rg_contents_size(&contents->desc);
     }
-    contents->bytes = rg_alloc(contents->size / 4 + 1, 4, asset->name); // whole words are compared
+    contents->bytes = rg_alloc(contents->size / 4 + 1, 4, asset->name); // rounded up, because whole
+                                                                        // words are compared
     if (!contents->bytes)
         return false;
     return asset->image ? read_image(asset->image, contents->bytes)
@@ -75,7 +76,7 @@ uint64_t rg_contents_hash(const struct rg_contents *contents)
 
 // --- differences ---
 
-// Which texel, layer and level a byte of an image belongs to.
+// The texel, layer and level of an image's byte.
 static void texel_text(const struct rg_image_desc *desc, size_t byte, char *text, size_t size)
 {
     int level = 0, layer = 0;

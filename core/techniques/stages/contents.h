@@ -1,27 +1,28 @@
-// What an asset holds, brought to the host, so that instances can be compared.
+// An asset's contents on the host, for comparing instances.
 #ifndef RG_CORE_TECHNIQUES_STAGES_CONTENTS_H
 #define RG_CORE_TECHNIQUES_STAGES_CONTENTS_H
 
 #include "core/techniques/stages/instance.h"
 
-// A copy of an asset's words, which outlives the asset. Zeroed: none.
+// A copy of an asset's words, which may outlive the asset. Zeroed: none.
 struct rg_contents {
     struct rg_image_desc desc; // of an image; a buffer has no levels
     size_t size;               // in bytes
-    void *bytes; // owned. Of an image: level 0 of all layers, then level 1, rows without padding
+    void *bytes; // owned; an image's level 0 of all layers, then level 1, rows without padding
 };
 
 // The bytes of an image's contents.
 size_t rg_contents_size(const struct rg_image_desc *desc);
 
-// Reads an asset that has been made. False, and one logged line, on failure; to be freed in either
-// case.
+// Reads an asset that has an object. False, and one logged line, on failure; free the contents in
+// either case.
 bool rg_contents_read(const struct rg_asset *asset, struct rg_contents *contents);
-// Writes what an image of the same description held. False, and one logged line, on failure.
+// Writes contents back into an image of the same description. False, and one logged line, on
+// failure.
 bool rg_contents_write(const struct rg_contents *contents, struct rg_image *image);
 void rg_contents_free(struct rg_contents *contents);
 
-// What identifies the contents; equal contents have equal ones.
+// A hash; equal contents have equal hashes.
 uint64_t rg_contents_hash(const struct rg_contents *contents);
 
 // Where two of one size differ first, by how much, and in how many words: "[17] is 0.5

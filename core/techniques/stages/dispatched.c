@@ -7,7 +7,7 @@
 
 // --- taking ---
 
-// A buffer that kernels share may end within an element, where nobody looks.
+// A buffer that kernels share may end within an element, which no kernel reads.
 static bool read_slot(const struct rg_slot_info *slot, const struct rg_binding *bound,
                       struct rg_contents *contents)
 {

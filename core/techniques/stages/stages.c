@@ -8,15 +8,15 @@
 
 // --- opening ---
 
-// What is being opened.
+// State of opening stages.
 struct opening {
     struct rg_instance *instance;
     struct rg_opened_stage *stage;
     const char *scope;
 };
 
-// The asset of a name, looked for in the scope first. NULL where there is none, and one logged line
-// that names `what` asked for it.
+// Finds an asset by name, in the scope first. NULL where there is none, with one logged line that
+// names `what` asked for it.
 static struct rg_asset *find(const struct opening *o, const char *name, const char *what)
 {
     char scoped[RG_ASSET_NAME];
@@ -61,7 +61,7 @@ static bool bind_slot(const struct opening *o, const struct rg_slot_info *slot)
     return true;
 }
 
-// Refuses a row that names a slot which the kernel has not.
+// Refuses a row that names a slot that the kernel lacks.
 static bool check_names(const struct rg_stage *row, const struct rg_kernel *kernel)
 {
     for (int i = 0; i < RG_STAGE_NAMES && row->named[i].slot; i++) {

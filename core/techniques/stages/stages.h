@@ -1,5 +1,5 @@
-// What an instance runs: stages, rows of a table each of which is a kernel with what it is bound
-// to, by name. The order in which they run is plain C, in the technique's step and draw.
+// An instance's stages: rows of a table, each with a kernel and the assets bound to it, by name.
+// The order in which they run is plain C, in the technique's step and draw.
 //
 //   static const struct rg_stage stages[STAGES] = {
 //       [MOVE] = {"drops_move", .params = AT(move), .over = "drops"},
@@ -10,26 +10,25 @@
 
 #include "core/techniques/stages/instance.h"
 
-// Opens stages: the first is `return` of the call, the others follow in order. `owner` is the
-// struct that rows say where in it their parameters lie; it outlives the instance's last run. A
-// slot is bound to the asset of its name, or of the name that the row gives it: one of `scope`,
-// "scope.name", if there is one, else "name"; `scope` may be NULL. A name that no asset has, an
-// asset of another kind or format, or a slot that the kernel has not, is refused with one logged
-// line. -1 on failure.
+// Opens stages; returns the index of the first, the others follow in order, or -1 on failure.
+// `owner` is the struct that holds the rows' parameters, and must outlive the last run. A slot is
+// bound to the asset of its name, or of the name in the row: "scope.name" if there is one, else
+// "name"; `scope` may be NULL. Refused, with one logged line, are a name that no asset has, an
+// asset of another kind or format, and a slot that the kernel lacks.
 int rg_open_stages(struct rg_instance *instance, const struct rg_stage *rows, int count,
                    const void *owner, const char *scope);
 
-// Runs a stage over the items of its row, if the stage was opened; else it does nothing. False,
-// with one logged line, on failure.
+// Runs a stage over its row's items; does nothing if the stage was not opened. False, with one
+// logged line, on failure.
 bool rg_stage(struct rg_instance *instance, int stage);
-// The same over items of its own, and, where `draw` is not NULL, onto another target.
+// The same over other items, or onto another target unless `draw` is NULL.
 bool rg_stage_over(struct rg_instance *instance, int stage, struct rg_extent origin,
                    struct rg_extent extent);
 bool rg_stage_onto(struct rg_instance *instance, int stage, int items, const struct rg_draw *draw);
 
-// Whether running it does something.
+// Whether running the stage does anything.
 bool rg_stage_runs(const struct rg_instance *instance, int stage);
-// What its row says of drawing; the caller may change all but the images, for runs to come.
+// The row's draw state, with which runs can be made; all but the images may be changed.
 struct rg_draw rg_stage_draw(const struct rg_instance *instance, int stage);
 // Whether the last run of a stage wrote an asset.
 bool rg_stage_wrote(const struct rg_opened_stage *stage, const struct rg_asset *asset);

@@ -5,17 +5,17 @@
 #include "core/base/log.h"
 #include "core/image/compare/compare.h"
 
-// Sizes are tried in steps of 5 %. A rain space 100 km wide has 242 of them.
+// Sizes tried are 5 % apart; a rain space 100 km wide has 242 of them.
 static const double step_factor = 1.05, least_radius_m = 1;
-// The share of the error that the radius may use. If it used all, the height could add no error and
-// would be large. Errors also differ by some 3 % from one height to the next, whose drops differ.
+// The share of the allowed error for the radius. With all of it, the height could add no error and
+// would be large. Errors also vary by some 3 % between heights, because each has other drops.
 static const double share_of_radius = 0.9;
 
 struct fit {
     struct streaks *s;
-    double radius_m, height_m; // that are tried
-    double made_m;             // the height that particles were made for; 0: none yet
-    double error;              // of the smallest sizes so far that are good enough
+    double radius_m, height_m; // the sizes being tried
+    double made_m;             // the height of the current particles; 0: none yet
+    double error;              // error at the smallest acceptable sizes so far
     struct rg_picture dry, truth;
 };
 
@@ -33,12 +33,12 @@ bool streaks_fit_begin(struct streaks_settings *set)
 
 static bool draw(struct streaks *s, struct rg_picture *picture)
 {
-    s->map_due = 0; // a dynamic depth map covers what the radius does
+    s->map_due = 0; // a dynamic depth map covers the radius
     return streaks_look(s) && s->base.technique->draw(&s->base) &&
            rg_frame_read_picture(&s->base, picture);
 }
 
-// The background of the rain mask. All drops are out of sight: few of them are enough.
+// Draws the background for the rain mask, with all drops out of sight; few drops suffice.
 static bool draw_dry(struct fit *f)
 {
     struct streaks *s = f->s;
@@ -50,7 +50,7 @@ static bool draw_dry(struct fit *f)
     return ok;
 }
 
-// The packets of the hull are enough: those that it leaves out are not seen.
+// Draws the truth. The packets of the hull suffice, since the others are invisible.
 static bool draw_unlimited(struct fit *f)
 {
     struct streaks *s = f->s;
@@ -63,7 +63,7 @@ static bool draw_unlimited(struct fit *f)
     return ok;
 }
 
-// Another height makes other drops, so that each height is compared with a truth of its own.
+// Makes particles for a height. They are other drops, so that each height needs a truth of its own.
 static bool make_height(struct fit *f)
 {
     if (f->made_m == f->height_m)
@@ -84,7 +84,7 @@ static bool compare(const struct fit *f, const struct rg_picture *picture, doubl
     return true;
 }
 
-// The error of the sizes that are being tried.
+// Computes the error at the sizes being tried.
 static bool find_error(struct fit *f, double *error)
 {
     struct rg_picture picture = {0};
@@ -98,7 +98,7 @@ static bool find_error(struct fit *f, double *error)
 
 // --- sizes ---
 
-// Rounds to centimetres, which are exact enough and read well.
+// Rounds to centimetres, which is exact enough and reads well.
 static double size_at(double least_m, double most_m, int step)
 {
     double size_m = least_m;
@@ -107,9 +107,8 @@ static double size_at(double least_m, double most_m, int step)
     return fmin(rint(size_m * 100) / 100, most_m);
 }
 
-// Makes one of the sizes, which is good enough, as small as the error allows: the next step below
-// has a larger error. The steps that are tried do not depend on the error, so allowing a larger one
-// never makes a size larger.
+// Finds the smallest acceptable value of one size: the next step below exceeds the error. The steps
+// tried do not depend on the error, so that allowing more never makes a size larger.
 static bool shrink(struct fit *f, double *size_m, double least_m, double most_error)
 {
     const double most_m = *size_m;
@@ -130,7 +129,8 @@ static bool shrink(struct fit *f, double *size_m, double least_m, double most_er
     return true;
 }
 
-// Whether there is something between the largest sizes and no rain at all.
+// Whether the search can succeed: rain is seen, the largest sizes meet the allowed error, and a
+// frame without rain exceeds it.
 static bool is_possible(struct fit *f)
 {
     const double allowed = f->s->settings.fit_error;
@@ -150,7 +150,7 @@ static bool is_possible(struct fit *f)
                     f->radius_m, f->height_m, f->error, f->error / share_of_radius + 1e-4);
 }
 
-// The fastest drop has the time to be seen as a whole streak, and then as a splash.
+// The fastest drop must have time to be seen as a whole streak and then as a splash.
 static double least_height_m(const struct streaks *s)
 {
     return s->sizes.fastest_m_s * (s->settings.exposure_s + s->settings.splash_s);
@@ -164,7 +164,7 @@ static bool search(struct fit *f)
            shrink(f, &f->height_m, least_height_m(f->s), set->fit_error);
 }
 
-// The instance as if it had been opened with the sizes that were found.
+// Leaves the instance as if it had been opened with the sizes found.
 static bool settle(struct fit *f)
 {
     struct streaks *s = f->s;
@@ -174,8 +174,7 @@ static bool settle(struct fit *f)
     for (int i = 0; i < STREAKS_COUNTERS; i++)
         s->base.counters[i].value = 0;
     s->map_due = 0;
-    // The truth, rain without limits, has left a buffer for many blocks; the sizes that were found
-    // need few.
+    // Drawing the truth, rain without limits, grew the block buffers; the sizes found need little.
     streaks_selection_release(&s->selection);
     rg_empty(s->blocks);
     return f->made_m == f->height_m || streaks_make_particles(s);
@@ -185,7 +184,7 @@ bool streaks_fit(struct streaks *s)
 {
     struct fit f = {
         .s = s, .radius_m = s->settings.culling_radius_m, .height_m = s->settings.local_height_m};
-    s->rain_alone = true; // rain itself is compared
+    s->rain_alone = true; // only rain is compared
     const bool ok = search(&f) && settle(&f);
     s->rain_alone = false;
     rg_picture_destroy(&f.dry);

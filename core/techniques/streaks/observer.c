@@ -5,7 +5,7 @@
 
 #include "core/base/log.h"
 
-// A walk ahead on level ground, with steps that sway and bob and a head that turns.
+// Moves the camera ahead on level ground, with steps that sway and bob and a turning head.
 static void walk(struct rg_camera *camera, double metres)
 {
     const double stride_m = 1.5, sway_m = 0.1, bob_m = 0.15, reach_m = 40, turn = 0.2;

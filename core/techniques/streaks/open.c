@@ -169,7 +169,7 @@ static bool create_textures(struct streaks *s)
     return s->textures;
 }
 
-// The scene comes first, for maps are drawn with its stages, and the rain's stages read them.
+// The scene is opened first, because its stages draw maps and the rain's stages read them.
 bool streaks_open(struct rg_instance *instance)
 {
     struct streaks *s = (struct streaks *)instance;

@@ -87,7 +87,7 @@ static const struct rg_param rows[] = {
 };
 // clang-format on
 
-// In the order of the choices; the first is the defaults.
+// In the order of the choices; the first has the defaults.
 static const char *const looks[] = {
     "thin_streaks=area streak_gain=1 streak_opacity=1 far_layers=4 splash_materials=on "
     "splash_up=normal splash_s=0.126 splash_width_mm=60 splash_gain=1 splash_opacity=1 "

@@ -1,4 +1,4 @@
-// The particles of streaks: thrown over the rain space, in packets, on the device.
+// Makes the particles of streaks: scattered over the rain space, grouped in packets, on the device.
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "core/device/shared.h"
 #include "core/techniques/streaks/instance.h"
 
-// Drops a cubic metre where the camera stands.
+// Drops a cubic metre at the camera's place.
 static double drops_at_camera(const struct streaks *s, const struct rg_density *density)
 {
     double rain[3];
@@ -29,7 +29,7 @@ struct rg_density *streaks_density(const struct streaks *s)
 
 // --- the rain, which instances share ---
 
-// What a rain is made of.
+// The inputs from which rain is made.
 struct making {
     const struct rg_rain_space *space;
     const struct rg_density *density;
@@ -83,7 +83,7 @@ static uint64_t hash_of(const struct rg_density *density)
     return XXH3_64bits(density->sums, corners * sizeof(*density->sums));
 }
 
-// The key holds everything that decides the particles and their packets.
+// The key must hold everything that decides the particles and their packets.
 static const struct streaks_rain *get(struct rg_device *device, const struct making *of)
 {
     static const struct rg_shared_kind kind = {"rain", make, destroy};

@@ -1,4 +1,4 @@
-// What proves streaks: its scenes, laws of its particles, and mutants.
+// The proof of streaks: its scenes, laws of its particles, and mutants.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +11,12 @@
 #define SMALL                                                                                      \
     "atlas=small city=small depth_map_px=1024 shadow_map_px=256 far_layers=0 splash_fade=0 "       \
     "state=on "
-// A sixteenth of the rain space around the city's middle, where the camera then stands: opening
-// makes every particle, and most of them are never near enough to be seen. Its rain is a fifth as
-// dense.
+// A sixteenth of the rain space around the city's middle, where the camera stands, because opening
+// makes every particle and most are never close enough to be seen. Its rain is a fifth as dense.
 #define NEAR SMALL "camera=free rain_width_m=100 rain_depth_m=100 drops_m2_s=100 "
 
-// A particle that is seen lies in the local space, a drop's streak not wholly below what it hits, a
-// splash below it by no more than it falls while it lasts.
+// A visible particle is in the local space: a drop's streak at least partly above what it hits, a
+// splash below it by no more than it falls during its life.
 static const char *fault_of(const struct streaks *s, const float *place)
 {
     const streaks_params *p = &s->params;
@@ -44,7 +43,7 @@ static bool particles_are_sound(const struct rg_instance *instance, char *detail
     const struct streaks *s = (const struct streaks *)instance;
     const int64_t count = s->selection.block_count * STREAKS_BLOCK;
     if (!instance->state_count)
-        return true; // states are not kept
+        return true; // states are not stored
     float *places = rg_alloc((size_t)count, STREAKS_STATE_WORDS * sizeof(float), "places");
     const char *fault = NULL;
     bool ok = places && rg_buf_read(instance->state[0].asset->buf, 0, places,

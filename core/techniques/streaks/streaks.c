@@ -1,6 +1,6 @@
 // streaks: rain as particles that fall through a scene, lit by a database of streaks (C. Creus,
-// "Real-time realistic rain rendering", 2010). The order of the passes stands here; open.c makes
-// what they run on, kernels/streaks/ is what they compute, and docs/streaks.md explains.
+// "Real-time realistic rain rendering", 2010). This file has the order of the passes; open.c opens
+// their stages, kernels/streaks/ has the computations, and docs/streaks.md explains.
 #include "core/techniques/streaks/streaks.h"
 
 #include <math.h>
@@ -11,8 +11,8 @@
 
 // --- passes over the selected particles ---
 
-// Runs a stage over a draw's particles. Their blocks are written first, unless it is the only draw,
-// whose blocks are on the device already.
+// Runs a stage over a draw's particles. It uploads their blocks first, unless this is the only
+// draw, whose blocks are on the device already.
 static bool run_over(struct streaks *s, enum streaks_pass pass, const struct streaks_draw *draw)
 {
     const struct rg_extent first = {0, 0, 0}, items = {draw->block_count * STREAKS_BLOCK, 1, 1};
@@ -21,7 +21,7 @@ static bool run_over(struct streaks *s, enum streaks_pass pass, const struct str
            rg_stage_over(&s->base, s->first_stage + (int)pass, first, items);
 }
 
-// All that is selected, in a local space of this top.
+// Draws the whole selection, in a local space with this top.
 static bool draw_rain_at(struct streaks *s, float top)
 {
     const bool outside = s->settings.outside && !s->rain_alone;
@@ -39,7 +39,7 @@ static bool draw_rain_at(struct streaks *s, float top)
 }
 
 // Draws the local space; without limits, every copy of it that reaches into the rain space, each
-// with a selection of its own.
+// with its own selection.
 static bool draw_rain(struct streaks *s)
 {
     const double height_m = s->settings.local_height_m;
@@ -56,7 +56,7 @@ static bool draw_rain(struct streaks *s)
 
 // --- a frame ---
 
-// Keeps each particle's place and state, for `verify` to compare.
+// Stores each particle's place and state, for `verify` to compare.
 static bool keep_state(struct streaks *s)
 {
     const int64_t items = s->selection.block_count * STREAKS_BLOCK;
@@ -81,7 +81,8 @@ static bool streaks_step(struct rg_instance *instance)
     return streaks_look(s) && (!s->settings.keeps_state || keep_state(s));
 }
 
-// Far rain is drawn behind the rain, and the overlay over it. From outside there is none.
+// Distant rain is drawn before the rain, and the overlay after it. The view from outside has no
+// distant rain.
 static bool draw_far(struct streaks *s)
 {
     return s->rain_alone || s->settings.outside || streaks_draw_far(s);
@@ -103,7 +104,7 @@ static bool streaks_draw(struct rg_instance *instance)
                                 .to_clip = rg_m4_of(viewer->world_to_clip)};
     memcpy(view.eye, viewer->camera.position, sizeof(view.eye));
     if (s->settings.outside)
-        look.sky.haze_per_m = 0; // it stands too far away to see through haze
+        look.sky.haze_per_m = 0; // the camera is too far away to see through haze
     instance->counters[STREAKS_PARTICLES].value += s->selection.particles;
     instance->counters[STREAKS_PACKETS].value += s->selection.packets;
     return scenery_draw(s->scene, &view, &look, s->lights, s->settings.geometry) && draw_far(s) &&

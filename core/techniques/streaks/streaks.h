@@ -19,7 +19,7 @@ struct streaks_settings {
     // drops of different sizes
     int spectrum, terminal_speed, kept_by_section;
     double rain_mm_h, least_diameter_mm, kept_share;
-    // what of it is simulated
+    // the simulated part of the rain space
     double local_height_m, culling_radius_m;
     int limits; // 0: rain everywhere
     int fit;    // whether height and radius are searched for
@@ -37,7 +37,7 @@ struct streaks_settings {
     // light
     int lights, environment_light, shadows, shadow_map_px;
     char lights_file[RG_PATH_SIZE];
-    // how particles look
+    // the look of particles
     int atlas, taps, absolute_views, last_mip, points;
     int look, drops, splashes, splash_materials, splashes_upright;
     double drop_radius_mm, exposure_s, splash_s, splash_width_mm;
@@ -48,7 +48,7 @@ struct streaks_settings {
     double outside_turn_deg, outside_rise_deg;
 };
 
-// The largest culling radius that may be set.
+// The largest culling radius that can be set.
 double streaks_widest_m(const struct streaks_settings *settings);
 
 extern const struct rg_param_table streaks_param_table;

@@ -1,4 +1,4 @@
-// Draws the rain: splashes, then drops before them.
+// Draws the rain: splashes, then the drops in front of them.
 #include "core/techniques/cartoon/rain/rain.h"
 
 static bool draw(struct cartoon_rain *r, enum cartoon_rain_stage stage, int items)
@@ -10,7 +10,7 @@ static bool draw(struct cartoon_rain *r, enum cartoon_rain_stage stage, int item
     return rg_stage_onto(r->instance, opened, items, &how);
 }
 
-// Each hit of the last step has made a splash, while slots lasted.
+// The splashes to draw: each hit of the last step has made one, as far as slots were free.
 static bool count_sprays(struct cartoon_rain *r, int *sprays)
 {
     uint32_t hits = 0;

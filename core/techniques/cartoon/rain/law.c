@@ -1,4 +1,4 @@
-// What the rain obeys on every device: nothing is lost.
+// The law of the rain on every device: no drop or splash is lost.
 #include <stdio.h>
 #include <stdlib.h>
 

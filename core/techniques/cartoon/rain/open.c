@@ -1,4 +1,4 @@
-// What the rain works on, and its stages.
+// The rain's assets and stages.
 #include <math.h>
 #include <string.h>
 
@@ -7,9 +7,9 @@
 
 #define PARAMS .params = offsetof(struct cartoon_rain, params)
 
-// Of the tessellated sphere of a query (kernels/cartoon/rain/hit/spheres.h).
+// The tessellation of a query's sphere (kernels/cartoon/rain/hit/spheres.h).
 enum { SLICES = 6, STACKS = 4, FACETS = SLICES * STACKS };
-enum { ITEMS_A_QUERY = 32 }; // at least FACETS, and of what struct rg_draw allows
+enum { ITEMS_A_QUERY = 32 }; // at least FACETS, and a number that struct rg_draw allows
 
 #define OVER_SCENE                                                                                 \
     .colour = "target", .depth = "depth_map", .depth_mode = RG_DEPTH_TEST, .blend = RG_BLEND_OVER
@@ -32,8 +32,8 @@ static const struct rg_stage stages[CARTOON_RAIN_STAGES] = {
     [CARTOON_RAIN_SPLASHES] = {"cartoon_splashes", PARAMS, OVER_SCENE},
 };
 
-// A sphere of radius 1: rings from the lower pole to the upper one, all corners of the first and
-// the last in one place.
+// Adds a unit sphere: rings from the lower pole to the upper one; the first and the last ring are
+// single points.
 static void add_sphere(struct cartoon_rain *r)
 {
     float corners[(STACKS + 1) * SLICES][3];
@@ -76,7 +76,8 @@ static bool allow_queries(const struct rg_device *device)
                           device->info.name);
 }
 
-// A query a drop counts the samples of its sphere, by fragments or by the API.
+// Adds the stage that counts the samples of each drop's sphere, by fragments or by the API's
+// queries.
 static void ask_with_spheres(struct cartoon_rain *r, struct rg_stage *rows)
 {
     rows[CARTOON_RAIN_COUNT].kernel = NULL;
@@ -92,7 +93,7 @@ static void ask_with_spheres(struct cartoon_rain *r, struct rg_stage *rows)
     rows[CARTOON_RAIN_SUM].kernel = NULL;
 }
 
-// Late answers outlive a step: they are part of the state.
+// Adds late answers to the state, since they outlive a step.
 static void keep_answers(struct cartoon_rain *r, struct rg_stage *rows)
 {
     if (!r->params.late) {
@@ -104,7 +105,7 @@ static void keep_answers(struct cartoon_rain *r, struct rg_stage *rows)
     rg_add_state(r->instance, answers, "answers", 0, 0);
 }
 
-// Counts come from discs, from spheres, or are not asked for.
+// Counts use discs or spheres, or are not taken.
 static bool open_stages(struct cartoon_rain *r)
 {
     struct rg_stage rows[CARTOON_RAIN_STAGES];

@@ -1,4 +1,4 @@
-// Cartoon's rain: both subsystems of particles, their collisions and their pictures.
+// Cartoon's rain: its two particle systems, their collisions and their drawing.
 #ifndef RG_CORE_TECHNIQUES_CARTOON_RAIN_RAIN_H
 #define RG_CORE_TECHNIQUES_CARTOON_RAIN_RAIN_H
 
@@ -30,7 +30,7 @@ enum cartoon_rain_stage {
 
 enum cartoon_rain_counter { CARTOON_DROPS_ASKED, CARTOON_RAIN_COUNTERS };
 
-// What it rains on, and who looks: the technique keeps it, as it is in the present frame.
+// The scene under the rain, and its camera, as of the current frame; the technique owns it.
 struct cartoon_rain_scene {
     const struct diorama *diorama;
     const struct rg_camera *camera;
@@ -43,42 +43,43 @@ struct cartoon_rain {
     struct cartoon_rain_scene scene;
     cartoon_rain_params params;
     struct cartoon_wind_script script;
-    int drops;         // of the living list in the last step
-    int sprays_before; // of the living list before the last step's hits
-    double fall_m;     // from where drops start to the ground
+    int drops;         // length of the list of living drops in the last step
+    int sprays_before; // length of the list of living splashes before the last step's hits
+    double fall_m;     // height from which drops fall to the ground
     int first_stage;
     struct rg_scan *scan;
     struct rg_asset *raindrops, *sprays, *tally, *flags, *before, *counts, *hits, *hits_before;
 };
 
-// Adds the rain's assets and stages to an instance that has the assets normal_map and depth_map.
-// Settings and scene stay where they are for its life. False, with one logged line, on failure.
+// Adds the rain's assets and stages to an instance with the assets normal_map and depth_map.
+// Settings and scene must outlive it. False, with one logged line, on failure.
 bool cartoon_rain_open(struct cartoon_rain *r, struct rg_instance *instance,
                        const struct cartoon_rain_settings *settings, int seed,
                        const struct cartoon_rain_scene *scene);
 void cartoon_rain_close(struct cartoon_rain *r);
-// A step of the rain, in the scene's depth and normal map as the camera of the frame sees them.
+// Makes a step of the rain, with the depth and normal map of the frame's camera.
 bool cartoon_rain_step(struct cartoon_rain *r);
 // Draws splashes and drops over the target.
 bool cartoon_rain_draw(struct cartoon_rain *r);
 
-// Whether each drop that was released falls, sticks, or is counted among those that are gone, and
-// likewise each splash; else `detail` says in one line what is wrong.
+// The law: each released drop falls, sticks or is counted as gone, and likewise each splash. False
+// if not; `detail` then says in one line what is wrong.
 bool cartoon_rain_holds(const struct cartoon_rain *r, char *detail, size_t size);
 
-// For the files of this folder.
+// The following is for the files of this folder.
 
-// The parameters that never change. False, with one logged line, where settings do not go together.
+// Fills in the parameters that never change. False, with one logged line, where settings conflict.
 bool cartoon_rain_fill(struct cartoon_rain *r, int seed);
-// Those of the present frame: release, wind, view.
+// Fills in the parameters of the current frame: release, wind, view.
 void cartoon_rain_refill(struct cartoon_rain *r);
-// Drops released in the steps before this one: a whole number of them each, with no remainder lost.
+// The number of drops released before this step: each step releases a whole number, and remainders
+// carry over.
 int64_t cartoon_released_before(const struct cartoon_rain_settings *settings, int64_t step);
 // Adds the image `rain_textures` and the buffer `boxes` (kernels/cartoon/rain/draw/sprite.h).
-// Returns its levels.
+// Returns the number of levels.
 int cartoon_add_textures(struct rg_instance *instance);
-// Hands over its layers as textures: drops in a row, and each pattern of splashes
-// (core/techniques/technique.h).
+// Hands over the layers as textures (core/techniques/technique.h): drops in a row, then each
+// pattern of splashes.
 bool cartoon_make_rain_textures(rg_take_texture *take, void *user);
 
 #endif

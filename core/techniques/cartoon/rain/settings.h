@@ -1,4 +1,4 @@
-// The settings of cartoon's rain: a part of the technique's own.
+// The settings of cartoon's rain, a part of the technique's.
 #ifndef RG_CORE_TECHNIQUES_CARTOON_RAIN_SETTINGS_H
 #define RG_CORE_TECHNIQUES_CARTOON_RAIN_SETTINGS_H
 
@@ -8,7 +8,7 @@ enum cartoon_wind_kind { CARTOON_WIND_CONSTANT, CARTOON_WIND_RANDOM, CARTOON_WIN
 enum cartoon_query { CARTOON_QUERY_DISCS, CARTOON_QUERY_SPHERES, CARTOON_QUERY_API };
 enum cartoon_answers { CARTOON_ANSWERS_NOW, CARTOON_ANSWERS_LATE };
 
-// Water that gathers: volumes of the heaviest drop, in m3, and how it goes.
+// Accumulated water: volumes of the heaviest drop, in m3, and how water flows and dries.
 struct cartoon_water_settings {
     int on;
     double drop_m3, dry_s, spread_m2_s, from_m;

@@ -1,20 +1,20 @@
-// What the rain's kernels are told: where drops start, how long they live, how many there may be.
+// The parameters of the rain's kernels: where drops start, how long they live, how many there may
+// be.
 #include <math.h>
 
 #include "core/base/log.h"
 #include "core/scene/matrix.h"
 #include "core/techniques/cartoon/rain/rain.h"
 
-// Drops whose ground is hidden or beyond the picture fall on, to here.
+// Drops whose ground is hidden or outside the picture fall down to here.
 #define FLOOR_M    (-0.5)
-#define LAYER_M    1.0 // that drops start in, so that they do not come in sheets
-#define SLOWEST    0.8 // share of the speed that the lightest drops have
-#define LEAST      0.4 // share of the size that the lightest drops have
+#define LAYER_M    1.0 // thickness of the layer where drops start, against sheets of drops
+#define SLOWEST    0.8 // speed of the lightest drops over that of the heaviest
+#define LEAST      0.4 // size of the lightest drops over that of the heaviest
 #define LONGEST_S  60.0
 #define MOST_BYTES 2e9
 
-// Shares of the distance from which the scene is looked at: for settings that are left to the
-// scene.
+// Defaults as shares of the camera's distance, for settings that the user leaves to the scene.
 #define DROP_SHARE   0.022
 #define SPLASH_SHARE 0.030
 #define BOUND_PX     2.5
@@ -34,10 +34,10 @@ static double focal_px(const struct cartoon_rain *r)
 
 struct way {
     int steps;
-    double aside[2]; // where it has been blown, along x and z
+    double aside[2]; // drift by the wind, along x and z
 };
 
-// The way of the slowest drop from the top of the space down to so many metres above the ground.
+// The fall of the slowest drop from a height to a lower one, in metres above the ground.
 static struct way way_down(const cartoon_rain_params *p, double from_m, double to_m)
 {
     struct way w = {0};
@@ -89,7 +89,7 @@ static cartoon_rain_params fixed_params(const struct cartoon_rain *r, int seed)
     };
 }
 
-// Where drops start: above all that is there, and at least as high as a drop falls in a second.
+// The height at which drops start: above the scene, and at least what a drop falls in a second.
 static double top_m(const struct cartoon_rain *r, const cartoon_rain_params *p)
 {
     const struct cartoon_rain_settings *s = r->settings;
@@ -99,7 +99,8 @@ static double top_m(const struct cartoon_rain *r, const cartoon_rain_params *p)
     return fmax((double)r->scene.diorama->mesh->high[1] + 1, s->speed_m_s + fmax(pull, 0) / 2);
 }
 
-// Drops live for at most life_steps and fade, then their slots are free; a splash comes of each.
+// Computes the number of slots: a drop lives for at most life_steps and fades before its slot is
+// free, and leaves one splash.
 static bool find_slots(const struct cartoon_rain_settings *s, cartoon_rain_params *p)
 {
     const double a_step = (double)s->drops_s / s->steps_s;
@@ -134,7 +135,7 @@ bool cartoon_rain_fill(struct cartoon_rain *r, int seed)
 
 // --- each frame ---
 
-// With constant drag the wind is a force that brings a drop to its speed in wind_s.
+// With constant drag, the wind is a force that brings a drop to the wind's speed within wind_s.
 static void blow(struct cartoon_rain *r, double time_s)
 {
     const struct cartoon_rain_settings *s = r->settings;
@@ -146,7 +147,8 @@ static void blow(struct cartoon_rain *r, double time_s)
     p->push_z = (float)(wind[1] / over);
 }
 
-// Drops start over the scene, and as far upwind of it as they are blown on their way.
+// Places the area where drops start: over the scene, and as far upwind as drops drift while
+// falling.
 static void place(struct cartoon_rain *r)
 {
     cartoon_rain_params *p = &r->params;
@@ -185,7 +187,7 @@ static void look(struct cartoon_rain *r)
 void cartoon_rain_refill(struct cartoon_rain *r)
 {
     const struct cartoon_rain_settings *s = r->settings;
-    const int64_t step = r->instance->frame - 1; // that is being made
+    const int64_t step = r->instance->frame - 1; // the step being made
     const int64_t before = step >= 0 ? cartoon_released_before(s, step) : 0;
     const int64_t after = step >= 0 ? cartoon_released_before(s, step + 1) : 0;
     r->params.released = (int)(after - before);

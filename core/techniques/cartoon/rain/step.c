@@ -1,7 +1,7 @@
 // A step of the rain: drops are released, fall, hit and splash; splashes age.
 //
-// Late answers are those to the queries that ended the step before. So hits come first then, on the
-// ways that drops have come in that step; a drop that has hit sticks in this one.
+// Late answers belong to the queries at the end of the step before. With them, hits are found
+// first, on the paths of that step; a drop that has hit sticks in this step.
 #include "core/techniques/cartoon/rain/rain.h"
 
 static bool run(struct cartoon_rain *r, enum cartoon_rain_stage stage, int items)
@@ -12,8 +12,8 @@ static bool run(struct cartoon_rain *r, enum cartoon_rain_stage stage, int items
                          (struct rg_extent){items, 1, 1});
 }
 
-// Slots of the dead go to the free lists, and what is created takes them from there. The host reads
-// how long the lists are, so that stages go over the living alone.
+// Returns the slots of dead particles to the free lists, from which new ones take theirs. The host
+// reads the lengths of the lists, so that stages cover only the living.
 static bool make_lists(struct cartoon_rain *r)
 {
     cartoon_rain_params *p = &r->params;
@@ -32,7 +32,7 @@ static bool make_lists(struct cartoon_rain *r)
     return run(r, CARTOON_RAIN_LIST, slots) && run(r, CARTOON_RAIN_RELEASE, p->released);
 }
 
-// Counts of visible samples, by whichever stages are open.
+// Counts visible samples, with whichever query stages are open.
 static bool query(struct cartoon_rain *r)
 {
     const int spheres = r->first_stage + CARTOON_RAIN_SPHERES;
@@ -53,7 +53,7 @@ static bool collide(struct cartoon_rain *r)
 
 bool cartoon_rain_step(struct cartoon_rain *r)
 {
-    // Answers are kept while the list is still that of the queries, and the view too.
+    // Keeps answers only while the queries' list and view still hold.
     if (!run(r, CARTOON_RAIN_KEEP, r->drops))
         return false;
     cartoon_rain_refill(r);

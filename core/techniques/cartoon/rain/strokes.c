@@ -11,7 +11,7 @@ void strokes_add(struct strokes *s, double x0, double y0, double r0, double x1, 
 
 // --- the drops ---
 
-// A streak that tapers upwards; the heavier, the rounder its head.
+// A streak that tapers upwards; heavier drops have rounder heads.
 void strokes_of_drop(struct strokes *s, int weight)
 {
     static const struct {
@@ -27,14 +27,14 @@ void strokes_of_drop(struct strokes *s, int weight)
 
 // --- the splashes ---
 
-// How far spray flies in a life, and falls back.
+// How far spray flies in its life, and how far it falls.
 #define REACH  0.62
 #define FALL   0.50
-#define GROUND 0.06 // below the middle, where the near side of the ring lies: what comes down ends
+#define GROUND 0.06 // below the middle, at the near side of the ring, where falling spray ends
 
 struct prong {
-    double lean_rad; // from upright
-    double force;    // share of REACH
+    double lean_rad; // from the vertical
+    double force;    // fraction of REACH
 };
 
 static void at_time(const struct prong *p, double t, double at[2])
@@ -43,7 +43,7 @@ static void at_time(const struct prong *p, double t, double at[2])
     at[1] = 0.5 - REACH * p->force * cos(p->lean_rad) * t + FALL * t * t * p->force;
 }
 
-// A tongue of water in the first half of its life; then a drop that flies on, until it is down.
+// A tongue of water in the first half of its life, then a drop that flies on to the ground.
 static void add_prong(struct strokes *s, const struct prong *p, double t)
 {
     double tip[2], tail[2];
@@ -55,7 +55,7 @@ static void add_prong(struct strokes *s, const struct prong *p, double t)
     strokes_add(s, tail[0], tail[1], thick * (t < 0.5 ? 0.95 : 0.45), tip[0], tip[1], thick);
 }
 
-// The ring of water that runs outwards, seen from aside; far out it breaks.
+// The ring of water that runs outwards, seen from the side; far out it breaks up.
 static void add_ring(struct strokes *s, double t, double aside)
 {
     enum { PARTS = 28 };
@@ -69,7 +69,7 @@ static void add_ring(struct strokes *s, double t, double aside)
     }
 }
 
-// What strikes steeply throws a crown up, what strikes aslant leans, and what grazes skids along.
+// Steep hits throw up a crown, oblique hits lean, grazing hits skid along.
 void strokes_of_splash(struct strokes *s, int pattern, int texture)
 {
     static const struct prong prongs[CARTOON_PATTERNS][5] = {
@@ -89,14 +89,14 @@ void strokes_of_splash(struct strokes *s, int pattern, int texture)
 
 enum { FINER = 2, LARGEST = 64 * FINER };
 
-// How far a place is outside of a stroke, in shares of the picture; below 0 inside.
+// The distance of a place from a stroke, in widths of the picture; negative inside.
 static double outside(const struct strokes *s, const struct stroke *b, double x, double y)
 {
     const double dx = b->x1 - b->x0, dy = b->y1 - b->y0, square = dx * dx + dy * dy;
     const double along =
         square > 0 ? fmin(fmax(((x - b->x0) * dx + (y - b->y0) * dy) / square, 0), 1) : 0;
     const double ax = x - b->x0 - along * dx, ay = y - b->y0 - along * dy;
-    // A hand's tremor: slow waves that do not repeat within the picture.
+    // A trembling hand: slow waves that do not repeat within the picture.
     const double stray = sin(17 * y + 5 * x) * 0.6 + sin(41 * x - 29 * y + 1) * 0.4;
     return sqrt(ax * ax + ay * ay) - (b->r0 + (b->r1 - b->r0) * along) * (1 + s->wobble * stray);
 }
@@ -119,7 +119,7 @@ static void find_distances(const struct strokes *s, int px, double *distances)
     }
 }
 
-// Water inside, ink towards the rim; soft over a texel of the finer picture.
+// Water inside, ink towards the rim; edges are blurred over a texel of the finer picture.
 static rgba colour_at(const struct strokes *s, double distance, double y, int px)
 {
     const double water[3] = {0.86 + 0.10 * y, 0.94 + 0.05 * y, 1.0}, ink[3] = {0.16, 0.34, 0.58};

@@ -1,4 +1,4 @@
-// The rain's textures: an image of a layer each, with levels, and what of them is not transparent.
+// The rain's textures: layers of an image with levels, and the boxes around their opaque parts.
 #include <math.h>
 #include <stdio.h>
 
@@ -27,7 +27,7 @@ static void paint(int layer, rgba *texels)
     strokes_paint(&s, SIDE_PX, texels);
 }
 
-// Half as large, each texel the mean of four.
+// Halves a picture; each texel is the mean of four.
 static void shrink(rgba *texels, int px)
 {
     for (int i = 0; i < px * px; i++) {
@@ -38,7 +38,7 @@ static void shrink(rgba *texels, int px)
     }
 }
 
-// Texels reach as far as the middles of their neighbours, where they are filtered.
+// The box around opaque texels; filtering extends each texel to the centres of its neighbours.
 static struct box box_of(const uint32_t *words, int px)
 {
     int left = px, right = -1, top = px, bottom = -1;
@@ -58,7 +58,7 @@ static struct box box_of(const uint32_t *words, int px)
                         (float)fmin((bottom + 1.5) * over, 1)};
 }
 
-// Drops by their weight; splashes by how they strike, and their age.
+// Names a layer: drops by weight, splashes by angle of impact and age.
 static void name_of(int layer, char *name, size_t size)
 {
     static const char *const weights[] = {"light", "middle", "heavy"};
@@ -107,7 +107,7 @@ bool cartoon_make_rain_textures(rg_take_texture *take, void *user)
     return ok;
 }
 
-// Where textures go: a layer each of an image.
+// The target of an upload: each texture goes to one layer of an image.
 struct upload {
     struct rg_image *image;
     int taken;

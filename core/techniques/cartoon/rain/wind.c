@@ -12,12 +12,12 @@
 #include "kernels/cartoon/rain/params.h"
 #include "kernels/dialect/rng.h"
 
-#define GUST_TURN_DEG 40.0 // how far a gust of 1 turns the wind
-#define FARTHEST      1e6  // seconds and degrees: between such, cosines and quotients are numbers
+#define GUST_TURN_DEG 40.0 // the angle by which a gust of 1 turns the wind
+#define FARTHEST      1e6  // seconds and degrees; within this, cosines and quotients stay finite
 
 // --- scripts ---
 
-// Takes a line: a knot, or nothing where it has none.
+// Parses a line: a knot, or nothing if it is blank or a comment.
 static bool take_line(const char *path, int line, char *text, struct cartoon_wind_script *script)
 {
     struct cartoon_wind_knot knot;
@@ -43,8 +43,8 @@ static bool take_line(const char *path, int line, char *text, struct cartoon_win
     return true;
 }
 
-// Passes over what a line goes on with behind `text`. False where that is no comment, or the text
-// holds a zero, and so what follows is unknown.
+// Skips the rest of a line after `text`. False where that is no comment, or the text holds a zero,
+// so that the rest is unknown.
 static bool skip_rest(const char *text, FILE *in)
 {
     if (strchr(text, '\n'))
@@ -102,7 +102,7 @@ static double chance_at(uint32_t seed, int64_t knot, uint32_t stream)
     return 2 * (double)rg_uniform(rg_random(seed, (uint32_t)knot, 0, stream).x) - 1;
 }
 
-// -1 to 1, smooth between a number by chance in each period.
+// Smooth noise of -1 to 1, between one random number a period.
 static double noise_at(uint32_t seed, uint32_t stream, double periods)
 {
     const double knot = floor(periods), t = periods - knot, smooth = t * t * (3 - 2 * t);

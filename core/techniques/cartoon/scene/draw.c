@@ -1,9 +1,9 @@
-// The scene of a frame: its normal map and depth, then its picture.
+// Draws a frame's scene: its normal map and depth, then its picture.
 #include <string.h>
 
 #include "core/techniques/cartoon/instance.h"
 
-// None of a stage's faces may be asked for.
+// Draws the first `faces` faces of a stage; there may be none.
 static bool draw_some(struct cartoon *c, enum cartoon_stage stage, int faces)
 {
     const struct rg_draw draw = rg_stage_draw(&c->base, stage);
@@ -20,7 +20,7 @@ static bool draw_faces(struct cartoon *c)
            draw_some(c, CARTOON_RUN_SOLIDS, solid) && draw_some(c, CARTOON_RUN_THIN, all - solid);
 }
 
-// Drawn as the maps are, so that the same face is nearest.
+// Draws face numbers in the same way as the maps, so that the same face is nearest.
 static bool draw_numbers(struct cartoon *c)
 {
     static const uint32_t nothing = 0;
@@ -42,7 +42,8 @@ static bool draw_outlines(struct cartoon *c)
             rg_stage_onto(&c->base, CARTOON_RUN_INK, c->edge_count, &draw));
 }
 
-// Whether what the camera sees is there: it was drawn in this frame, or in one that saw the same.
+// Whether the maps hold the current view: they were drawn in this frame, or in one with the same
+// view.
 static bool is_found(const struct cartoon *c)
 {
     const bool is_same = !memcmp(&c->found_by, &c->view.to_clip, sizeof(c->found_by));

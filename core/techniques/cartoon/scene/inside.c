@@ -1,4 +1,4 @@
-// Whether the camera is inside of something.
+// Tells whether the camera is inside a solid.
 #include "core/scene/vector.h"
 #include "core/techniques/cartoon/instance.h"
 
@@ -34,8 +34,8 @@ static int crossing(const struct rg_mesh *mesh, int face, const double from[3], 
 
 bool cartoon_is_inside(const struct rg_mesh *mesh, const float eye[3])
 {
-    // In a solid a ray leaves once more than it enters, whichever way it goes; beneath a sheet one
-    // of two may.
+    // A ray from inside a solid leaves once more than it enters, in any direction; two rays are
+    // tested because one may also cross a single sheet.
     static const double rays[2][3] = {{0.0131, 1, 0.0173}, {0.8117, 0.0931, 0.5813}};
     const double from[3] = {(double)eye[0], (double)eye[1], (double)eye[2]};
     bool is_inside = true;

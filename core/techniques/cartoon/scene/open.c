@@ -1,10 +1,10 @@
-// What the scene is drawn from and into.
+// The assets from which and into which the scene is drawn.
 #include <stdlib.h>
 
 #include "core/base/log.h"
 #include "core/techniques/cartoon/instance.h"
 
-// A material in a word: red, green, blue and how much it shines, from the lowest byte on.
+// Packs a material into a word: red, green, blue and gloss, from the lowest byte on.
 static uint32_t packed(const struct diorama_material *m)
 {
     const float parts[4] = {m->r, m->g, m->b, m->shine};
@@ -31,7 +31,7 @@ static void add_mesh(struct cartoon *c)
     free(normals);
 }
 
-// Without outlines the styles are given one texel without ink, and no strokes.
+// Without outlines the styles get one texel without ink; without hatching, no strokes.
 static void add_drawing(struct cartoon *c)
 {
     struct rg_instance *i = &c->base;
@@ -53,7 +53,7 @@ static void add_drawing(struct cartoon *c)
         cartoon_add_strokes(c);
 }
 
-// Collisions that ask for no faces are given one texel without one.
+// If collisions need no faces, the face map is one empty texel.
 static void add_maps(struct cartoon *c)
 {
     struct rg_instance *i = &c->base;

@@ -1,6 +1,6 @@
-// The textures of hatching: six tones of strokes on four levels (Praun et al., 2001). A stroke of a
-// tone lies in all darker ones too, and one of a level in all finer ones, where it is as wide in
-// texels. Tiles repeat, so strokes go on over their rims.
+// The textures of hatching: six tones of strokes on four levels (Praun et al., 2001). A tone's
+// strokes also lie in all darker tones, and a level's in all finer levels, with the same width in
+// texels. Tiles repeat, so that strokes wrap around.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,12 +11,12 @@
 #include "kernels/dialect/rng.h"
 
 enum { SIZE_PX = CARTOON_TILE_PX, LEVELS = CARTOON_LEVELS, TONES = CARTOON_TONES, TRIES = 10 };
-enum { MOST_STROKES = 4000 }; // of a tone
+enum { MOST_STROKES = 4000 }; // of one tone
 
-// How much of the paper each tone covers, the darkest first.
+// The share of the paper that each tone covers, the darkest first.
 static const double covers[TONES] = {0.72, 0.54, 0.39, 0.26, 0.15, 0.07};
 
-// In tiles; `across`: it goes down the tile, not along it.
+// In units of a tile; `across`: it runs down the tile, not along it.
 struct stroke {
     double x, y, length, slope, half_px;
     bool across;
@@ -34,7 +34,7 @@ static double chance(uint32_t stroke, uint32_t attempt, int which)
     return (double)rg_uniform(words[which % 4]);
 }
 
-// The darkest three tones are crossed by strokes the other way.
+// The darkest three tones also have strokes in the other direction.
 static struct stroke stroke_of(uint32_t number, uint32_t attempt, int tone)
 {
     return (struct stroke){
@@ -52,7 +52,7 @@ static double nearer(double a, double b)
     return a < b ? a : b;
 }
 
-// How much ink a stroke leaves at a texel: it is thin at its ends, and its sides are smooth.
+// The ink of a stroke at a texel: thin at the stroke's ends, smooth at its sides.
 static double ink_at(const struct stroke *s, int size, double along_px, double beside_px)
 {
     const double length = s->length * size, end = nearer(along_px, length - along_px);
@@ -61,7 +61,7 @@ static double ink_at(const struct stroke *s, int size, double along_px, double b
     return end < 0 || covered < 0 ? 0 : nearer(covered, 1);
 }
 
-// Lays a stroke over the ink of a level; or, where `laid` is false, tells what it would add.
+// Adds a stroke's ink to a level, or, unless `laid`, only returns how much it would add.
 static double lay(const struct stroke *s, int size, float *ink, bool laid)
 {
     const int x0 = (int)(s->x * size), y0 = (int)(s->y * size);
@@ -83,7 +83,7 @@ static double lay(const struct stroke *s, int size, float *ink, bool laid)
     return added / ((double)size * size);
 }
 
-// Of some strokes the one that covers most bare paper, so that strokes lie evenly.
+// The one of several random strokes that covers most bare paper, so that strokes spread evenly.
 static struct stroke best_of(const struct tones *t, int level, int tone, uint32_t number)
 {
     struct stroke best = stroke_of(number, 0, tone);
@@ -107,8 +107,8 @@ static double mean_of(const float *ink, int size)
     return sum / ((double)size * size);
 }
 
-// Adds strokes to a tone of a level until it covers enough; they lie in all that are darker or
-// finer too.
+// Adds strokes to a tone of a level, and to all darker tones and finer levels, until it covers
+// enough.
 static void darken(const struct tones *t, int level, int tone)
 {
     double mean = mean_of(t->ink[level][tone], SIZE_PX >> level);
@@ -128,7 +128,7 @@ static uint32_t paper_of(const struct tones *t, int level, int tone, int texel)
     return (uint32_t)((1 - (double)t->ink[level][tone][texel]) * 255 + 0.5);
 }
 
-// A texel's four tones, from `first` on, as bytes of paper; what is beyond the last tone is blank.
+// Packs a texel's four tones, from `first` on, as bytes of paper; beyond the last tone is blank.
 static uint32_t pack(const struct tones *t, int level, int first, int texel)
 {
     uint32_t word = 0;
@@ -186,7 +186,7 @@ void cartoon_add_strokes(struct cartoon *c)
     free_tones(&t);
 }
 
-// The strokes stand under the three patterns of splashes on a sheet.
+// Hands over a tone's level; on a sheet, strokes lie under the three patterns of splashes.
 static bool hand_over(const struct tones *t, int tone, int level, rg_take_texture *take, void *user)
 {
     uint32_t words[SIZE_PX * SIZE_PX];

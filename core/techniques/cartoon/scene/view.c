@@ -1,11 +1,11 @@
-// How the scene is looked at: camera, light, and what the programs are told of them.
+// The view of the scene: camera, light, and the parameters that kernels get of them.
 #include <math.h>
 
 #include "core/base/log.h"
 #include "core/scene/matrix.h"
 #include "core/techniques/cartoon/instance.h"
 
-// A direction: turned about the upright axis from z, and so far above the horizon.
+// A direction turned about the upright axis from +z, and raised above the horizon.
 static void direction_of(double turn_deg, double rise_deg, double direction[3])
 {
     const double turn = turn_deg * M_PI / 180, rise = rise_deg * M_PI / 180;
@@ -35,7 +35,7 @@ static struct rg_camera camera_of(const struct cartoon *c, int64_t frame)
     return camera;
 }
 
-// Pixels that something as wide as it is distant takes.
+// The size in pixels of a thing as wide as its distance.
 static double focal_px_of(const struct cartoon *c)
 {
     const double half = (double)c->view.camera.angle_deg / 360 * M_PI;

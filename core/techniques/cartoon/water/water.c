@@ -11,7 +11,7 @@ enum { CELLS = CARTOON_COLUMNS * CARTOON_COLUMNS };
 
 #define PARAMS .params = offsetof(struct cartoon_water, params)
 
-// A column gives each of its four neighbours a fifth at most, so that water never swings.
+// A column gives each of its four neighbours at most a fifth, so that water never oscillates.
 #define MOST_SPREAD 0.2
 
 static const struct rg_stage stages[CARTOON_WATER_STAGES] = {
@@ -21,11 +21,12 @@ static const struct rg_stage stages[CARTOON_WATER_STAGES] = {
                                .blend = RG_BLEND_OVER},
 };
 
-// Of drops whose volume is left to the scene so many of the heaviest lie as deep, spread over all
-// of the ground, as water is seen.
+// If the volume of drops is left to the scene, this many of the heaviest, spread over the whole
+// ground, make water of visible depth.
 #define DROPS_DEEP 5000.0
 
-// Hollows: so many columns from one to the next, and how many times deeper or higher they are.
+// Hollows: their spacing in columns, and the largest factor by which they deepen or raise the
+// ground.
 #define HOLLOW_COLUMNS 9
 #define HOLLOW         3.0
 

@@ -1,4 +1,4 @@
-// Water that gathers where drops have hit (kernels/cartoon/water/params.h), an option of cartoon.
+// Accumulated water where drops have hit (kernels/cartoon/water/params.h), an option of cartoon.
 #ifndef RG_CORE_TECHNIQUES_CARTOON_WATER_WATER_H
 #define RG_CORE_TECHNIQUES_CARTOON_WATER_WATER_H
 
@@ -7,7 +7,7 @@
 
 #define CARTOON_UNIT_M3 1e-10 // the volume of a unit
 
-// What the scene lends: the place of a pixel, the light and the ink of the frame.
+// What the scene provides each frame: the place of pixels, the light and the ink.
 struct cartoon_water_view {
     m4 from_pixel;
     float to_light[3];
@@ -22,24 +22,24 @@ enum cartoon_water_stage {
 };
 
 struct cartoon_water {
-    const struct cartoon_rain *rain; // whose hits it gathers
+    const struct cartoon_rain *rain; // the rain whose hits it collects
     const struct cartoon_water_settings *settings;
     cartoon_water_params params;
     int first_stage;
     struct rg_asset *now, *next, *account;
 };
 
-// Adds the buffers `water`, `water_next` and `account` to an instance that has rain, unless the
-// setting is off; then the other functions do nothing. False, with one logged line, on failure.
+// Adds the buffers `water`, `water_next` and `account` to an instance with rain, unless the setting
+// is off; then the other functions do nothing. False, with one logged line, on failure.
 bool cartoon_water_open(struct cartoon_water *w, const struct cartoon_rain *rain,
                         const struct cartoon_water_settings *settings);
-// A step, after one of the rain.
+// Makes a step, after the rain's.
 bool cartoon_water_step(struct cartoon_water *w);
 // Draws puddles over the target.
 bool cartoon_water_draw(struct cartoon_water *w, const struct cartoon_water_view *view);
 
-// Whether what has hit lies in columns, has evaporated, or has run off, to the unit; else `detail`
-// says in one line what is wrong.
+// The law: water that has hit is in columns, has evaporated or has run off, exact to the unit.
+// False if not; `detail` then says in one line what is wrong.
 bool cartoon_water_holds(const struct cartoon_water *w, char *detail, size_t size);
 
 #endif

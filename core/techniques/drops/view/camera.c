@@ -1,4 +1,4 @@
-// Where the pane lies in a picture, and how the camera before it stands in the world.
+// The pane's place in a picture, and the camera's place in the world.
 #include <math.h>
 
 #include "core/scene/matrix.h"
@@ -27,16 +27,16 @@ drops_view_params drops_view_of(const struct drops *d, int width, int height)
     };
 }
 
-// From (right, down, towards the viewer) on the pane to the world, whose y is up and whose -z is
-// ahead of an upright pane. The camera keeps the pane's top above, and looks out of it: up where
-// the pane lies flat, with the water on its upper side.
+// The matrix from (right, down, towards the viewer) on the pane to the world, whose y is up; an
+// upright pane is seen along -z. The camera keeps the pane's top upwards and looks through it:
+// upwards where the pane lies flat, with the water on its upper side.
 static m4 to_world_of(const drops_params *params, double tilt_deg)
 {
     const double tilt = tilt_deg * M_PI / 180;
     const double down_x = (double)params->down_x, down_y = (double)params->down_y;
     const double right[3] = {down_y, -down_x, 0};
     const double up[3] = {-down_x * sin(tilt), -down_y * sin(tilt), -cos(tilt)};
-    // The world's z is right x up, with the pane's y turned up for the product and down again.
+    // The world's z is right x up; the pane's y is flipped for the product.
     const double back[3] = {right[2] * up[1] - right[1] * up[2],
                             right[0] * up[2] - right[2] * up[0],
                             right[1] * up[0] - right[0] * up[1]};

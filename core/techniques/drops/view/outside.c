@@ -1,5 +1,5 @@
-// What lies behind the pane and around it, as a lens sees it that is focused on the pane: a point
-// far away becomes a disc, which has the aperture's angle as it is seen from the pane.
+// The background and surroundings of the pane, blurred as by a lens focused on the pane: a distant
+// point becomes a disc with the aperture's angle as seen from the pane.
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,7 +20,7 @@ static void add_environment(struct rg_instance *instance, const struct drops_set
         levels++;
     struct rg_environment *sharp =
         scenery_environment(s->environment, s->environment_px, instance->device);
-    // Seen through a pinhole a point stays one.
+    // A pinhole does not blur.
     struct rg_environment *blurred =
         sharp && s->aperture_mm > 0
             ? rg_environment_blur(sharp, 2 * atan(s->aperture_mm / s->distance_mm / 2))
@@ -36,7 +36,7 @@ static void add_environment(struct rg_instance *instance, const struct drops_set
 
 // --- the background ---
 
-// A texel as it is uploaded: light is neither negative nor without bound.
+// Packs a texel for upload; clamps light to finite values of at least 0.
 static void pack_texel(const struct rg_picture *p, const float *texel, uint16_t *halves)
 {
     for (int c = 0; c < 3; c++) {
@@ -65,7 +65,7 @@ static int levels_of(const struct rg_picture *p)
     return levels;
 }
 
-// The picture with all its levels, which it loses on the way.
+// Uploads a picture with all its levels; it is halved on the way.
 static struct rg_image *upload(struct rg_picture *p, struct rg_device *device)
 {
     const struct rg_image_desc desc = {RG_RGBA16F, p->width, p->height, 1, levels_of(p)};
@@ -79,14 +79,14 @@ static struct rg_image *upload(struct rg_picture *p, struct rg_device *device)
     return NULL;
 }
 
-// The disc that a point of the background becomes, in texels.
+// The diameter in texels of the disc that a background's point becomes.
 static double disc_px(const struct drops_settings *s, const struct rg_picture *p)
 {
-    const double wide = 2 * tan(s->background_deg * M_PI / 360); // for a distance of 1
+    const double wide = 2 * tan(s->background_deg * M_PI / 360); // at distance 1
     return s->aperture_mm / s->distance_mm * p->width / wide;
 }
 
-// Out of focus: a large picture needs fewer texels then.
+// Blurs the background, first halving a large one, which needs fewer texels then.
 static bool defocus(const struct drops_settings *s, struct rg_picture *p)
 {
     while (p->width > LARGEST_PX || p->height > LARGEST_PX ||

@@ -57,10 +57,10 @@ struct flow_settings {
 
 extern const struct rg_param_table flow_param_table;
 
-// What an instance's state holds, in this order.
+// The items of an instance's state, in order.
 enum flow_state { FLOW_STATE_WATER, FLOW_STATE_LEDGER };
 
-// How many panes the settings' scene has: 6, or 1. Front, back, right, left, top and bottom.
+// The number of panes in the scene: 6, or 1. Front, back, right, left, top and bottom.
 int flow_pane_count(const struct flow_settings *settings);
 
 // A pane's frame in the world at a frame of the simulation: tangent (right), binormal (down) and
@@ -68,38 +68,38 @@ int flow_pane_count(const struct flow_settings *settings);
 void flow_pane_frame(const struct flow_settings *settings, int pane, int64_t frame,
                      double axes[3][3]);
 
-// What distinguishes the panes at a frame: FLOW_MAX_PANES or fewer.
+// Fills in the properties by which panes differ at a frame, for FLOW_MAX_PANES or fewer.
 void flow_panes_at(const struct flow_settings *settings, int noise_size, int64_t frame,
                    flow_pane *panes);
 
-// How far the camera is from the middle of the box at a frame. It comes no nearer than half a
-// pane's side beyond the box's corners, unless it begins there.
+// The camera's distance from the middle of the box at a frame. It stays half a pane's side away
+// from the box's corners, unless it starts nearer.
 double flow_distance_mm(const struct flow_settings *settings, int64_t frame);
-// Texels along a side of a pane: resolution_px, or what the distance to the camera asks for.
+// Texels along a side of a pane: resolution_px, or what the camera's distance asks for.
 int flow_texels(const struct flow_settings *settings, int64_t frame, int height_px);
 
 // The parameters of the movement's and the normal map's kernels at a frame.
 flow_params flow_params_at(const struct flow_settings *settings, int noise_size, int64_t frame);
 flow_normals_params flow_normals_params_of(const struct flow_settings *settings);
 
-// The parameters of the drawing passes at a frame, for a target of width x height pixels: of the
-// panes and the sky. False, with one logged line, when the camera sees nothing.
+// The parameters of the drawing passes for panes and sky, at a frame and a target of width x height
+// pixels. False, with one logged line, when the camera sees nothing.
 bool flow_view_params_at(const struct flow_settings *settings, int64_t frame, int width, int height,
                          flow_view_params *params);
-// Changes the parameters of the panes to those of a model with these bounds.
+// Changes the panes' parameters to those of a model with these bounds.
 void flow_view_model(const struct flow_settings *settings, int64_t frame, const float low[3],
                      const float high[3], flow_view_params *params);
 
-// How many levels of the environment: down to the one that lights from all sides; and the level
+// The number of levels of the environment, down to the one used as ambient light; and the level
 // that drops reflect.
 int flow_environment_levels(const struct flow_settings *settings);
 int flow_reflection_level(const struct flow_settings *settings);
 
-// The drop of this number on a pane: of the seeded ones (`frame` is -1), or of those that fall in a
-// frame.
+// A drop by its number on a pane: of the initial ones if `frame` is -1, else of those that fall in
+// a frame.
 flow_splat_params flow_drop(const struct flow_settings *settings, int pane, int64_t frame,
                             int number);
-// How many drops fall on a pane in a frame: constant in the mean, without randomness.
+// The number of drops that fall on a pane in a frame: constant on average, not random.
 int flow_drops_at(const struct flow_settings *settings, int64_t frame);
 
 // The remainder map (FLOW_REMAINDER_ENTRIES floats, 0 to 1) and the noise map (size x size floats),
@@ -107,8 +107,8 @@ int flow_drops_at(const struct flow_settings *settings, int64_t frame);
 // failure.
 float *flow_remainder_map(const struct flow_settings *settings);
 float *flow_noise_map(const struct flow_settings *settings, int *size);
-// How much water clings to each texel of a pane where drops slide, in units of height, likewise:
-// size x size floats that tile from right to left.
+// How much water clings to each texel of a pane with sliding drops, in units of height: size x size
+// floats that tile horizontally. Ownership and errors as above.
 float *flow_bead_map(const struct flow_settings *settings);
 
 #endif

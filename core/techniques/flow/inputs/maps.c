@@ -24,7 +24,7 @@ static float clamp_unit(double value)
     return (float)fmin(fmax(value, 0), 1);
 }
 
-// The mean of a texel's colours, as the file's codes say it: a map is data, not light.
+// The mean of a texel's colours, as the file's codes: a map is data, not light.
 static double grey_at(const struct rg_picture *picture, int x, int y)
 {
     const int colours = rg_picture_colours(picture);
@@ -61,7 +61,7 @@ float *flow_remainder_map(const struct flow_settings *s)
     return map;
 }
 
-// A user's image becomes square by nearest sampling, its longer side kept.
+// Reads a user's image, made square by nearest sampling; its longer side is kept.
 static float *read_noise(const char *path, int *size)
 {
     struct rg_picture picture;
@@ -121,7 +121,7 @@ static bool add_octave(float *map, int octave, double weight, int seed)
 
 float *flow_bead_map(const struct flow_settings *s)
 {
-    // Of the places between, the upper half hold water, and the highest tenth all of a bead.
+    // The upper half of the noise's range holds water, the highest tenth a full bead.
     const double from = 0.5, rise = 0.4;
     const int n = s->resolution_px;
     const int cells = (int)fmin(fmax(floor(s->pane_mm / s->bead_spacing_mm + 0.5), 1), n);
@@ -153,7 +153,7 @@ float *flow_noise_map(const struct flow_settings *s, int *size)
         free(map);
         return NULL;
     }
-    // Octaves average out: the middle half of their range is stretched over the whole.
+    // Octaves average out, so the middle half of their range is stretched to the whole.
     for (int i = 0; i < NOISE_SIZE * NOISE_SIZE; i++)
         map[i] = (float)(s->noise_low +
                          (1 - s->noise_low) * (double)clamp_unit((double)map[i] / total * 2 - 0.5));

@@ -1,4 +1,4 @@
-// What flow's simulation needs of the host: orientation, drops, and the kernels' parameters.
+// The host's part of flow's simulation: orientation, drops, and the kernels' parameters.
 #include "core/techniques/flow/inputs/flow.h"
 
 #include <math.h>
@@ -7,8 +7,8 @@
 #include "core/scene/vector.h"
 #include "kernels/dialect/rng.h"
 
-// In the world x runs right, y up and z towards the viewer. Rows are a pane's tangent, binormal and
-// normal before the box turns.
+// The world's x runs right, y up and z towards the viewer. Rows are a pane's tangent, binormal and
+// normal before the box rotates.
 static const double rest[FLOW_MAX_PANES][3][3] = {
     {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}},   // front
     {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, // back
@@ -38,7 +38,7 @@ void flow_pane_frame(const struct flow_settings *s, int pane, int64_t frame, dou
     rg_turn_multiply(pitched, yaw, axes);
 }
 
-// The nearest of the eight directions to (x, y), y down: whole steps of 45 degrees (figure 8).
+// One of the eight directions, in steps of 45 degrees, as (x, y), y down (figure 8).
 static void direction_of(int eighth, int *dx, int *dy)
 {
     static const int steps[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
@@ -51,7 +51,7 @@ static void direction_of(int eighth, int *dx, int *dy)
 // which is cos(alpha) (equation 2).
 static void set_gravity(const struct flow_settings *s, double axes[3][3], flow_pane *pane)
 {
-    double gx = -axes[0][1], gy = -axes[1][1]; // of (0, -1, 0) in the world
+    double gx = -axes[0][1], gy = -axes[1][1]; // (0, -1, 0) in the world
     double along = sqrt(gx * gx + gy * gy);
     pane->speed = along > 1e-6 ? (float)fmin(along, 1) : 0;
     double eighths = atan2(gy, gx) / (M_PI / 4);
@@ -59,14 +59,14 @@ static void set_gravity(const struct flow_settings *s, double axes[3][3], flow_p
         direction_of((int)floor(eighths + 0.5), &pane->ax, &pane->ay);
         return;
     }
-    // A little is added, so that an angle that is whole but for its last bits counts as whole.
+    // The epsilon lets an angle that is whole except for rounding count as whole.
     double whole = floor(eighths + 1e-9);
     direction_of((int)whole, &pane->ax, &pane->ay);
     direction_of((int)whole + 1, &pane->bx, &pane->by);
     pane->b_share = (float)fmax(eighths - whole, 0);
 }
 
-// The way out of a resting pane over a side: 0 top, 1 bottom, 2 left, 3 right.
+// The direction out of an unrotated pane over a side: 0 top, 1 bottom, 2 left, 3 right.
 static void way_out(int pane, int side, double out[3])
 {
     const double *axis = rest[pane][side < 2 ? 1 : 0];
@@ -75,8 +75,8 @@ static void way_out(int pane, int side, double out[3])
         out[i] = sign * axis[i];
 }
 
-// What lies beyond a pane's side: the pane whose normal points there, entered by the side that
-// points back. Water that would run on to a pane that faces down falls off.
+// The neighbour beyond a pane's side: the pane whose normal points there, entered by its side that
+// points back. Water drips off instead of flowing onto a pane that faces down.
 static flow_neighbour neighbour_of(const struct flow_settings *s, int pane, int side, int64_t frame)
 {
     flow_neighbour over = {.pane = FLOW_NO_PANE};
@@ -128,7 +128,7 @@ static double fraction(double x)
     return x - floor(x);
 }
 
-// The water above which a texel reaches the texel so many below it: M for two below, and M - L more
+// The amount of water above which a texel reaches the one `texels` below: M for two, and M - L more
 // for each further one.
 static float threshold_of(const struct flow_settings *s, int texels)
 {
@@ -166,12 +166,12 @@ flow_normals_params flow_normals_params_of(const struct flow_settings *s)
     };
 }
 
-// Random streams of flow; the item is a drop's number and the step its frame, or, where drops
-// slide, drops are counted through all frames: the same ones fall whatever step_s is.
+// Random streams of flow. The item is a drop's number and the step its frame; where drops slide,
+// drops are numbered through all frames, so that the same ones fall whatever step_s is.
 enum { STREAM_SEEDED = 1, STREAM_RAIN = 2, STREAMS_A_PANE = 16 };
 
-// Drops that have fallen on a pane before a frame. A little is added, so that a number that is
-// whole but for its last bits counts as whole, whatever step_s is.
+// The number of drops that have fallen on a pane before a frame. The epsilon lets a number that is
+// whole except for rounding count as whole, whatever step_s is.
 static int64_t fallen_before(const struct flow_settings *s, int64_t frame)
 {
     const double spare = s->move == FLOW_MOVE_SLIDING ? 1e-6 : 0;
@@ -186,7 +186,7 @@ flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t fra
     rg_uint4 w = rg_random((uint)s->seed, (uint)item, is_counted ? 0u : (uint)frame,
                            stream + STREAMS_A_PANE * (uint)pane);
     const double px_per_mm = s->resolution_px / s->pane_mm;
-    // Small drops are many and large ones few: the radius falls off with the square.
+    // Small drops are frequent and large ones rare: the radius is distributed as a square.
     const double t = (double)rg_uniform(w.z) * (double)rg_uniform(w.z);
     const double radius_mm =
         s->drop_radius_min_mm + (s->drop_radius_max_mm - s->drop_radius_min_mm) * t;

@@ -1,19 +1,19 @@
-// What sliding drops need of the host: runs of a frame, the kernels' parameters, and the ways that
-// water slides.
+// The host's part of sliding drops: the runs of a frame, the kernels' parameters, and the distances
+// that water slides.
 #include "core/techniques/flow/inputs/sliding.h"
 
 #include <math.h>
 
-// A lattice's cell is at least so wide, or a texel.
+// The least width of a lattice's cell, unless a texel is wider.
 #define CELL_MM 1.1
-// By so much a run of flow_smooth widens a Gaussian, along a side; the pull is smoothed twice, the
-// water that counts as around a place four times.
+// The variance that one run of flow_smooth adds along an axis. The pull is smoothed twice, the
+// amount of water around a place four times.
 #define SMOOTHED_MM2 0.69
 #define AROUND_RUNS  4
-#define REACH_MM     3.7  // that a drop's middle carries along
-#define ASIDE_MM     2.0  // from the axis of a drop to its flanks
-#define LONGEST_MM   1.4  // that water slides in a run, so that drops do not leave their pace
-#define LEVELLED     0.22 // the most that levels in a run: a quarter is where it swings
+#define REACH_MM     3.7  // how far a drop's middle carries water along
+#define ASIDE_MM     2.0  // from a drop's axis to its flanks
+#define LONGEST_MM   1.4  // the farthest that water slides in a run, so that drops keep their speed
+#define LEVELLED     0.22 // the most that levels in a run; at a quarter it oscillates
 #define BENT_MM      0.8
 #define LEAST_MM     0.4
 #define MOST_MM      1.0
@@ -40,7 +40,7 @@ int flow_slide_runs(const struct flow_settings *s)
 {
     const double way_mm = s->slide_most_mm_s * s->step_s;
     const double longest_mm = fmin(LONGEST_MM, FLOW_MARGIN * texel_mm(s));
-    // A texel is the least that water can slide.
+    // A texel is the shortest distance that water can slide.
     return (int)fmax(ceil(way_mm / fmax(longest_mm, texel_mm(s)) - 1e-9), 1);
 }
 
@@ -49,7 +49,7 @@ static double run_s(const struct flow_settings *s)
     return s->step_s / flow_slide_runs(s);
 }
 
-// The share of a difference of height that levels between two texels in a run of the whole time.
+// The share of a height difference that levels between two texels in a run of the whole time.
 static double levelled(const struct flow_settings *s)
 {
     return s->levelling_mm_s * run_s(s) * MOST_MM / (texel_mm(s) * texel_mm(s));
@@ -65,7 +65,7 @@ static double fraction(double x)
     return x - floor(x);
 }
 
-// Evenly spread over 0 to 1, for whatever goes by whole parts: runs then add up to the whole.
+// A low-discrepancy sequence in 0 to 1, for rounding such that runs add up to the whole.
 static double phase_of(int64_t run)
 {
     return fraction((double)run * GOLDEN);
@@ -75,7 +75,7 @@ flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t ru
 {
     const int k = texels_a_cell(s);
     const double cell_mm = k * texel_mm(s), cell_mm2 = cell_mm * cell_mm;
-    // The area that a Gaussian of so many runs stands for; at least a cell.
+    // The area of a Gaussian after so many runs; at least a cell.
     const double around_mm2 = fmax(2 * M_PI * AROUND_RUNS * SMOOTHED_MM2, cell_mm2);
     const double to_height = 1 / s->relief;
     return (flow_slide_params){
@@ -100,7 +100,7 @@ flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t ru
     };
 }
 
-// Whole texels, so that the ways of all runs add up to the way in millimetres.
+// Rounds to whole texels, so that the distances of all runs add up to the exact one.
 static int32_t whole(double texels, int64_t run)
 {
     return fabs(texels) < 1e-9 ? 0 : (int32_t)floor(texels + phase_of(run));

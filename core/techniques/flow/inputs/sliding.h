@@ -5,16 +5,16 @@
 #include "core/techniques/flow/inputs/flow.h"
 #include "kernels/flow/sliding/params.h"
 
-// Cells along a side of the lattice over a pane.
+// The number of cells along a side of the lattice over a pane.
 int flow_lattice_cells(const struct flow_settings *settings);
-// A frame's time is divided into so many runs, in each of which water dries, levels and slides; and
-// in each of these it levels so many times.
+// The number of runs that divide a frame, each of which dries, levels and slides; and how often
+// each run levels.
 int flow_slide_runs(const struct flow_settings *settings);
 int flow_relax_runs(const struct flow_settings *settings);
 
-// The parameters of a run's kernels; runs are counted through all frames.
+// The parameters of a run's kernels; runs are numbered through all frames.
 flow_slide_params flow_slide_params_at(const struct flow_settings *settings, int64_t run);
-// How far water slides in a run, in whole texels: right and down, of each pane and pace.
+// How far water slides in a run, in whole texels: right and down, for each pane and pace.
 void flow_ways_at(const struct flow_settings *settings, int64_t frame, int64_t run, int32_t *ways);
 
 #endif

@@ -1,4 +1,4 @@
-// What flow's drawing needs of the host: the camera, and the drawing passes' parameters.
+// The host's part of flow's drawing: the camera, and the drawing passes' parameters.
 #include "core/techniques/flow/inputs/flow.h"
 
 #include <math.h>
@@ -6,10 +6,10 @@
 #include "core/scene/camera.h"
 #include "core/scene/matrix.h"
 
-enum { AMBIENT_PX = 8 }; // texels along a face of what lights from all sides
+enum { AMBIENT_PX = 8 }; // texels along a face of the ambient level
 
-// How far a drop displaces the picture behind a pane, in heights of the view, for a normal that
-// lies in the pane and a refraction_strength of 1.
+// How far a drop displaces the picture behind a pane, in heights of the view, for a normal parallel
+// to the pane and a refraction_strength of 1.
 #define LENS_REACH 0.2
 
 static int level_of(const struct flow_settings *s, int px)
@@ -46,7 +46,7 @@ int flow_texels(const struct flow_settings *s, int64_t frame, int height_px)
 {
     if (s->texels_a_pixel <= 0)
         return s->resolution_px;
-    // How many pixels the side of a pane covers, at the distance of the box's middle.
+    // The pixels covered by a pane's side at the distance of the box's middle.
     const double half = tan(s->view_angle_deg * M_PI / 360);
     const double px = s->view == FLOW_BOX
                           ? height_px * s->pane_mm / (2 * flow_distance_mm(s, frame) * half)
@@ -65,7 +65,8 @@ static void direction_of(double azimuth_deg, double elevation_deg, double d[3])
     d[2] = cos(a) * cos(e);
 }
 
-// Rays through pixels: `right` and `down` a pixel, `ahead` at the view's middle, all from the eye.
+// The matrix of rays through pixels: `right` and `down` are one pixel, `ahead` is the view's
+// middle, all from the eye.
 static m4 rays_of(double right[3], double down[3], double ahead[3], double eye[3], int width,
                   int height)
 {
@@ -80,7 +81,7 @@ static m4 rays_of(double right[3], double down[3], double ahead[3], double eye[3
     return rg_m4_of(m);
 }
 
-// One pane that fills the view, whatever the target's shape, seen along its normal.
+// The view of one pane that fills the target, whatever its shape, seen along its normal.
 static void see_pane(const struct flow_settings *s, int64_t frame, int width, int height,
                      flow_view_params *p)
 {
@@ -172,7 +173,7 @@ void flow_view_model(const struct flow_settings *s, int64_t frame, const float l
     float placed[16], turn[16] = {[15] = 1};
     double axes[3][3];
     rg_place(low, high, &placement, placed);
-    // The front pane's right, up and outwards are the model's x, y and z.
+    // The model's x, y and z are the front pane's right, up and outwards.
     flow_pane_frame(s, 0, frame, axes);
     for (int i = 0; i < 3; i++) {
         turn[4 * i] = (float)axes[0][i];

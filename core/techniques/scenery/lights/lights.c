@@ -16,7 +16,7 @@ static bool check(const struct scenery_lights_settings *s)
     return true;
 }
 
-// Gives each light that casts shadows its layers.
+// Converts the chosen lights, and gives each that casts shadows its layers.
 static void put_lights(const struct scenery_lights_settings *s, const struct rg_lights *chosen,
                        struct scenery_lights *lights)
 {
@@ -32,7 +32,7 @@ static void put_lights(const struct scenery_lights_settings *s, const struct rg_
     }
 }
 
-// A buffer cannot be empty: without lights it holds one that nobody reads.
+// A buffer cannot be empty, so that it has one unused light when there are none.
 static bool create_buffers(struct rg_device *device, const float world_to_frame[16],
                            struct scenery_lights *lights)
 {

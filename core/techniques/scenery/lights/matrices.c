@@ -1,5 +1,5 @@
-// From a light of a scene to what kernels read of it, with the matrices of its shadow maps. All in
-// double precision: a matrix is rounded once.
+// Converts a scene's lights to their data for kernels, with the matrices of shadow maps, in double
+// precision and rounded once.
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@ struct axes {
     double right[3], down[3], ahead[3];
 };
 
-// Axes of a light that shines along `direction`: as upright as can be.
+// Axes of a light with this direction, as upright as possible.
 static struct axes axes_along(const float direction[3])
 {
     struct axes axes;
@@ -28,7 +28,7 @@ static struct axes axes_along(const float direction[3])
     return axes;
 }
 
-// A row whose product with a point is scale (axis . (point - from)) + offset.
+// Sets a row whose product with a point is scale (axis . (point - from)) + offset.
 static void put_row(float row[4], const double axis[3], double scale, const double from[3],
                     double offset)
 {
@@ -44,7 +44,7 @@ static void corner(const float low[3], const float high[3], int k, double at[3])
         at[c] = (double)(k >> c & 1 ? high[c] : low[c]);
 }
 
-// From `from` to the farthest corner of the bounds.
+// The distance from `from` to the farthest corner of the bounds.
 static double reach_of(const float low[3], const float high[3], const double from[3])
 {
     double farthest = 0, at[3];
@@ -74,7 +74,7 @@ static struct depth_scale depth_from(const struct rg_light *light, const float l
     return depth_between(near, fmax(1.01 * reach_of(low, high, from), 10 * near));
 }
 
-// A sun's map holds the scene's bounds with a texel around them.
+// The map of a sun: the scene's bounds with a margin of one texel.
 static float put_sun(const struct rg_light *light, const float low[3], const float high[3],
                      int map_px, float rows[4][4])
 {
@@ -157,7 +157,7 @@ scenery_light scenery_light_of(const struct rg_light *light, const float low_m[3
         l.shadow_texel = put_spot(light, low_m, high_m, map_px, from, rows);
     else
         l.shadow_texel = put_point(light, low_m, high_m, map_px, from, rows);
-    if (light->kind == SCENERY_SUN) // its texels are wide
+    if (light->kind == SCENERY_SUN) // a sun's texels are wide
         l.shadow_bias_m = fmaxf(l.shadow_bias_m, l.shadow_texel);
     memcpy(&l.to_shadow, rows, sizeof(rows));
     return l;
@@ -186,7 +186,7 @@ scenery_light scenery_light_moved(const scenery_light *light, const float matrix
     rg_m4_rows(&light->to_shadow, to_shadow);
     const struct rg_matrix shadow = rg_matrix_of(to_shadow);
     struct rg_matrix moved = rg_matrix_product(&shadow, &back);
-    if (l.shadow_faces == 6) // its last row is no row of a matrix
+    if (l.shadow_faces == 6) // the last row is data, not part of a matrix
         memcpy(moved.rows[3], shadow.rows[3], sizeof(moved.rows[3]));
     rg_matrix_round(&moved, to_shadow);
     l.to_shadow = rg_m4_of(to_shadow);
@@ -195,10 +195,10 @@ scenery_light scenery_light_moved(const scenery_light *light, const float matrix
 
 // --- from a light to clip space ---
 
-// A face of a cube map, as kernels/dialect/image/cube.h has them: rows of the cube's frame, with
-// their signs, that run across, down and ahead.
+// A face of a cube map (kernels/dialect/image/cube.h): the signed rows of the cube's frame that run
+// across, down and ahead.
 static const struct cube_face {
-    int across, down, ahead; // 1 + row, negative where it runs the other way
+    int across, down, ahead; // 1 + row, negative for the opposite direction
 } cube_faces[6] = {{-3, -2, 1}, {3, -2, -1}, {1, 3, 2}, {1, -3, -2}, {1, -2, 3}, {-1, -2, -3}};
 
 static void copy_row(float to[4], float rows[4][4], int row)

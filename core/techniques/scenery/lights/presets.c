@@ -1,12 +1,12 @@
-// Which lights a scene has: a user's, or by day and by night in the order of the thesis's figure
-// 5.7: the sun, three street lamps, a red and a green traffic light, then whatever lamps are near.
+// Chooses a scene's lights: the user's, or by day and night in the order of the thesis's figure
+// 5.7: the sun, three street lamps, a red and a green traffic light, then the nearest lamps.
 #include <math.h>
 #include <string.h>
 
 #include "core/base/log.h"
 #include "core/techniques/scenery/lights/lights.h"
 
-// Colours are of a white matt surface that faces the light, of lamps at 1 m.
+// Colours are those of a white matt surface that faces the light, for lamps at 1 m.
 static const float sky_colours[][3] = {
     [SCENERY_DAY] = {0.30f, 0.34f, 0.40f}, [SCENERY_NIGHT] = {0.010f, 0.013f, 0.022f}};
 static const float sun_colours[][3] = {
@@ -34,7 +34,7 @@ static double squared_distance(const float a[3], const float b[3])
     return sum;
 }
 
-// It stands ahead of the thesis's two cameras, where drops are brightest against it.
+// The sun is ahead of the thesis's two cameras, where drops are brightest against it.
 static void add_sun(const struct scenery_lights_settings *s, struct rg_lights *lights)
 {
     struct rg_light *sun = &lights->lights[lights->count++];
@@ -46,7 +46,7 @@ static void add_sun(const struct scenery_lights_settings *s, struct rg_lights *l
     memcpy(sun->colour, sun_colours[s->time], sizeof(sun->colour));
 }
 
-// The lights so far, and which lamp each of them is.
+// The lights chosen so far, and the lamp of each.
 struct choice {
     struct rg_lights *lights;
     const struct city_lamp *lamps[SCENERY_MAX_LIGHTS];
@@ -60,8 +60,8 @@ static bool is_taken(const struct choice *choice, const struct city_lamp *lamp)
     return false;
 }
 
-// The nearest lamp of these kinds (bits) that is not yet among the lights; of equally near ones the
-// first. NULL where there is none.
+// The nearest unused lamp of these kinds (bits), the first of equally near ones. NULL where there
+// is none.
 static const struct city_lamp *nearest_lamp(const struct scenery_lights_settings *s, unsigned kinds,
                                             const struct choice *choice)
 {

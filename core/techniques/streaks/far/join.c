@@ -11,7 +11,7 @@
 struct strip {
     const uint16_t *rows;
     int count, pitch;
-    double way; // of the drop, in rows
+    double way; // distance that the drop falls, in rows
 };
 
 static double texel_of(const struct strip *strip, int row, int column)
@@ -21,7 +21,7 @@ static double texel_of(const struct strip *strip, int row, int column)
                : 0;
 }
 
-// The mean over a row that begins at `row`, which need not be whole.
+// The mean over a row's height that begins at `row`, which may be fractional.
 static double mean_of(const struct strip *strip, double row, int column)
 {
     const int whole = (int)floor(row);
@@ -29,9 +29,9 @@ static double mean_of(const struct strip *strip, double row, int column)
     return (1 - part) * texel_of(strip, whole, column) + part * texel_of(strip, whole + 1, column);
 }
 
-// A drop swings one whole time on its way. What it covers at the way's end, before the exposure
-// ends, is added to what it covers at the beginning, and the other way round: the picture then goes
-// on beyond both ends as it would in a longer exposure.
+// A drop completes one oscillation on its way. Its coverage at the end of the way is added to that
+// at the beginning and vice versa, so that the picture continues beyond both ends as in a longer
+// exposure.
 static void join_ends(const struct strip *strip, uint16_t *rows)
 {
     const int ends = (int)ceil(strip->count - strip->way);

@@ -1,5 +1,5 @@
-// What streaks add in the mean over all oscillations and a whole swing, from the atlas' level whose
-// pictures are one texel wide.
+// The mean light of streaks over all oscillations and a whole period, from the atlas's level with
+// pictures one texel wide.
 #include "core/techniques/streaks/far/means.h"
 
 #include <math.h>
@@ -16,10 +16,10 @@ enum { LEVEL = RG_ATLAS_CELL_LEVELS - 1, TURNS = 64 };
 
 enum { SAMPLES = TURNS * RG_ATLAS_OSCILLATIONS };
 
-// Of a view: the sky, and behind it the columns.
+// The pictures of a view: the sky, then the columns.
 enum { PICTURES = 1 + STREAKS_COLUMNS };
 
-// What a streak adds of each picture, at any time of the swing of each oscillation.
+// A streak's contribution from each picture, at any time of each oscillation.
 struct samples {
     float of[RG_ATLAS_VIEWS][PICTURES][SAMPLES];
 };
@@ -75,7 +75,7 @@ static double product_of(const float *a, const float *b)
     return sum;
 }
 
-// Corner 0 to 7 of a block: azimuth, elevation and view, a bit each.
+// Corner 0 to 7 of a block; the bits are azimuth, elevation and view.
 static const float *corner_of(const struct samples *samples, int view, int low, int left,
                               int corner)
 {
@@ -83,8 +83,8 @@ static const float *corner_of(const struct samples *samples, int view, int low, 
     return samples->of[view + (corner >> 2)][1 + column];
 }
 
-// A blend's square is a sum over pairs of corners. Pairs with as many upper corners along each axis
-// have the same weights: their products are averaged.
+// The square of a blend is a sum over pairs of corners. Pairs with equally many upper corners along
+// each axis have the same weights, so that their products are averaged.
 static int square_of(int a, int b)
 {
     return (a & 1) + (b & 1) + 3 * ((a >> 1 & 1) + (b >> 1 & 1)) + 9 * ((a >> 2) + (b >> 2));

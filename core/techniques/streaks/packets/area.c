@@ -5,7 +5,7 @@
 
 enum { CORNERS = 8, POINTS = CORNERS + CORNERS * (CORNERS - 1) };
 
-// Devices compute in floats, which are off by less than this share of the rain space's size.
+// An upper bound of float rounding on devices, as a share of the rain space's size.
 #define ROUNDING 1e-5
 
 static double largest_of(double a, double b, double c)
@@ -30,8 +30,8 @@ static void bound(const double (*points)[2], int count, double box[4])
 // --- the hull ---
 
 // Cuts a convex body, given by its corners, at two planes across the fall, and finds the corners of
-// what is between them: the body's corners there, and points where its edges meet the planes. All
-// pairs of corners count as edges; pairs that are no edge give points inside, which the hull drops.
+// the slice: the body's corners in it, and the points where its edges meet the planes. All pairs of
+// corners are treated as edges; false edges give inner points, which the hull drops.
 static int slice(const double corners[CORNERS][3], double above, double below, double (*points)[2])
 {
     const double planes[2] = {above, below};
@@ -55,7 +55,7 @@ static int slice(const double corners[CORNERS][3], double above, double below, d
     return count;
 }
 
-// Above 0 where c lies to the left of the way from a to b.
+// Above 0 where c is to the left of the line from a to b.
 static double turn(const double a[2], const double b[2], const double c[2])
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -100,8 +100,8 @@ static int hull_of(double (*points)[2], int count, double (*hull)[2])
     return size;
 }
 
-// Clips a polygon, as Sutherland and Hodgman do: what lies on one side of a line across an axis
-// stays.
+// Clips a polygon by Sutherland and Hodgman's method: keeps the part on one side of a line across
+// an axis.
 static int clip(double (*corners)[2], int count, int axis, double border, double sign)
 {
     double kept[80][2];
@@ -162,7 +162,7 @@ void streaks_area_of(const struct streaks_view *view, double half_x_m, double ha
     area->bottom = fmin(box[3] + area->margin, area->prism[3]);
 }
 
-// Whether a line along the hull's edge has the whole rectangle on its outer side.
+// Whether the line along an edge of the hull separates the rectangle from the hull.
 static bool separates(const double a[2], const double b[2], const double box[4])
 {
     const double out_x = b[1] - a[1], out_y = a[0] - b[0];

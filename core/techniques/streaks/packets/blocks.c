@@ -1,4 +1,4 @@
-// streaks: the blocks of the packets that a frame draws.
+// The blocks of the packets that a frame draws.
 #include <math.h>
 #include <string.h>
 
@@ -30,7 +30,7 @@ static struct streaks_run run_of(const struct streaks_packets *p, const struct s
         .turn = turn_of(view->run + streaks_cell_turn(p->settings.seed, place))};
 }
 
-// Cuts a run where its buffer ends. Returns how many runs it makes.
+// Splits a run at the ends of buffers. Returns the number of runs.
 static int cut_run(struct streaks_run whole, struct streaks_run *runs)
 {
     int count = 0;
@@ -83,7 +83,7 @@ static void write_block(uint32_t *to, int64_t slot, uint32_t mask, const struct 
     memcpy(to + 4, &run->turn, 4);
 }
 
-// Writes those of a run's blocks that are seen.
+// Writes the visible blocks of a run.
 static void write_run(const struct streaks_run *run, const uint8_t *seen, uint32_t *to)
 {
     const int64_t blocks = streaks_blocks_in(run);
@@ -97,14 +97,14 @@ static void write_run(const struct streaks_run *run, const uint8_t *seen, uint32
     }
 }
 
-// Whether a block, counted through all buffers, is one of the few of a sparse rain. A bucket's
-// blocks stand at many places, each of which has others of them.
+// Whether sparse rain keeps a block, numbered through all buffers. A bucket's blocks occur at many
+// places, each of which keeps other ones.
 static bool is_kept(int64_t block, int place, int sparse)
 {
     return sparse <= 1 || (block + place) % sparse == 0;
 }
 
-// Leaves blocks out of those of a run that are seen.
+// Thins out the visible blocks of a run.
 static void thin_out(struct streaks_run *run, int sparse, uint8_t *seen)
 {
     const int64_t blocks = streaks_blocks_in(run);
@@ -115,7 +115,7 @@ static void thin_out(struct streaks_run *run, int sparse, uint8_t *seen)
     }
 }
 
-// Sets which blocks are seen; run->block gets how many of a run's are.
+// Sets which blocks are visible; run->block gets the number of a run's visible ones.
 static void cull(const struct streaks_packets *p, const struct streaks_view *view,
                  struct streaks_run *runs, int64_t count, uint8_t *seen)
 {
@@ -133,7 +133,7 @@ static void cull(const struct streaks_packets *p, const struct streaks_view *vie
         runs[i].block = streaks_bounds_seen(p, &sight, &runs[i], seen + runs[i].first);
 }
 
-// Gives each run its place in the list, those of one buffer together and in their order.
+// Gives each run its place in the list, grouped by buffer, in order.
 static bool lay_out(const struct streaks_packets *p, struct streaks_selection *s,
                     struct streaks_run *runs, int64_t count)
 {
@@ -157,7 +157,7 @@ static bool lay_out(const struct streaks_packets *p, struct streaks_selection *s
     return reserve_blocks(s, first);
 }
 
-// The selected packets as runs, and how many blocks they have.
+// Makes runs of the selected packets, and returns their number of blocks.
 static int64_t make_runs(const struct streaks_packets *p, const struct streaks_view *view,
                          const struct streaks_selection *s, struct streaks_run *runs,
                          int64_t *blocks)

@@ -1,8 +1,7 @@
-// streaks: blocks of particles that lie close together, and which of them a view can see.
-//
-// Neighbours on the Morton curve stand side by side on the top plane, each at a height of its own.
-// So every 1024 of them are put in the order of their starts: then a block of 32 is a small box
-// that falls, and most blocks of a packet that reaches out of the view are left out.
+// Groups nearby particles into blocks, and finds the blocks that a view can see.
+//  Neighbours on the Morton curve are neighbours on the top plane, but at different heights. So
+//  every 1024 of them are sorted by start: a block of 32 is then a small falling box, and most
+//  blocks of a packet that is partly out of view are culled.
 #include <math.h>
 #include <string.h>
 
@@ -10,9 +9,9 @@
 #include "core/scene/vector.h"
 #include "core/techniques/streaks/packets/inner.h"
 
-enum { GROUP = 1024, KEYS = 1024 }; // particles, and steps of their starts
+enum { GROUP = 1024, KEYS = 1024 }; // particles, and steps of the sorting key
 
-// Roundings of particles' places, on the device and here, in metres and in turns.
+// Bounds of rounding in particles' places, on the device and here, in metres and in turns.
 static const double slack_m = 0.01;
 static const float slack_turns = 1e-5f;
 
@@ -93,7 +92,7 @@ bool streaks_bounds_make(struct streaks_packets *p)
 
 // --- the view ---
 
-// The plane through three corners of the frustum, which is on its positive side.
+// The plane through three corners of the frustum; the frustum is on its positive side.
 static void plane_through(const double a[3], const double b[3], const double c[3],
                           const double inside[3], float plane[4])
 {
@@ -114,7 +113,7 @@ static void plane_through(const double a[3], const double b[3], const double c[3
 void streaks_sight_of(const struct streaks_packets *p, const struct streaks_view *view,
                       struct streaks_sight *sight)
 {
-    // Corners of each side, two near and one far (rg_rain_view_corners).
+    // Three corners of each side, two near and one far (rg_rain_view_corners).
     static const int sides[4][3] = {{0, 4, 6}, {1, 5, 7}, {0, 4, 5}, {2, 6, 7}};
     double middle[3] = {0};
     for (int i = 0; i < 24; i++)
@@ -132,15 +131,16 @@ void streaks_sight_of(const struct streaks_packets *p, const struct streaks_view
     sight->apart = view->apart;
 }
 
-// How far the best corner of a box is inside of a plane.
+// The distance by which a box's best corner is inside a plane.
 static inline float inside(const float plane[4], const float middle[3], const float half[3])
 {
     return plane[0] * middle[0] + plane[1] * middle[1] + plane[2] * middle[2] + plane[3] +
            fabsf(plane[0]) * half[0] + fabsf(plane[1]) * half[1] + fabsf(plane[2]) * half[2];
 }
 
-// A block is as high as the local space where its particles fall apart, are coming in again at the
-// local top, or have just come in: those may still be splashes at the local ground.
+// A block counts as high as the local space if its particles fall at different speeds, are
+// re-entering at the local top, or have just re-entered, when they may still be splashes at the
+// local ground.
 static inline bool is_seen(const struct streaks_sight *s, const float low[3], const float high[3],
                            float turn)
 {

@@ -7,11 +7,12 @@
 
 enum { CELL_STREAM = 1, BUCKET_FIELD = 1, PARTS = 65536 };
 
-// The share of the rain that cells may move: a grid of 12 x 12 moves as much under the cone.
+// The share of the rain that cells may displace: a grid of 12 x 12 displaces as much under the
+// cone.
 static const double MOST_DISPLACED = 0.0625;
 
-// What a level tells apart: 1/255 of the densest rain possible, as 8 bits do, but no less than one
-// particle.
+// The step between density levels: 1/255 of the largest possible density, as in 8 bits, but at
+// least one particle.
 static double step_of(double full_cell)
 {
     return fmax(1, full_cell / (STREAKS_LEVELS - 1));
@@ -22,7 +23,7 @@ int streaks_bucket_count(const struct streaks_grid *grid, int level)
     return (int)rint(level * grid->step);
 }
 
-// The average density of a cell: of all texels that it covers, and parts of them.
+// The mean density of a cell over all texels and parts of texels in it.
 static double cell_density(const struct rg_density *map, const struct streaks_grid *grid,
                            int column, int row)
 {
@@ -32,7 +33,7 @@ static double cell_density(const struct rg_density *map, const struct streaks_gr
            (wide * high);
 }
 
-// Whole levels are met even where rounding has touched them.
+// Whether a level is whole, up to rounding.
 static bool is_whole(double level)
 {
     return fabs(level - rint(level)) < 1e-6;
@@ -45,8 +46,8 @@ static bool fits(const struct rg_density *map, const struct streaks_grid *grid, 
     return rint((is_whole(level) ? rint(level) : ceil(level)) * grid->step) <= size;
 }
 
-// Whether no cell's bucket can exceed the packet size. `worst` is where one did, for grids tried
-// before; it is asked first.
+// Whether every cell's bucket is within the packet size. `worst` is the density that failed for an
+// earlier grid; it is tested first.
 static bool all_fit(const struct rg_density *map, const struct streaks_grid *grid, double full_cell,
                     int size, double worst[2])
 {
@@ -63,7 +64,7 @@ static bool all_fit(const struct rg_density *map, const struct streaks_grid *gri
     return true;
 }
 
-// How much of a cell's rain falls elsewhere in it than the map says, in densities times texels.
+// The rain of a cell that falls elsewhere in it than the map says, in densities times texels.
 static double displaced(const struct rg_density *map, const struct streaks_grid *grid, int column,
                         int row)
 {
@@ -79,7 +80,7 @@ static double displaced(const struct rg_density *map, const struct streaks_grid 
     return sum / 2;
 }
 
-// Whether the cells are as small as the map's forms: a cell's rain is even. Summed in whole
+// Whether cells are small enough for the map: rain is nearly uniform within each. Sums are whole
 // numbers, so that threads do not matter.
 static bool is_fine(const struct rg_density *map, const struct streaks_grid *grid)
 {
@@ -92,7 +93,7 @@ static bool is_fine(const struct rg_density *map, const struct streaks_grid *gri
     return (double)sum <= MOST_DISPLACED * PARTS * rg_density_mean(map) * map->width * map->height;
 }
 
-// So many cells, as square as can be. False where that is too many.
+// Chooses so many cells, as square as possible. False where there are too many.
 static bool set_cells(const struct streaks_packets *p, double particles_m2, int across, int down,
                       double *full_cell, struct streaks_grid *grid)
 {
@@ -110,9 +111,9 @@ static int next_multiple(int of, int from)
     return (from + of - 1) / of * of;
 }
 
-// The coarsest grid whose buckets are no larger than packets. Where its cells are too large for the
-// map's forms, twice as many a side, and so on; in the end each is a texel or a part of one.
-// Returns the particles of a cell where the density is 1, or 0 where that takes too many cells.
+// Chooses the coarsest grid whose buckets fit packets. Where its cells are too large for the map,
+// they are halved along each side, again and again, down to texels or parts of texels. Returns the
+// particles of a cell at density 1, or 0 where there would be too many cells.
 static double choose_cells(const struct streaks_packets *p, const struct rg_density *map,
                            double particles_m2, struct streaks_grid *grid)
 {
@@ -147,8 +148,7 @@ double streaks_cell_turn(uint32_t seed, int64_t cell)
     return (double)rg_uniform(cell_random(seed, cell).y);
 }
 
-// A level between two whole ones becomes either, at random, so that all cells together hold as much
-// as the map asks for.
+// Rounds a level up or down at random, so that all cells together hold as much as the map asks for.
 static int level_of(double level, uint32_t seed, int64_t cell)
 {
     if (is_whole(level))

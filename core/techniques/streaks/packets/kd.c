@@ -1,4 +1,4 @@
-// streaks: the kd-tree over the top plane.
+// The kd-tree over the top plane.
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,18 +7,18 @@
 
 enum { TASK = 1 << 15, MAX_BINS = 4096 };
 
-// Each node hands the numbers of its particles down to its two children, in order.
+// Each node passes the ids of its particles to its two children, in order.
 
 struct kd {
     struct streaks_packets *packets;
-    uint32_t *ids[2]; // handed to and fro between two arrays
+    uint32_t *ids[2]; // two arrays, used alternately
 };
 
 struct kd_part {
     struct streaks_node box;
     int64_t first, count;
-    int32_t node, packet; // the indices of this node and of its first leaf
-    int array;            // where its ids lie
+    int32_t node, packet; // indices of this node and of its first leaf
+    int array;            // the array that holds its ids
 };
 
 int64_t streaks_kd_leaves(int64_t count, int size)
@@ -26,21 +26,21 @@ int64_t streaks_kd_leaves(int64_t count, int size)
     int depth = 0;
     while (count >> depth > size)
         depth++;
-    // At this depth parts hold `least` particles, and `more` parts hold one more; a part that holds
-    // one too many is halved once more.
+    // At this depth parts hold `least` particles, and `more` of them one more; a part with one too
+    // many is halved once more.
     const int64_t least = count >> depth, more = count - (least << depth);
     return ((int64_t)1 << depth) + (least == size ? more : 0);
 }
 
-// Where to cut: the first `low_count` particles in the order of (coordinate, id) are those below
-// `at`, and the first `ties` of those at it.
+// A cut: the first `low_count` particles by (coordinate, id) are those below `at`, and the first
+// `ties` of those at it.
 struct cut {
     int axis;
     uint32_t at;
     int64_t ties;
 };
 
-// Finds the coordinate by counting in ever finer bins.
+// Finds the cut's coordinate by counting in ever finer bins.
 static struct cut find_cut(const struct kd *kd, const struct kd_part *part, int axis,
                            int64_t low_count)
 {
@@ -71,7 +71,7 @@ static struct cut find_cut(const struct kd *kd, const struct kd_part *part, int 
     return (struct cut){axis, low, wanted};
 }
 
-// Moves the ids of the lower part before those of the upper one; both stay in order. Tells the
+// Moves the ids of the lower part before those of the upper one; both keep their order. Returns the
 // largest coordinate of the lower part and the least of the upper one.
 static void hand_on(const struct kd *kd, const struct kd_part *part, struct cut cut,
                     int64_t low_count, uint32_t *lower_end, uint32_t *upper_begin)

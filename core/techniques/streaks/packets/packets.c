@@ -7,8 +7,8 @@
 #include "core/base/log.h"
 #include "core/techniques/streaks/packets/inner.h"
 
-// Moves packets that lie one after the other apart, so that each begins a block. From the last on:
-// none is written over before it has moved.
+// Moves contiguous packets apart, so that each begins a block. Goes backwards, so that none is
+// overwritten before it has moved.
 static bool spread(struct streaks_packets *p)
 {
     int64_t slots = 0;
@@ -34,7 +34,7 @@ static bool spread(struct streaks_packets *p)
     return true;
 }
 
-// Copies the particles of kd packets together.
+// Copies the particles of each kd packet together.
 static bool gather(struct streaks_packets *p)
 {
     for (int64_t i = 0; i < p->info.packets; i++)
@@ -116,7 +116,7 @@ static bool build(struct streaks_packets *p, const struct streaks_scatter *scatt
     return true;
 }
 
-// The same condition by which streaks_select lists blocks.
+// Must be the condition by which streaks_select lists blocks.
 bool streaks_by_id(const struct streaks_packets *p)
 {
     return p->settings.by_id && p->info.scheme != STREAKS_GRID;

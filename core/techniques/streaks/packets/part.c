@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-enum { CHANCE_BITS = 53 }; // of the chance of a half
+enum { CHANCE_BITS = 53 }; // precision of the probability of a half
 
 // --- the lattice and the map's texels: a texel has whole lattice points, give or take one ---
 
@@ -19,7 +19,7 @@ static uint32_t edge_of(uint32_t texel, int texels)
     return at <= n ? 0 : (uint32_t)((at - n + 2 * n - 1) / (2 * n));
 }
 
-// A border between lattice points, 0 to 2^24, as a place among the texels.
+// The place among the texels of a border between lattice points, 0 to 2^24.
 static double texels_at(uint32_t lattice, int texels)
 {
     if (lattice == 1u << STREAKS_LATTICE_BITS)
@@ -29,7 +29,7 @@ static double texels_at(uint32_t lattice, int texels)
     return texel + (double)(lattice - edge) / (edge_of(texel + 1, texels) - edge);
 }
 
-// The lattice point at a place in a texel.
+// The lattice point at a fractional place in a texel.
 static uint32_t lattice_at(double place, int texel, int texels)
 {
     const uint32_t edge = edge_of((uint32_t)texel, texels);
@@ -79,7 +79,7 @@ static struct streaks_part half_of(const struct streaks_part *part, bool second)
     return half;
 }
 
-// Ones among `count` random bits: the round-th that are drawn for this part.
+// The number of ones among `count` random bits, in this part's round-th drawing.
 static int64_t ones(const struct streaks_scatter *scatter, const struct streaks_part *part,
                     int round, int64_t count)
 {
@@ -101,8 +101,8 @@ static int64_t ones(const struct streaks_scatter *scatter, const struct streaks_
     return sum;
 }
 
-// How many of `count` numbers in [0, 1) are below `chance`: all are compared with it at once, bit
-// by bit, and those that have differed from it so far are decided. About two random bits a number.
+// How many of `count` uniform random numbers are below `chance`. All are compared with it bit by
+// bit, and those that differ are decided, so that a number takes about two random bits.
 static int64_t below(const struct streaks_scatter *scatter, const struct streaks_part *part,
                      double chance)
 {
@@ -112,7 +112,7 @@ static int64_t below(const struct streaks_scatter *scatter, const struct streaks
         return part->count;
     int64_t sum = 0, open = part->count;
     for (int round = 0; round < CHANCE_BITS && open && chance > 0; round++) {
-        const int64_t low = ones(scatter, part, round, open); // their next bit is 0
+        const int64_t low = ones(scatter, part, round, open); // those whose next bit is 0
         chance *= 2;
         if (chance >= 1) {
             chance -= 1;
@@ -141,15 +141,15 @@ void streaks_part_halve(const struct streaks_scatter *scatter, const struct stre
 
 // --- a place in a part ---
 
-// Where the density summed from one side of a window reaches a share of its whole: across x, or
-// down y. Looks for the texel by halving, then goes on evenly inside it.
+// Where the density, summed from one side of a window across x or down y, reaches a share of the
+// total. Finds the texel by bisection, then interpolates inside it.
 static double reach(const struct rg_density *map, struct window w, bool down, double share,
                     int *texel)
 {
     const double wanted = share * mass(map, w);
     double *const end = down ? &w.bottom : &w.right;
     const double begin = down ? w.top : w.left, whole = *end;
-    int low = (int)begin, high = (int)ceil(whole) - 1; // the texel is one of these
+    int low = (int)begin, high = (int)ceil(whole) - 1; // the texel is in this range
     while (low < high) {
         const int middle = low + (high - low) / 2;
         *end = middle + 1;
@@ -173,7 +173,7 @@ static uint32_t clamped(uint32_t at, uint32_t low, int bits)
     return at < low ? low : at > high ? high : at;
 }
 
-// First the row, then the column among the row's texels.
+// Finds first the row, then the column.
 void streaks_part_place(const struct rg_density *map, const struct streaks_part *part,
                         rg_uint4 random, uint32_t *x, uint32_t *y)
 {

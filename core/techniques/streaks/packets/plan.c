@@ -1,4 +1,4 @@
-// streaks: how many particles there are, and which way of grouping them is taken.
+// Decides the number of particles and their scheme.
 #include <math.h>
 
 #include "core/base/log.h"
@@ -79,7 +79,7 @@ int64_t streaks_tree_bytes(int64_t nodes, int64_t packets)
            packets * (int64_t)sizeof(struct streaks_packet);
 }
 
-// The bytes of so many particles and of their blocks' bounds.
+// The bytes of particles and of their blocks' boxes.
 static int64_t bytes_of(int64_t slots, bool by_id)
 {
     return slots * STREAKS_PARTICLE_BYTES +
@@ -118,7 +118,7 @@ static struct streaks_plan plan_kd(const struct streaks_packets_settings *settin
             most3(settings->by_id ? 0 : gathering, halving, bytes_of(slots, settings->by_id))};
 }
 
-// Counts the leaves without keeping particles.
+// Counts leaves without storing particles.
 static struct streaks_plan plan_quad(const struct streaks_packets_settings *settings,
                                      const struct streaks_scatter *scatter, int64_t total)
 {
@@ -136,7 +136,7 @@ static struct streaks_plan plan_grid(const struct streaks_grid *grid)
                                  bytes_of(slots, false) + (int64_t)grid->across * grid->down};
 }
 
-// The memory that may be taken, at most what the numbers of packets and buffers suffice for.
+// The memory that may be taken, limited by the range of packet and buffer indices.
 static int64_t allowed(const struct streaks_packets_settings *settings)
 {
     const int64_t most =
@@ -167,7 +167,7 @@ static bool refuse_cells(const struct streaks_packets_settings *settings)
                     settings->packet_size, STREAKS_MAX_CELLS);
 }
 
-// The better plan: of those that fit the one with fewer packets.
+// The plan that fits, and of two that fit the one with fewer packets.
 static struct streaks_plan better(const struct streaks_packets_settings *settings,
                                   struct streaks_plan a, struct streaks_plan b)
 {
@@ -193,8 +193,8 @@ static bool choose_automatically(struct streaks_packets *p, const struct rg_dens
         *plan = better(settings, *plan, plan_grid(&p->grid));
     else if (p->grid.across)
         return false;
-    // Counting a quad-tree's leaves takes long, so it is left out where even full packets would not
-    // be fewer.
+    // Counting a quad-tree's leaves is slow, so it is skipped where even full packets would not be
+    // fewer.
     if (!fits(settings, plan) || (total + size - 1) / size < plan->packets)
         *plan = better(settings, *plan, plan_quad(settings, scatter, total));
     return true;

@@ -1,4 +1,4 @@
-// streaks: the quad-tree over the top plane.
+// The quad-tree over the top plane.
 #include "core/base/array.h"
 #include "core/base/log.h"
 #include "core/techniques/streaks/packets/inner.h"
@@ -76,7 +76,7 @@ static bool build_halves(struct streaks_packets *p, const struct quad *quad, int
     return build_quad(p, high);
 }
 
-// One lattice point may hold more particles than a packet takes: they are cut by their numbers.
+// Splits the particles of one lattice point, if they exceed a packet, by their ids.
 static bool build_heap(struct streaks_packets *p, const struct quad *quad)
 {
     struct quad low = *quad, high = *quad;

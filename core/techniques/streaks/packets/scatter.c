@@ -1,16 +1,16 @@
 #include "core/techniques/streaks/packets/scatter.h"
 
 enum {
-    LEAF = 16,         // particles that are drawn one by one
-    TASK = 1 << 17,    // particles that are worth a task of their own
+    LEAF = 16,         // particles that are placed one by one
+    TASK = 1 << 17,    // particles that are worth a parallel task
     OSCILLATIONS = 10, // streaks of different drops (section 4.3.2)
-    START_BITS = 20,   // what a float keeps beside an oscillation
+    START_BITS = 20,   // bits that a float keeps beside an oscillation
 };
 
 // --- particles of one part ---
 
 struct site {
-    uint64_t code; // along the Morton curve
+    uint64_t code; // on the Morton curve
     uint32_t x, y;
     float packed; // oscillation + start
 };
@@ -44,7 +44,7 @@ static struct site draw_site(const struct streaks_scatter *scatter, const struct
     return site;
 }
 
-// Fills a part of at most LEAF particles.
+// Places the particles of a part with at most LEAF.
 static void fill(const struct streaks_scatter *scatter, const struct streaks_part *part,
                  struct site sites[LEAF])
 {
@@ -70,7 +70,7 @@ static void write_sites(const struct streaks_scatter *scatter, const struct site
     }
 }
 
-// Many particles on one lattice point, which need no sorting.
+// Writes many particles of one lattice point, which need no sorting.
 static void write_heap(const struct streaks_scatter *scatter, const struct streaks_part *part,
                        float *particles)
 {

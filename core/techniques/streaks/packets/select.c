@@ -48,7 +48,7 @@ static bool descend(const struct streaks_packets *p, const struct streaks_area *
            (descend(p, area, index + 1, s) && descend(p, area, node->second, s));
 }
 
-// Cells that an interval of metres meets, borders included: clamped to 0 and count - 1.
+// The cells that an interval of metres meets, including borders, clamped to 0 and count - 1.
 static void cells_along(double low, double high, double half_m, int count, int *first, int *last)
 {
     const double scale = count / (2 * half_m);

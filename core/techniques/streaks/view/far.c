@@ -1,4 +1,4 @@
-// Rain beyond the culling radius, as slabs (kernels/streaks/far/far.h).
+// Rain beyond the culling radius, drawn as slabs (kernels/streaks/far/far.h).
 
 #include <math.h>
 #include <stdlib.h>
@@ -6,10 +6,10 @@
 #include "core/base/alloc.h"
 #include "core/techniques/streaks/instance.h"
 
-// Texels of the density map, a side; a larger map is averaged.
+// Width and height of the density map in texels; a larger map is averaged.
 enum { DENSITY_PX = 512 };
 
-// A pattern begins anew after so many metres of fall: four hours.
+// A pattern repeats after so many metres of fall: four hours.
 static const double longest_fall_m = 131072;
 
 static bool write_density(const struct streaks *s, const struct rg_density *density)
@@ -61,7 +61,7 @@ static streaks_far_params params_of(const struct streaks *s)
     };
 }
 
-// The observer stands within a slab, so that one more has its first part and its last.
+// The observer is inside a slab, so that one more slab is needed for its two parts.
 bool streaks_draw_far(struct streaks *s)
 {
     if (!s->settings.far_layers || !s->settings.limits ||

@@ -1,4 +1,4 @@
-// What the observer sees at the present frame: the packets, and what kernels are told of the view.
+// The observer's view of the current frame: the packets, and the view's parameters for kernels.
 #include <math.h>
 
 #include "core/scene/atlas/optics/drop.h"
@@ -6,11 +6,11 @@
 #include "core/scene/matrix.h"
 #include "core/techniques/streaks/instance.h"
 
-// How far streaks and splashes reach from their particle, in metres: those of the largest and the
-// fastest drops.
+// How far streaks and splashes of the largest and fastest drops reach from their particle, in
+// metres.
 static double splash_reach(const struct streaks *s)
 {
-    const double largest = 1.15; // of a splash, by the size that is set
+    const double largest = 1.15; // size of the largest splash over the set size
     const struct streaks_settings *set = &s->settings;
     return set->splash_width_mm / 1000 * s->sizes.largest_m / RG_DROP_RADIUS_M * largest;
 }
@@ -87,7 +87,7 @@ static void set_looks(streaks_params *p, const struct streaks_settings *set,
     p->splash_fade = fades ? (float)(1 / (set->splash_fade * set->culling_radius_m)) : 0;
 }
 
-// The camera's matrix, rays and depth in the rain frame.
+// Sets the camera's matrix, rays and depth in the rain frame.
 static void set_view(streaks_params *p, const struct rg_rain_space *space,
                      const struct streaks_observer *observer)
 {
@@ -135,7 +135,7 @@ static void set_params(struct streaks *s, const double eye[3], double top_m)
 
 // --- which blocks are drawn ---
 
-// The classes of sizes lie before them.
+// The size classes come before them.
 bool streaks_write_blocks(struct streaks *s, const struct streaks_draw *draw)
 {
     const int64_t before = (int64_t)s->sizes.count * STREAKS_SIZE_WORDS;

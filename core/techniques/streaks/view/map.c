@@ -1,7 +1,7 @@
-// The depth map: the scene seen along the fall, which tells what drops hit (Creus, sections 4.2 and
-// 4.4.2), and, where splashes ask for it, the number of the surface that is seen. A static map
-// covers the rain space, and instances on a device that need the same map share it; a dynamic one
-// covers the surroundings of the observer.
+// The depth map: the scene seen along the fall, which shows where drops hit (Creus, sections 4.2
+// and 4.4.2), and, if splashes need it, the number of the surface there. A static map covers the
+// rain space and is shared by instances on a device that need the same one; a dynamic map covers
+// the surroundings of the observer.
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static void set_extent(struct streaks *s)
     p->ground = (float)s->space.height_m;
 }
 
-// From the rain frame to the clip space of the map: its rows run along y, its depth along s.
+// The matrix from the rain frame to the map's clip space: rows run along y, depth along s.
 static m4 matrix_of(const struct streaks *s)
 {
     const streaks_params *p = &s->params;
@@ -108,7 +108,7 @@ static void *make(struct rg_device *device, const void *arg)
 
 static const struct rg_shared_kind kind = {.name = "depth map", .make = make, .destroy = destroy};
 
-// The static map's key holds everything that decides its contents.
+// The static map's key must hold everything that decides its contents.
 static struct streaks_map *get_static(struct streaks *s)
 {
     const struct rg_rain_space *space = &s->space;

@@ -1,6 +1,6 @@
-// The view from outside: a second camera looks at the rain space, or at the volume in which it
-// rains around the observer, as figures 4.1 to 4.15 of Creus' thesis do. What is drawn is what the
-// observer has selected.
+// The view from outside: a second camera looks at the rain space, or at the volume of rain around
+// the observer, as in figures 4.1 to 4.15 of Creus's thesis. It shows what the observer has
+// selected.
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@
 #include "core/scene/vector.h"
 #include "core/techniques/streaks/instance.h"
 
-// As the parameters count them.
+// In the order of the parameters' choices.
 enum { OUTSIDE_OFF, OUTSIDE_SPACE, OUTSIDE_VOLUME };
 enum { MAP_NONE, MAP_DENSITY, MAP_DEPTH };
 
@@ -32,7 +32,7 @@ void streaks_outside_close(struct streaks *s)
 
 // --- the second camera ---
 
-// The corners of what is looked at, in the world.
+// The corners, in the world, of the volume to look at.
 static void find_corners(const struct streaks *s, double corners[8][3])
 {
     const streaks_params *p = &s->params;
@@ -49,14 +49,15 @@ static void find_corners(const struct streaks *s, double corners[8][3])
     }
 }
 
-// How far from the middle the camera must stand to see a point that lies `beside` its axis and
-// `ahead` of the middle, with this tangent of half its angle of view.
+// The distance from the middle at which a camera sees a point that is `beside` its axis and `ahead`
+// of the middle; `tangent` is that of half the angle of view.
 static double distance_for(double beside, double ahead, double tangent)
 {
     return fabs(beside) / tangent - ahead;
 }
 
-// Steps back from the corners' middle until all of them are in the picture, with a margin.
+// Moves the camera back from the corners' middle until all corners are in the picture, with a
+// margin.
 static void step_back(struct rg_camera *camera, double corners[8][3], double aspect)
 {
     const double margin = 0.94, tangent = margin * tan((double)camera->angle_deg / 360 * M_PI);
@@ -100,7 +101,7 @@ bool streaks_outside_look(struct streaks *s)
 
 // --- what is drawn ---
 
-// From outside a streak would be a speck: marks are as wide and long as can be seen.
+// From outside a streak would be a speck, so marks are wide and long enough to be seen.
 void streaks_outside_marks(const struct streaks *s, streaks_params *p)
 {
     const double wide_px = 1.5, long_px = 6;

@@ -1,11 +1,11 @@
-// What the thesis's figures show beside the rain: the spaces in which it is simulated, packets,
-// lights, and the depth map (figures 4.4, 4.5, 4.11, 4.14 and 5.7).
+// The additions of the thesis's figures: the spaces of the simulation, packets, lights, and the
+// depth map (figures 4.4, 4.5, 4.11, 4.14 and 5.7).
 #include <math.h>
 
 #include "core/techniques/scenery/overlay.h"
 #include "core/techniques/streaks/instance.h"
 
-// The inks of the thesis's figures 4.4, 4.11, 4.14 and 5.7.
+// The colours of the thesis's figures 4.4, 4.11, 4.14 and 5.7.
 static const struct scenery_ink grey = {0.45f, 0.45f, 0.45f, 1, 1.5f};
 static const struct scenery_ink green = {0.05f, 0.75f, 0.10f, 1, 1.5f};
 static const struct scenery_ink red = {0.95f, 0.05f, 0.03f, 1, 2};
@@ -37,7 +37,7 @@ static void show_box(const struct streaks *s, const struct box *box, const struc
     scenery_overlay_box(s->overlay, corners, ink);
 }
 
-// A rectangle across the fall.
+// Shows a rectangle across the fall.
 static void show_sheet(const struct streaks *s, const double low[2], const double high[2],
                        double along, const struct scenery_ink *ink)
 {
@@ -73,18 +73,18 @@ static void show_spaces(const struct streaks *s)
     const struct box volume = meet(&prism, &local);
     show_box(s, &space, &grey);
     if (!s->settings.limits)
-        return; // the local space is repeated then
+        return; // the local space repeats, so it has no outline
     show_sheet(s, local.low, local.high, top, &green);
     show_sheet(s, local.low, local.high, ground, &green);
     show_box(s, &prism, &red);
     show_box(s, &volume, &blue);
 }
 
-// All packets as outlines on the top plane, the selected ones bolder.
+// Shows all packets as outlines on the top plane, the selected ones bolder.
 static void show_packets(const struct streaks *s)
 {
     const struct streaks_packets_info *info = streaks_packets_info(s->rain->packets);
-    const int most = 20000; // more are a blur
+    const int most = 20000; // more would be a blur
     int next = 0;
     for (int place = 0; place < info->places && info->places <= most; place++) {
         double r[4];
@@ -100,7 +100,7 @@ static void show_packets(const struct streaks *s)
 
 // --- what the observer sees, from outside ---
 
-// A light's frustum has its colour.
+// Shows a light's frustum in its colour.
 static void show_light(const struct streaks *s, const scenery_light *light)
 {
     const float most = fmaxf(fmaxf(light->r, light->g), fmaxf(light->b, 1e-6f));
@@ -108,7 +108,7 @@ static void show_light(const struct streaks *s, const scenery_light *light)
     scenery_overlay_light(s->overlay, light, &ink);
 }
 
-// The part of the way from a to b that lies over the top plane, on it.
+// Shows the part of the segment from a to b that is above the top plane, projected onto it.
 static void show_on_top(const struct streaks *s, const double a[3], const double b[3])
 {
     const double half[2] = {s->space.half_x_m, s->space.half_y_m};
@@ -131,8 +131,8 @@ static void show_on_top(const struct streaks *s, const double a[3], const double
     scenery_overlay_line(s->overlay, ends[0], ends[1], &black);
 }
 
-// The observer's frustum as the top plane has it: its edges along the view and at its end, and the
-// rectangle that bounds it, by which packets are selected (figure 4.14).
+// Shows the observer's frustum on the top plane: its edges along the view and at its end, and its
+// bounding rectangle, by which packets are selected (figure 4.14).
 static bool show_frustum(const struct streaks *s)
 {
     const struct rg_image_desc *desc = &s->base.target->desc;
@@ -159,7 +159,7 @@ static bool show_frustum(const struct streaks *s)
 
 // --- maps in the picture's corner ---
 
-// The n-th from above.
+// Shows a map as the n-th inset from the top.
 static bool show_map(struct streaks *s, struct rg_image *map, int n, float white_at)
 {
     const struct rg_image_desc *desc = &s->base.target->desc;

@@ -1,4 +1,4 @@
-// The sizes of drops: classes of a spectrum, or one, and what is told of the rain that they make.
+// The sizes of drops: classes of a spectrum or a single one, and the facts told of that rain.
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "core/scene/spectrum.h"
 #include "core/techniques/streaks/instance.h"
 
-// As the parameters count them.
+// In the order of the parameters' choices.
 enum { ONE_SIZE, OF_MARSHALL_PALMER, OF_BEST };
 
 static struct rg_spectrum spectrum_of(const struct streaks_settings *set)
@@ -20,7 +20,7 @@ static struct rg_spectrum spectrum_of(const struct streaks_settings *set)
     };
 }
 
-// Rayleigh's frequency of a drop of water; the second swing of the atlas is twice as fast.
+// Rayleigh's frequency of a water drop; the atlas's second oscillation is twice as fast.
 double streaks_swings_a_second(double radius_m)
 {
     const double tension_n_m = 0.0728, density_kg_m3 = 1000;
@@ -94,8 +94,8 @@ bool streaks_sizes_differ(const struct streaks *s)
     return s->sizes.count > 1;
 }
 
-// A streak adds as its drops' cross-sections do, over what is as long as they fall in the exposure:
-// what pixels vary by is its square, over that length.
+// A streak's contribution grows with its drop's cross-section, spread over the fall in the
+// exposure; the variance of pixels grows with its square over that length.
 struct streaks_alike streaks_sizes_alike(const struct streaks *s)
 {
     double section = 0, passing = 0, varied = 0;
@@ -124,7 +124,7 @@ void streaks_sizes_turn(struct streaks *s, double top_m)
 
 struct realised {
     const struct streaks *s;
-    double rain_m3_s; // water that falls, were all of it on its way through one plane
+    double rain_m3_s; // water that falls, as if all drops passed through one plane
 };
 
 static void add_drop(void *user, uint32_t number, int64_t times)
@@ -138,7 +138,7 @@ static void add_drop(void *user, uint32_t number, int64_t times)
                       radius_m * radius_m * radius_m;
 }
 
-// The rain rate that the particles make where the density map is white.
+// The rain rate of the particles where the density map is white.
 static double realised_mm_h(const struct streaks *s)
 {
     struct realised sum = {.s = s};
