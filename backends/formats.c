@@ -37,13 +37,15 @@ int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX
                                rg_level_size(desc->height, level) * desc->layers;
         words += (texels * rg_format_size(desc->format) + 3) / 4;
     }
-    return rg_format_size(desc->format) < 4 ? words + 1 : words; // two texels are read at once
+    return rg_format_size(desc->format) < 4 ? words + 1 : words; // one more, because two texels are
+                                                                 // read at once
 }
 
 void rg_plain_formats(struct rg_format_limits limits[RG_FORMAT_COUNT], int64_t max_bytes)
 {
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++) {
-        // Texels of half a word are counted in half words, so that an int reaches half as far.
+        // Texels of half a word are counted in half words, so that an int addresses half as many
+        // bytes.
         const int64_t countable = (int64_t)(formats[f].size < 4 ? INT_MAX / 2 : INT_MAX) * 4;
         limits[f] =
             (struct rg_format_limits){RG_USE_ALL, RG_PLAIN_MAX_PX, RG_PLAIN_MAX_LAYERS,

@@ -71,7 +71,7 @@ static enum rg_code_kind rounded_kind(enum rg_code_kind kind)
     }
 }
 
-// Defines RG_ROUNDED behind the first line of GLSL, which is its version.
+// Inserts the definition of RG_ROUNDED after the first line of GLSL, which is its version.
 static bool define_rounded(const struct rg_kernel *kernel, struct rg_kernel_code *code)
 {
     static const char line[] = "#define RG_ROUNDED\n";

@@ -1,7 +1,7 @@
-// What the host knows of a kernel: its parameters, its slots and its text for each driver.
+// The host's description of a kernel: its parameters, its slots and its code for each driver.
 //
-// One table row a kernel, made by the build from kernels/*.h (kernels/meson.build lists them). A
-// kernel's C functions belong to the cpu backend and are not here.
+// The build generates one table row for each kernel in kernels/*.h (listed in kernels/meson.build).
+// A kernel's C functions belong to the cpu backend and are not here.
 #ifndef RG_BACKENDS_KERNEL_H
 #define RG_BACKENDS_KERNEL_H
 
@@ -26,7 +26,7 @@ static inline bool rg_slot_is_written(enum rg_slot_kind kind)
 }
 
 struct rg_slot_info {
-    const char *name; // as the kernel calls it
+    const char *name; // the kernel's own name for the slot
     int slot;         // 1 to RG_MAX_SLOTS - 1, the binding in every API
     enum rg_slot_kind kind;
     int element_size;      // of a buffer's element, in bytes; 0 for an image
@@ -44,10 +44,10 @@ struct rg_kernel_code {
     size_t size;
 };
 
-// The same as the build embeds it, compressed by zlib: a quarter of the bytes.
+// The same as embedded by the build, compressed by zlib to a quarter of the size.
 struct rg_embedded_code {
     const unsigned char *bytes;
-    size_t packed_size, size; // 0 where the kernel has no such form
+    size_t packed_size, size; // both 0 where the kernel has no such form
 };
 
 // A GRID kernel has the first three; a DRAW program has OpenCL C and the last four.
@@ -59,35 +59,35 @@ enum rg_code_kind {
     RG_CODE_VERTEX_SPIRV,
     RG_CODE_FRAGMENT_GLSL,
     RG_CODE_FRAGMENT_SPIRV,
-    // Of programs that round quotients and roots themselves (kernels/dialect/rounding.h); their
-    // GLSL is that of others, and defines RG_ROUNDED.
+    // For programs that round quotients and roots themselves (kernels/dialect/rounding.h). Their
+    // GLSL is the normal one with RG_ROUNDED defined.
     RG_CODE_ROUNDED_SPIRV,
     RG_CODE_ROUNDED_VERTEX_SPIRV,
     RG_CODE_ROUNDED_FRAGMENT_SPIRV,
     RG_CODE_COUNT
 };
 
-// The slots of a DRAW program's own stages (kernels/dialect/draw/draw.h); its other slots are below
-// them.
+// The slots of a DRAW program's packing and drawing stages (kernels/dialect/draw/draw.h); the
+// program's other slots have lower numbers.
 enum {
     RG_SLOT_PRIMS = 12,   // packed primitives
-    RG_SLOT_COUNTS = 13,  // primitives a chunk of items, or before it
-    RG_SLOT_ARGS = 14,    // of emit: arguments of the draw
-    RG_SLOT_SAMPLES = 14, // of fragments: visible samples an item
-    RG_SLOT_FATES = 15,   // of count and emit: which items of a chunk are whole, which clipped
-    RG_SLOT_BEHIND = 15,  // of fragments: the depth that counted samples are held against
+    RG_SLOT_COUNTS = 13,  // primitives in each chunk of items, or before it
+    RG_SLOT_ARGS = 14,    // in emit: arguments of the draw
+    RG_SLOT_SAMPLES = 14, // in fragments: visible samples of each item
+    RG_SLOT_FATES = 15,   // in count and emit: which items of a chunk are whole, which clipped
+    RG_SLOT_BEHIND = 15,  // in fragments: the depth against which counted samples are tested
 };
 
-// The slots that fragments have beside the program's own, on backends that draw packed primitives.
+// Slots of fragments besides the program's own, on backends that draw packed primitives.
 enum { RG_DRAWN_SLOTS = 3 };
 extern const struct rg_slot_info rg_drawn_slots[RG_DRAWN_SLOTS];
 
-// What a DRAW program has that a GRID kernel has not.
+// Additional properties of a DRAW program.
 struct rg_draw_info {
     int corners;              // of an item: 3 or 4
     int prim_size;            // of a packed primitive, in bytes
     int call_size;            // of rg_draw_call: the draw's state and the parameters, in bytes
-    int lights_at;            // where its parameters say how many lights there are; -1: not lit
+    int lights_at;            // offset of the number of lights in its parameters; -1: not lit
     const char *count, *emit; // the GRID kernels that pack it
 };
 
@@ -100,26 +100,28 @@ struct rg_kernel {
     const struct rg_draw_info *draw;     // NULL: a GRID kernel
 };
 
-// The kernel of this name, or NULL (no message).
+// The kernel of this name, or NULL, without a message.
 const struct rg_kernel *rg_kernel_find(const char *name);
 
 // All kernels, in the order of the list; returns their number.
 int rg_kernel_all(const struct rg_kernel *const **kernels);
 
-// A kernel's place among rg_kernel_all: what a device may keep a table by.
+// A kernel's index in rg_kernel_all, for tables by kernel.
 int rg_kernel_index(const struct rg_kernel *kernel);
 
-// The code for a driver, as embedded at build time or, where RG_KERNEL_DIR names a folder, read
-// from NAME.glsl, NAME.spv, NAME.cl and so on there; `rounded`, of a program that rounds quotients
-// and roots itself. False, and one logged line, on failure; then there is nothing to free.
+// The code for a driver: embedded at build time, or, where RG_KERNEL_DIR names a folder, read from
+// NAME.glsl, NAME.spv, NAME.cl and so on there. `rounded` asks for the program that rounds
+// quotients and roots itself. False, and one logged line, on failure; then there is nothing to
+// free.
 bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, bool rounded,
                     struct rg_kernel_code *code);
 
-// What was embedded; `name` is for messages. No bytes, and true, where there is no such form.
+// Decompresses embedded code; `name` is for messages. True, without bytes, where there is no such
+// form.
 bool rg_embedded_code(const struct rg_embedded_code *embedded, const char *name,
                       struct rg_kernel_code *code);
 
-// The folder that RG_KERNEL_DIR names, or NULL. Records say so.
+// The folder named by RG_KERNEL_DIR, or NULL; records note it.
 const char *rg_kernel_override(void);
 
 #endif

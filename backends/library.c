@@ -18,7 +18,7 @@ static size_t padded(size_t size)
     return (size + 3) & ~(size_t)3;
 }
 
-// A segment of notes, each a header, its owner's name and its content.
+// Reads a segment of notes, each a header, its owner's name and its content.
 static void read_notes(const char *notes, size_t size, char id[RG_BUILD_ID_SIZE])
 {
     ElfW(Nhdr) note;
@@ -34,7 +34,7 @@ static void read_notes(const char *notes, size_t size, char id[RG_BUILD_ID_SIZE]
     }
 }
 
-// Of code, which is the same wherever it is loaded.
+// Hashes the code, which is the same wherever it is loaded.
 static void read_code(const struct dl_phdr_info *info, char id[RG_BUILD_ID_SIZE])
 {
     uint64_t hash = 0;
@@ -60,7 +60,8 @@ void rg_build_id(const struct dl_phdr_info *object, char id[RG_BUILD_ID_SIZE])
 
 // --- files ---
 
-// The line of the process's map that holds the address. False without /proc, or where no file does.
+// Finds the line of the process's map with the address. False without /proc, or where no file is
+// mapped there.
 static bool read_map(uintptr_t code, struct rg_library *library)
 {
     char line[RG_LIBRARY_PATH + 128];
@@ -84,7 +85,7 @@ static bool read_map(uintptr_t code, struct rg_library *library)
     return is_found;
 }
 
-// The same by the name that it was loaded with; the program's own has none.
+// Finds the file by the name that it was loaded with; the program's own name is empty.
 static void read_name(const char *name, struct rg_library *library)
 {
     struct stat file;
@@ -166,7 +167,7 @@ static int keep_code(struct dl_phdr_info *info, size_t size, void *user)
     return all->count == all->max;
 }
 
-// They are asked about once the walk is over, which holds the lock that looking for a symbol takes.
+// `is_wanted` is called after the walk, because the walk holds the lock that symbol look-up takes.
 int rg_libraries_find(bool (*is_wanted)(const char *path, const void *code), const void **codes,
                       int max)
 {

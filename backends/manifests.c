@@ -14,18 +14,18 @@
 #include "core/base/doing.h"
 #include "core/base/files/file.h"
 
-// A walk over the drivers of an API.
+// State of a walk over an API's drivers.
 struct walk {
     const struct rg_manifest_rules *rules;
-    bool asks;            // drivers are asked for devices
-    const char *variable; // that names what is being read; NULL: none does
-    const char *named_by; // a variable that names a driver; NULL: none does
-    int drivers;          // how many there are
-    int devices;          // that they tell of when they are asked
+    bool asks;            // drivers are asked for their devices
+    const char *variable; // the variable with the path being read; NULL: none
+    const char *named_by; // a variable that names a driver; NULL: none
+    int drivers;          // number of drivers
+    int devices;          // devices that the drivers report when asked
     bool is_named_broken;
-    char sound[4096];  // the files of those that do not fail, ':' between two; \"\": none
-    char broken[512];  // why the first of those that fail does, a named one before others; "": none
-    char foreign[512]; // the same of one that is for another kind of processor
+    char sound[4096];  // files of drivers that work, separated by ':'; "": none
+    char broken[512];  // why the first broken driver fails, preferring a named one; "": none
+    char foreign[512]; // the same for a driver for another kind of processor
 };
 
 // Appends to a line.
@@ -45,8 +45,8 @@ static bool ends_with(const char *text, const char *ending)
     return length >= end && !strcmp(text + length - end, ending);
 }
 
-// Notes that a driver fails. One for another kind of processor stands beside this machine's own
-// where packages of both are installed, and fails only where it is all that there is.
+// Notes a driver's failure. A driver for another kind of processor may be installed beside this
+// machine's, and is a failure only where there is no other.
 static void note(struct walk *walk, const char *path, const char *fault)
 {
     const bool is_foreign = !walk->variable && strstr(fault, "wrong ELF class");
@@ -78,7 +78,7 @@ static bool has_function(const struct rg_manifest_rules *rules, void *library)
     return false;
 }
 
-// Why a library is no driver that works; "": it is.
+// Tries a driver's library; `fault` says why it does not work, or is "".
 static void try_library(struct walk *walk, void *library, const char *name, char *fault,
                         size_t size)
 {
@@ -198,8 +198,8 @@ static void examine_folder(struct walk *walk, const char *folder)
         free(entries);
 }
 
-// What a variable names. A path to nothing, called unlike a driver's file, is how an API is turned
-// off ("/nonexistent"): nobody expects a driver there.
+// Examines the path in a variable. A path to nothing, unlike a driver's file name, is how users
+// switch an API off ("/nonexistent"), and is no failure.
 static void examine_named(struct walk *walk, const char *path)
 {
     const struct rg_manifest_rules *rules = walk->rules;
@@ -241,7 +241,7 @@ static const char *value_of(const char *variable)
     return value && *value ? value : NULL;
 }
 
-// The first variable of a list that is set; NULL: none is.
+// The first variable of a list that is set; NULL: none.
 static const char *first_set(const char *const *variables)
 {
     while (*variables && !value_of(*variables))
@@ -261,7 +261,7 @@ void rg_manifests_begin(const struct rg_manifest_rules *rules)
     rg_doing_begin("loading drivers of", what);
 }
 
-// Returns the variable that stands for the usual places, NULL where none does.
+// Examines all places. Returns the variable that replaces the usual ones, NULL where none is set.
 static const char *examine_all(struct walk *walk)
 {
     const struct rg_manifest_rules *rules = walk->rules;

@@ -16,14 +16,14 @@ struct operands {
     uint32_t first[COUNT], second[COUNT], result[COUNT];
 };
 
-// What the device is asked with.
+// The objects that test a device's rounding.
 struct question {
     struct rg_device *device;
     struct rg_buf *first, *second, *result;
     struct rg_pass *pass;
 };
 
-// Exponents of 2^-30 to 2^30, so that all quotients are normal, and any significands.
+// A float with any significand and an exponent of 2^-30 to 2^30, so that all quotients are normal.
 static uint32_t random_float(uint64_t *seed)
 {
     *seed = *seed * 6364136223846793005u + 1442695040888963407u;

@@ -5,11 +5,13 @@
 #include "backends/backend.h"
 #include "backends/cpu/kernels/call.h"
 
-// The instruction sets that the kernels were built for, slowest first, "reference" before all.
+// The instruction sets for which kernels were built: "reference", then from the slowest to the
+// fastest.
 struct cpu_level {
     const char *name;
-    const struct cpu_kernel *const *kernels; // in the order of rg_kernel_all; NULL: packs items
-    const struct cpu_raster *raster;         // what all its DRAW programs share; NULL: none
+    const struct cpu_kernel *const *kernels; // in the order of rg_kernel_all; NULL: a packing
+                                             // kernel
+    const struct cpu_raster *raster;         // shared by all DRAW programs of the level; NULL: none
 };
 extern const struct cpu_level cpu_levels[];
 extern const int cpu_level_count;
@@ -18,7 +20,7 @@ struct cpu_device {
     struct rg_device pub;
     const struct cpu_level *level;
     bool reference;
-    struct cpu_bins *bins; // what drawing keeps from run to run; NULL before the first
+    struct cpu_bins *bins; // buffers of drawing, reused between runs; NULL before the first
 };
 
 struct cpu_buf {
@@ -52,10 +54,10 @@ bool cpu_image_write(struct rg_image *image, int layer, int level, const void *t
 bool cpu_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool cpu_image_clear(struct rg_image *image, const void *texel);
 
-// target.c: where the texels of what a draw draws to begin.
+// target.c: the addresses of a draw's target texels.
 struct cpu_target cpu_target_of(const struct rg_draw *draw);
 
-// slots.c: a call with all that a run binds. `notes` may be NULL.
+// slots.c: a call with all bindings of a run. `notes` may be NULL.
 struct cpu_call cpu_bind(const struct rg_kernel *kernel, const struct rg_run *run,
                          struct rg_notes *notes);
 

@@ -31,7 +31,7 @@ static bool level_runs_here(const char *level)
     return true;
 }
 
-// The best level that runs here, or the one that RG_CPU_LEVEL names.
+// The best level for this processor, or the one that RG_CPU_LEVEL names.
 static const struct cpu_level *choose_level(void)
 {
     const char *wanted = getenv("RG_CPU_LEVEL");
@@ -41,7 +41,7 @@ static const struct cpu_level *choose_level(void)
     return NULL;
 }
 
-// The CPU's name as Linux tells it, or the architecture's where it does not.
+// The CPU's name from Linux, or the architecture's where there is none.
 static void read_cpu_name(char *name, size_t size)
 {
     snprintf(name, size, "unnamed CPU");
@@ -64,7 +64,7 @@ static struct rg_limits limits_of_memory(void)
     const struct rg_slot_limits any = {RG_MAX_SLOTS, RG_MAX_SLOTS, RG_MAX_SLOTS};
     struct rg_limits limits = {
         .max_objects = INT_MAX,
-        .max_buffer_bytes = (int64_t)INT_MAX * 4, // kernels count words in an int
+        .max_buffer_bytes = (int64_t)INT_MAX * 4, // kernels index words by an int
         .max_image_px = RG_PLAIN_MAX_PX,
         .max_image_layers = RG_PLAIN_MAX_LAYERS,
         .max_groups = {INT_MAX, INT_MAX, INT_MAX},
@@ -107,7 +107,7 @@ static int cpu_list(struct rg_device_info *infos, int max, char *why, size_t why
     return count;
 }
 
-// Kernels rely on round-to-nearest and on subnormal numbers being kept.
+// Kernels rely on round-to-nearest and on subnormal numbers.
 static bool floating_point_is_standard(void)
 {
     volatile float smallest_normal = 1.17549435e-38f;

@@ -8,15 +8,15 @@
 #include "core/base/log.h"
 #include "kernels/dialect/draw/coverage.h"
 
-// Chunks are large enough to be worth a thread, and small enough to share out the work.
+// Chunks are large enough to be worth a thread, and small enough to balance the load.
 enum { LEAST_CHUNK = 4 * CPU_BATCH, MOST_CHUNK = 64 * CPU_BATCH, CHUNKS_A_THREAD = 16 };
 
 // Fewer pixels than this cost less than waking a thread.
 enum { LEAST_PIXELS = 8192 };
 
 struct drawing {
-    struct cpu_emitter emitter; // of any thread: without its sorter
-    int begin, end;             // items of the round
+    struct cpu_emitter emitter; // copied for each thread, which adds its sorter
+    int begin, end;             // items in the round
     int threads;
 };
 
@@ -26,7 +26,7 @@ static int chunk_items(const struct drawing *d)
     return rg_iclamp(share / CPU_BATCH * CPU_BATCH, LEAST_CHUNK, MOST_CHUNK);
 }
 
-// The first step of a round: makes primitives of the items of at most `most` chunks.
+// The first step of a round: makes primitives from the items of at most `most` chunks.
 static void emit_items(const struct drawing *d, int most)
 {
     struct cpu_bins *bins = d->emitter.bins;
@@ -42,7 +42,7 @@ static void emit_items(const struct drawing *d, int most)
         const int begin = bins->chunks[i].begin;
         cpu_emit(&mine, i, d->end - begin > size ? begin + size : d->end);
     }
-    // Where a chunk has left items for the next round, the chunks behind it wait with them.
+    // If a chunk leaves items for the next round, later chunks must wait, too.
     bins->chunk_count = 0;
     while (bins->chunk_count < chunks && bins->chunks[bins->chunk_count++].whole)
         ;
@@ -61,7 +61,7 @@ static void shade_tiles(const struct drawing *d)
         d->emitter.raster->shade(d->emitter.program, d->emitter.call, bins, t);
 }
 
-// Of a primitive and all its lights.
+// The bytes of a primitive's record and of its lights' records.
 static size_t record_bytes(const struct cpu_emitter *e)
 {
     const size_t lights = e->program->light_size ? (size_t)e->program->lights(e->call) : 0;
@@ -81,7 +81,7 @@ static bool draw_rounds(struct drawing *d)
             return false;
         shade_tiles(d);
         const int done = bins->chunks[bins->chunk_count - 1].end;
-        // A chunk that is alone in a round has all the room.
+        // A chunk alone in a round can use all memory.
         most = done > d->begin ? CPU_MOST_CHUNKS : 1;
         d->begin = done;
     }
@@ -108,8 +108,8 @@ bool cpu_draw(struct cpu_device *device, const char *name, const struct cpu_prog
                             name);
 }
 
-// What follows counts what a draw comes to, by plain loops. The drawing itself cannot tell, since
-// it leaves out early what covers nothing.
+// The rest of this file counts a draw's work by plain loops. The drawing itself cannot count, since
+// it skips early whatever covers nothing.
 
 static rg_snapped corners_of(const struct cpu_items *items, int i)
 {

@@ -34,7 +34,7 @@ void cpu_image_destroy(struct rg_image *image)
     free(cpu);
 }
 
-// Where a layer of a level begins, and its size in bytes.
+// The address of a layer of a level, and its size in bytes.
 static void *locate(struct rg_image *image, int layer, int level, size_t *size)
 {
     struct cpu_image *cpu = (struct cpu_image *)image;
@@ -57,8 +57,7 @@ bool cpu_image_read(struct rg_image *image, int layer, int level, void *texels)
     return true;
 }
 
-// Texels a step of clearing: what one thread copies at a time, from a pattern that stays in its
-// cache.
+// Texels in a step of clearing, copied by one thread from a pattern that stays in its cache.
 enum { CLEAR_TEXELS = 1024, MAX_TEXEL_WORDS = 4 };
 
 bool cpu_image_clear(struct rg_image *image, const void *texel)

@@ -27,7 +27,7 @@ void cpu_pass_destroy(struct rg_pass *pass)
     free(pass);
 }
 
-// In order, one item after the other, on the calling thread.
+// Runs items in order on the calling thread.
 static bool run_in_order(struct cpu_pass *pass, const struct rg_run *run)
 {
     struct rg_notes notes = {0};
@@ -47,9 +47,8 @@ static int part(int64_t count, int index, int parts)
     return (int)(count * index / parts);
 }
 
-// The block of one thread: a band of rows, of layers where there are fewer rows than blocks, or of
-// columns; the same band in every pass of equal size, so that what a core wrote is still in its
-// cache when it reads it.
+// A thread's block: a band of rows, or of layers or columns where there are fewer rows than blocks.
+// It is the same in every pass of equal size, so that a core finds its own writes in its cache.
 static struct cpu_call block(const struct cpu_call *call, const struct rg_extent *extent, int index,
                              int blocks)
 {

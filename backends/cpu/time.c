@@ -2,7 +2,7 @@
 
 #include <time.h>
 
-// Passes run while they are called: nothing is ever queued.
+// Passes run during their call; nothing is ever queued.
 bool cpu_sync(struct rg_device *device)
 {
     (void)device;

@@ -27,14 +27,14 @@ static struct rg_limits read_limits(void)
         .max_image_layers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS),
         .group_items = GL_GROUP_ITEMS,
         .slot_count = {RG_MAX_SLOTS, RG_MAX_SLOTS, RG_MAX_SLOTS},
-        // A slot is the binding of the same number, which the driver must have.
+        // A slot is the binding of the same number, so the driver must have that many.
         .slot_end = {.buffers = integer(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS),
                      .images = integer(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS),
                      .out_images = integer(GL_MAX_IMAGE_UNITS)},
         .has_clock = true,
         .has_queries = true,
     };
-    // OpenGL 4.5 has all formats for all uses.
+    // OpenGL 4.5 requires all formats for all uses.
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
         limits.formats[f] = (struct rg_format_limits){
             RG_USE_ALL, limits.max_image_px, limits.max_image_layers, RG_MAX_LEVELS, INT64_MAX};
@@ -52,7 +52,8 @@ static const char *text(GLenum what)
     return value ? (const char *)value : "unnamed";
 }
 
-// "Mesa 22.3.6" of "4.5 (Core Profile) Mesa 22.3.6", "NVIDIA 550.54" of "4.5.0 NVIDIA 550.54".
+// The driver's version: "Mesa 22.3.6" from "4.5 (Core Profile) Mesa 22.3.6", "NVIDIA 550.54" from
+// "4.5.0 NVIDIA 550.54".
 static const char *driver_version(void)
 {
     const char *version = text(GL_VERSION);
@@ -62,7 +63,7 @@ static const char *driver_version(void)
     return driver ? driver + 1 : version;
 }
 
-// Fills `info` from the current context; `index` counts the devices.
+// Fills `info` from the current context; `index` is the device's.
 static void describe(int index, const struct gl_egl *egl, struct rg_device_info *info)
 {
     const char *renderer = text(GL_RENDERER);

@@ -4,7 +4,7 @@
 
 #include "kernels/dialect/draw/clip.h"
 
-// Row 0 in memory is row 0 of the target, the top: clip control and viewport turn nothing over.
+// Row 0 in memory is the target's top row: clip control and viewport flip nothing.
 bool gl_draw_begin(struct gl_device *device)
 {
     glCreateVertexArrays(1, &device->no_vertices);
@@ -43,7 +43,7 @@ static void set_depth(enum rg_depth_mode depth)
     glDepthMask(depth == RG_DEPTH_WRITE);
 }
 
-// shaders/draw.vert places vertices in it.
+// shaders/draw.vert assumes this viewport.
 static void set_viewport(int width, int height)
 {
     glViewport(-((RG_VIEWPORT_PX - width) / 2), -((RG_VIEWPORT_PX - height) / 2), RG_VIEWPORT_PX,
@@ -93,7 +93,7 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
     const struct rg_buf *arguments =
         draw->items_a_query ? run->packed->query_args : run->packed->args;
     gl_bind_arguments(bound, ((const struct gl_buf *)arguments)->id);
-    // Vertex shaders read corners from the storage block, fragment shaders read records as a
+    // Vertex shaders read corners from the storage block, fragment shaders read records from a
     // texture of words.
     gl_slot_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
     if (!gl_slot_words(bound, RG_SLOT_PRIMS, run->packed->prims))
@@ -105,7 +105,7 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
         return false;
     if (!draw->items_a_query)
         glDrawArraysIndirect(GL_TRIANGLES, NULL);
-    // The next run may write what this one reads, and read what it counts.
+    // The next run may overwrite what this run reads, and read its counts.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     return gl_check_reported(device, "glDrawArraysIndirect", "kernel", kernel->name);
 }

@@ -1,8 +1,7 @@
 // The gl backend: kernels as programs of OpenGL 4.5 core, on EGL without a window.
 //
-// A device is one context without a framebuffer. A context belongs to the thread that last used
-// it, so a device stays on the thread that opened it, and nothing else makes another context
-// current there.
+// A device is one context without a framebuffer. A context belongs to the thread that last used it,
+// so a device stays on the thread that opened it, where no other code may make a context current.
 #ifndef RG_BACKENDS_GL_GL_H
 #define RG_BACKENDS_GL_GL_H
 
@@ -13,9 +12,9 @@
 #include "backends/backend.h"
 #include "backends/manifests.h"
 
-#define GL_PACKAGE "libegl-mesa0" // of Debian, which brings a driver
+#define GL_PACKAGE "libegl-mesa0" // the Debian package with a driver
 
-// Items a work group: local_size_x of shaders/grid.glsl.
+// Items in a work group: local_size_x of shaders/grid.glsl.
 enum { GL_GROUP_ITEMS = 64 };
 
 enum { GL_MAX_TARGETS = 32 };
@@ -27,37 +26,37 @@ struct gl_target {
     bool software; // EGL says so
 };
 
-// A walk over the targets that open, best first.
+// State of a walk over the targets that open, best first.
 struct gl_search {
     struct gl_target targets[GL_MAX_TARGETS];
     int count, next;
     bool found;    // at least one has opened
-    bool lacks;    // a library of EGL's or OpenGL's is not there
-    bool failed;   // what `why` tells is no lack, but a failure
-    bool grave;    // that failure counts beside devices that opened, too
-    char why[512]; // what the best target's driver refused, a failure before a lack; "": nothing
+    bool lacks;    // a library of EGL's or OpenGL's is missing
+    bool failed;   // `why` tells of a failure rather than of something missing
+    bool grave;    // the failure counts even if devices opened
+    char why[512]; // the reason of the best target's driver, preferring failures; "": none
 };
 
 // An open context and the display that it came from.
 struct gl_egl {
     EGLDisplay display;
     EGLContext context;
-    unsigned serial; // never 0, never used twice
+    unsigned serial; // never 0, never reused
     bool software;
 };
 
-// Parameters of queued runs, in memory that the driver reads. Two halves: while one is filled, the
-// runs that read the other are waited for.
+// Parameters of queued runs, in memory that the driver reads. It has two halves: before one is
+// refilled, the runs that read it are waited for.
 struct gl_params {
     GLuint buffer;
-    unsigned char *memory; // mapped for the buffer's whole life
+    unsigned char *memory; // mapped for the buffer's life
     size_t alignment;
-    size_t next; // byte where the next run's block begins
+    size_t next; // offset of the next run's block
     int half;    // 0 or 1
     GLsync read[2];
 };
 
-// Images that are drawn to together; 0 for what a draw is without.
+// Images that are drawn to together; 0 stands for a missing one.
 struct gl_framebuffer_key {
     GLuint colour, depth;
     GLuint behind; // a depth image that fragments fetch
@@ -73,13 +72,13 @@ struct gl_framebuffer {
 
 enum { GL_MAX_FRAMEBUFFERS = 64 };
 
-// Framebuffers of the latest targets, the oldest of which makes room for a new one.
+// The framebuffers of recent targets; a new one replaces the oldest.
 struct gl_framebuffers {
     struct gl_framebuffer kept[GL_MAX_FRAMEBUFFERS];
     int next;
 };
 
-// What a draw sets beside its bindings.
+// A draw's state besides its bindings.
 struct gl_draw_state {
     int width, height; // of the target
     GLint scissor[4];
@@ -87,16 +86,16 @@ struct gl_draw_state {
     enum rg_depth_mode depth;
 };
 
-// What is bound, so that equal bindings cost no call. 0: nothing.
+// The current bindings, so that equal ones cost no call. 0: nothing.
 struct gl_bound {
     GLuint program;
     GLuint buffers[RG_MAX_SLOTS], textures[RG_MAX_SLOTS], images[RG_MAX_SLOTS];
     GLuint framebuffer;
-    GLuint arguments; // buffer of an indirect draw's
+    GLuint arguments; // arguments of an indirect draw
     struct gl_draw_state draw;
 };
 
-// Occlusion queries, as many as a draw has had.
+// Occlusion queries, as many as the largest draw so far needed.
 struct gl_queries {
     GLuint *ids;
     int count;
@@ -111,14 +110,14 @@ struct gl_device {
     GLuint no_vertices; // vertex array
     GLuint timestamp;   // query
     struct gl_queries queries;
-    char fault[256]; // the driver's first message since the last gl_check, "" for none
-    bool is_lost;    // it said that the context is lost, so that nothing more is said
+    char fault[256]; // the driver's first message since the last gl_check; "": none
+    bool is_lost;    // the driver reported a lost context, after which nothing more is logged
 };
 
 struct gl_buf {
     struct rg_buf pub;
     GLuint id;
-    GLuint words; // the buffer as a texture of words; 0 until a kernel reads it so
+    GLuint words; // a texture of the buffer's words; 0 until a kernel needs it
 };
 
 struct gl_image {
@@ -129,40 +128,40 @@ struct gl_image {
 struct gl_pass {
     struct rg_pass pub;
     GLuint program;
-    unsigned word_slots;   // a bit each: read as a texture of words
-    size_t params_size;    // of what a run brings, in bytes
+    unsigned word_slots;   // bits of the slots that are read as textures of words
+    size_t params_size;    // parameters of a run, in bytes
     size_t block_size;     // of the uniform block, in bytes
-    GLbitfield after_runs; // barriers that make this pass's writes visible
+    GLbitfield after_runs; // barriers that make the pass's writes visible
 };
 
 // api/egl.c
 void gl_search_begin(struct gl_search *search);
-// Opens the next target that works and makes its context current; false: there is none left.
+// Opens the next target that works and makes its context current; false: none is left.
 bool gl_search_next(struct gl_search *search, struct gl_egl *egl);
-// api/drivers.c: where EGL finds drivers, and what backend->list says of `count` devices that were
+// api/drivers.c: where EGL finds drivers, and the result of backend->list for `count` devices
 // found.
 extern const struct rg_manifest_rules gl_manifests;
 int gl_judge(const struct gl_search *search, int count, char *why, size_t why_size);
-// Whether the context that is current is of the driver that a variable of Mesa's asks for, or none
-// does; else `why` says so.
+// Whether the current context is of the driver that a Mesa variable asks for, or no variable does;
+// if not, `why` says so.
 bool gl_is_driver_asked(const struct gl_egl *egl, char *why, size_t why_size);
-// Has the search fail where the device that was opened last did not tell what it was asked for.
+// Makes the search fail if the last opened device did not answer its queries.
 void gl_search_check(struct gl_search *search);
 void gl_egl_close(struct gl_egl *egl);
 
 // backend->functions
 int gl_functions(struct rg_device *device, const void **functions, int max);
-// Makes the device's context current on this thread unless it is.
+// Makes the device's context current on this thread, if it is not.
 bool gl_use(struct gl_device *device);
 
 // api/error.c
 
 // Turns the driver's messages about errors into the text that gl_check logs.
 void gl_debug_begin(struct gl_device *device);
-// Whether all calls since the last check went well; if not, logs one line that names `call`, the
-// error's code and the object ("buffer 'heights'"). `kind` is "buffer", `name` is "heights".
+// Whether all calls since the last check succeeded; if not, logs one line that names `call`, the
+// error's code and the object ("buffer 'heights'": `kind` is "buffer", `name` is "heights").
 bool gl_check(struct gl_device *device, const char *call, const char *kind, const char *name);
-// As gl_check, but sees only what the driver reports by itself: costs no call.
+// As gl_check, but sees only errors that the driver reported itself, which costs no call.
 bool gl_check_reported(struct gl_device *device, const char *call, const char *kind,
                        const char *name);
 // Names an object for debuggers.
@@ -170,8 +169,7 @@ void gl_label(GLenum type, GLuint id, const char *name);
 
 // formats.c
 
-// How a format lies in the driver's memory and in ours, where rows are packed tightly
-// (gl_images_begin).
+// A format in the driver's memory, and in ours, where rows are packed tightly (gl_images_begin).
 struct gl_format {
     GLenum internal, format, type;
 };
@@ -184,7 +182,7 @@ void gl_bind_texture(struct gl_bound *bound, int slot, GLuint id);
 void gl_bind_image(struct gl_bound *bound, int slot, GLuint id, GLenum format);
 void gl_bind_framebuffer(struct gl_bound *bound, GLuint id);
 void gl_bind_arguments(struct gl_bound *bound, GLuint id);
-// Deleting an object unbinds it, and its number may come back for another one.
+// To be called when an object is deleted, which unbinds it, because its number may be reused.
 void gl_forget_buffer(struct gl_bound *bound, GLuint id);
 void gl_forget_texture(struct gl_bound *bound, GLuint id);
 void gl_forget_framebuffer(struct gl_bound *bound, GLuint id);
@@ -192,7 +190,7 @@ void gl_forget_framebuffer(struct gl_bound *bound, GLuint id);
 // api/params.c
 bool gl_params_create(struct gl_device *device);
 void gl_params_destroy(struct gl_device *device);
-// Puts a run's uniform block where its dispatch finds it: binding 0.
+// Writes a run's uniform block and binds it to binding 0.
 bool gl_params_bind(struct gl_device *device, const struct gl_pass *pass, const struct rg_run *run);
 
 // buf.c
@@ -200,12 +198,12 @@ struct rg_buf *gl_buf_create(struct rg_device *device, size_t size, const char *
 void gl_buf_destroy(struct rg_buf *buf);
 bool gl_buf_write(struct rg_buf *buf, size_t offset, const void *data, size_t size);
 bool gl_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
-// The buffer as a texture of words; 0 and one logged line on failure.
+// A texture of the buffer's words; 0 and one logged line on failure.
 GLuint gl_buf_words(struct rg_buf *buf);
 
 // image.c
 
-// Makes a new context take and give rows as texels travel: tightly packed.
+// Sets a new context to transfer rows tightly packed.
 void gl_images_begin(void);
 struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                  const char *name);
@@ -216,38 +214,38 @@ bool gl_image_clear(struct rg_image *image, const void *texel);
 
 // slots.c
 
-// Binds what a run's slots name; false and one logged line on failure.
+// Binds the objects in a run's slots; false and one logged line on failure.
 bool gl_slots_bind(struct gl_bound *bound, const struct gl_pass *pass, const struct rg_run *run);
 void gl_slot_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf);
-// A buffer as a texture of words; false and one logged line on failure.
+// Binds a buffer as a texture of words; false and one logged line on failure.
 bool gl_slot_words(struct gl_bound *bound, int slot, struct rg_buf *buf);
 
 // program.c
 
 // Compiles and links a kernel's stages; 0 and one logged line on failure.
 GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel);
-// The slots whose buffers the program reads as textures of words, a bit each.
+// The slots whose buffers the program reads as textures of words, as bits.
 unsigned gl_program_word_slots(GLuint program, const struct rg_kernel *kernel);
 
 // target.c
 
-// The framebuffer of a draw's images, and the depth that it counts against; NULL and one logged
-// line on failure. Valid until the next call.
+// The framebuffer of a draw's images, and the depth for counting; NULL and one logged line on
+// failure. Valid until the next call.
 const struct gl_framebuffer *gl_framebuffer_of(struct gl_device *device,
                                                const struct rg_draw *draw);
-// Drops the framebuffers that an image is part of, before it goes; 0 drops all.
+// Drops the framebuffers of an image before it is deleted; 0 drops all.
 void gl_framebuffers_forget(struct gl_device *device, GLuint image);
 
 // draw.c
 bool gl_draw_begin(struct gl_device *device);
 void gl_draw_end(struct gl_device *device);
-// Draws packed primitives; the pass's program, parameters and slots are bound.
+// Draws packed primitives. The caller has bound the pass's program, parameters and slots.
 bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const struct rg_run *run);
 
 // api/query.c
 
-// Draws packed primitives query by query, and has their answers written to the draw's samples;
-// what the draw needs is bound. False, and one logged line, on failure.
+// Draws packed primitives query by query, and has the driver write the results to the draw's
+// samples. The caller has bound everything. False, and one logged line, on failure.
 bool gl_draw_queries(struct gl_device *device, const struct rg_kernel *kernel,
                      const struct rg_run *run);
 void gl_queries_end(struct gl_device *device);

@@ -9,7 +9,7 @@
 
 void gl_images_begin(void)
 {
-    const GLint smallest_texel = 2; // in bytes; by itself GL expects rows at multiples of 4
+    const GLint smallest_texel = 2; // in bytes; EGL's default would be rows at multiples of 4
     glPixelStorei(GL_UNPACK_ALIGNMENT, smallest_texel);
     glPixelStorei(GL_PACK_ALIGNMENT, smallest_texel);
 }
@@ -29,7 +29,7 @@ struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image
     glTextureParameteri(image->id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTextureStorage3D(image->id, desc->levels, gl_format(desc->format).internal, desc->width,
                        desc->height, desc->layers);
-    // Drivers refuse an image that is too large without numbers, so this line has them.
+    // Drivers refuse a too large image without numbers, so this message has them.
     char call[128];
     snprintf(call, sizeof(call), "glTextureStorage3D of %dx%d texels of %s, %d layers, %d levels,",
              desc->width, desc->height, rg_format_name(desc->format), desc->layers, desc->levels);
@@ -75,7 +75,7 @@ bool gl_image_read(struct rg_image *image, int layer, int level, void *texels)
         return false;
     int width = rg_level_size(desc->width, level), height = rg_level_size(desc->height, level);
     int row_bytes = width * rg_format_size(desc->format);
-    // The call counts bytes in an int: what is larger comes in bands of rows.
+    // The call counts bytes in an int, so larger data is transferred in bands of rows.
     int band_rows = INT_MAX / row_bytes;
     for (int y = 0; y < height; y += band_rows) {
         int rows = height - y < band_rows ? height - y : band_rows;

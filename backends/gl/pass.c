@@ -5,7 +5,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 
-// The barriers that show a kernel's writes to whatever comes next: other passes, writes, reads.
+// The barriers that make a kernel's writes visible to later passes, writes and reads.
 static GLbitfield barriers_after(const struct rg_kernel *kernel)
 {
     GLbitfield barriers = 0;

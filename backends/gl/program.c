@@ -52,13 +52,13 @@ static bool attach(const struct gl_device *device, const struct rg_kernel *kerne
     bool compiled = compile(device, kernel, stage->code, shader);
     if (compiled)
         glAttachShader(program, shader);
-    glDeleteShader(shader); // once the program is
+    glDeleteShader(shader); // deleted together with the program
     return compiled;
 }
 
 static bool link(const struct gl_device *device, const struct rg_kernel *kernel, GLuint program)
 {
-    glProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE); // gl_pass_code
+    glProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE); // for gl_pass_code
     glLinkProgram(program);
     GLint linked = GL_FALSE;
     glGetProgramiv(program, GL_LINK_STATUS, &linked);

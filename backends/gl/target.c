@@ -10,8 +10,8 @@ static GLuint id_of(const struct rg_image *image)
     return image ? ((const struct gl_image *)image)->id : 0;
 }
 
-// Depth is attached where the driver tests it. Counted samples are tested by the fragments, which
-// may not fetch what is attached.
+// A depth image is attached where the driver tests it. Where samples are counted, fragments test
+// the depth, and may not fetch an attached image.
 static struct gl_framebuffer_key key_of(const struct rg_draw *draw)
 {
     const struct rg_image *image = draw->colour ? draw->colour : draw->depth;
@@ -76,7 +76,7 @@ static void fill(struct gl_framebuffer *framebuffer)
     if (key->depth)
         glNamedFramebufferTextureLayer(framebuffer->id, GL_DEPTH_ATTACHMENT, key->depth, key->level,
                                        key->layer);
-    if (!key->colour && !key->depth) { // samples are counted, nothing is written
+    if (!key->colour && !key->depth) { // only counts samples, writes nothing
         glNamedFramebufferParameteri(framebuffer->id, GL_FRAMEBUFFER_DEFAULT_WIDTH, key->width);
         glNamedFramebufferParameteri(framebuffer->id, GL_FRAMEBUFFER_DEFAULT_HEIGHT, key->height);
     }

@@ -8,15 +8,16 @@
 
 extern const struct rg_embedded_code rg_code_bins[RG_CODE_COUNT];
 
-// Lanes keep several cores busy and leave little to scan. Places take MAX_PLACES words at most.
+// Enough lanes to keep several cores busy, and few enough to scan. Places take at most MAX_PLACES
+// words.
 enum { MAX_LANES = 64, ITEMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
 
-// The list's bytes: it begins with the first and doubles up to the second. A draw that needs more
-// takes several rounds.
+// The list's size starts with the first and doubles up to the second. A draw that needs more takes
+// several rounds.
 enum { MIN_LIST_BYTES = 256 << 10, MAX_LIST_BYTES = 64 << 20 };
 
-// Pixels a work item shades, squared: a processor's core walks a tile alone, a GPU gives a tile a
-// work group.
+// Side of the block of pixels that a work item shades: on a processor a whole tile, on a GPU a
+// part, with a work group for each tile.
 enum { BLOCK_PX_CPU = RG_TILE_PX, BLOCK_PX_GPU = 2 };
 
 static bool make_kernel(struct opencl_bins *bins, cl_kernel *kernel, const char *name)
@@ -170,7 +171,7 @@ static bool scan(struct opencl_bins *bins, const struct rg_run *run)
     return opencl_check(code, "clEnqueueNDRangeKernel", "kernel", "rg_bins_scan");
 }
 
-// Makes a list of `pairs` elements. *fits: whether there is memory for it. False, and one logged
+// Makes a list of `pairs` elements; *fits tells whether memory sufficed. False, and one logged
 // line, on failure.
 static bool grow_list(struct opencl_bins *bins, cl_uint pairs, bool *fits)
 {

@@ -12,11 +12,10 @@ bool opencl_memory_create(struct opencl_memory *memory, size_t size)
     return opencl_check(code, "clCreateBuffer", memory->kind, memory->name);
 }
 
-// Copies of more bytes than this are not made: the call waits for the device instead.
+// Larger writes are not copied; the call waits for the device instead.
 enum { MAX_STAGED_BYTES = 64 << 20 };
 
-// A copy of the caller's data, which the device may read after the call has returned; NULL: wait
-// instead.
+// Copies the caller's data, so that the device may read it after the call; NULL: wait instead.
 static void *stage(struct opencl_device *device, const void *data, size_t size)
 {
     if (size > MAX_STAGED_BYTES - device->staged_bytes)

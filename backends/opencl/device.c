@@ -8,12 +8,12 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 
-// As shaders/grid.cl has it. On PoCL, 64 to 512 along x are equally fast, fewer or squarer slower.
+// As in shaders/grid.cl. On PoCL, 64 to 512 along x are equally fast, fewer or squarer slower.
 enum { GROUP_ITEMS = 64 };
 
 static struct rg_limits read_limits(cl_device_id id)
 {
-    const int64_t countable = (int64_t)INT_MAX * 4; // kernels count words in an int
+    const int64_t countable = (int64_t)INT_MAX * 4; // kernels index words by an int
     const int64_t alloc =
         (int64_t)opencl_number(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(cl_ulong));
     const struct rg_slot_limits any = {RG_MAX_SLOTS, RG_MAX_SLOTS, RG_MAX_SLOTS};
@@ -22,7 +22,8 @@ static struct rg_limits read_limits(cl_device_id id)
         .max_buffer_bytes = alloc < countable ? alloc : countable,
         .max_image_px = RG_PLAIN_MAX_PX,
         .max_image_layers = RG_PLAIN_MAX_LAYERS,
-        .max_groups = {INT_MAX / GROUP_ITEMS, 65535, 65535}, // CUDA's, which NVIDIA runs on
+        .max_groups = {INT_MAX / GROUP_ITEMS, 65535, 65535}, // CUDA's limits, because NVIDIA runs
+                                                             // OpenCL on it
         .group_items = GROUP_ITEMS,
         .slot_count = any,
         .slot_end = any,
@@ -47,7 +48,7 @@ static void describe(cl_device_id id, int index, struct rg_device_info *info)
     int api = opencl_version(opencl_text(id, CL_DEVICE_VERSION, version));
     snprintf(info->api, sizeof(info->api), "OpenCL %d.%d, used as 1.2, %d compute units", api / 10,
              api % 10, (int)opencl_number(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(cl_uint)));
-    // A platform's version is "OpenCL 3.0 " and what the vendor adds, such as PoCL's LLVM.
+    // A platform's version is "OpenCL 3.0 " and the vendor's text, such as PoCL's LLVM.
     const char *vendor = opencl_platform_text(platform, CL_PLATFORM_VERSION, version);
     vendor += strcspn(vendor, " ");
     vendor += strspn(vendor, " ");

@@ -4,11 +4,11 @@
 
 #include "kernels/dialect/draw/state.h"
 
-// Work items a group: of a processor, tiles, few so that all cores get some; of a GPU, a tile.
+// Tiles in a work group: on a processor few, so that all cores get some; a GPU has one.
 enum { TILES_A_GROUP_CPU = 4 };
 
-// The kernel for the draw's state, which its text takes as constants: PoCL then runs several pixels
-// of a row side by side.
+// The kernel for the draw's state, compiled with the state as constants, so that PoCL vectorises
+// pixels of a row.
 static cl_kernel variant_of(struct opencl_pass *pass, const struct rg_draw *draw)
 {
     static const enum rg_format formats[4] = {RG_FORMAT_NONE, RG_RGBA8, RG_RGBA16F, RG_RGBA32F};

@@ -34,7 +34,7 @@ void opencl_image_destroy(struct rg_image *image)
     free(image);
 }
 
-// Where a layer of a level begins, and its size, both in bytes.
+// The offset of a layer of a level, and its size, both in bytes.
 static size_t locate(const struct rg_image *image, int layer, int level, size_t *size)
 {
     const struct opencl_image *opencl = (const struct opencl_image *)image;

@@ -1,6 +1,6 @@
 // The opencl backend: kernels as OpenCL C 1.2 on any driver that the ICD loader finds.
 //
-// One context and one in-order queue a device. Images lie in plain buffers
+// Each device has one context and one in-order queue. Images are plain buffers
 // (kernels/dialect/image/memory.h).
 #ifndef RG_BACKENDS_OPENCL_OPENCL_H
 #define RG_BACKENDS_OPENCL_OPENCL_H
@@ -15,9 +15,9 @@
 
 #define CL_PLATFORM_NOT_FOUND_KHR (-1001) // cl_khr_icd
 
-#define OPENCL_PACKAGE "pocl-opencl-icd" // of Debian, which brings a driver
+#define OPENCL_PACKAGE "pocl-opencl-icd" // the Debian package with a driver
 
-// Data on its way to the device: a copy that lives until the queue has ended.
+// Data for the device: a copy that lives until the queue has ended.
 struct opencl_staged {
     struct opencl_staged *next;
     unsigned char data[];
@@ -28,15 +28,15 @@ struct opencl_device {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue; // in order, with profiling
-    int queued;             // commands since the queue was last known to have ended
-    // Of the kernels built so far, by rg_kernel_index and variant: PoCL takes 30 ms for one.
+    int queued;             // commands since the queue was last known to be empty
+    // Programs built so far, by rg_kernel_index and variant, because PoCL takes 30 ms for one.
     cl_program *programs;
     struct opencl_staged *staged;
     size_t staged_bytes;
-    struct opencl_bins *bins; // of DRAW passes; NULL before the first
+    struct opencl_bins *bins; // for DRAW passes; NULL before the first
 };
 
-// A run of words in device memory, what buffers and images have in common.
+// A device allocation of words, the common part of buffers and images.
 struct opencl_memory {
     cl_mem mem;
     struct opencl_device *device;
@@ -56,8 +56,8 @@ struct opencl_image {
     int words;                      // of the whole image
 };
 
-// A GRID kernel has one variant; a DRAW program one for each way to blend and to test depth, built
-// when first drawn with (draw.c).
+// A GRID kernel has one variant, a DRAW program one for each combination of blending and depth
+// test, built when first needed (draw.c).
 enum { OPENCL_VARIANTS = 4 * 3 * 3 };
 
 struct opencl_pass {
@@ -72,34 +72,34 @@ const char *opencl_error_name(cl_int code);
 // True for CL_SUCCESS. Else logs one line that names object, call and code, and is false.
 bool opencl_check(cl_int code, const char *call, const char *kind, const char *name);
 
-// Drivers and their compilers talk to stderr when something is wrong. Between these two calls
-// nothing gets there; the second takes what the first returned.
+// Suppress what drivers and their compilers print to stderr between these two calls; the second
+// takes the first one's result.
 int opencl_hide_messages(void);
 void opencl_show_messages(int hidden);
 
 // api/search.c
-// The usable devices in the loader's order (GPUs first); `search` has why others are none.
+// The usable devices in the loader's order (GPUs first); `search` says why others are not usable.
 struct opencl_search {
     enum rg_manifest_state state;
-    char why[512]; // a failure before a lack; "": nothing
+    char why[512]; // preferring failures; "": none
 };
 int opencl_find(struct opencl_search *search, cl_device_id *ids, int max);
-// Where the loader finds drivers, and what backend->list says of `count` devices that were found.
+// Where the loader finds drivers, and the result of backend->list for `count` devices found.
 extern const struct rg_manifest_rules opencl_manifests;
 int opencl_judge(const struct opencl_search *search, int count, char *why, size_t why_size);
 // backend->functions
 int opencl_functions(struct rg_device *device, const void **functions, int max);
-// What a device or platform says of itself; "unnamed" and 0 where its driver does not know it.
+// A text property of a device or platform; "unnamed" and 0 where its driver does not know it.
 enum { OPENCL_TEXT = 1024 };
 const char *opencl_text(cl_device_id id, cl_device_info what, char text[OPENCL_TEXT]);
 const char *opencl_platform_text(cl_platform_id id, cl_platform_info what, char text[OPENCL_TEXT]);
 cl_ulong opencl_number(cl_device_id id, cl_device_info what, size_t size);
-int opencl_version(const char *version); // 30 of "OpenCL 3.0 PoCL 3.1"
+int opencl_version(const char *version); // 30 for "OpenCL 3.0 PoCL 3.1"
 
 // api/queue.c
-// Call before each command that is queued without waiting for it.
+// Call it before each command that is queued without waiting.
 bool opencl_will_queue(struct opencl_device *device);
-// Call when the queue is known to have ended.
+// Call it when the queue is known to be empty.
 void opencl_ended(struct opencl_device *device);
 
 // buf.c
@@ -123,14 +123,14 @@ bool opencl_image_clear(struct rg_image *image, const void *texel);
 int opencl_image_word(const struct rg_image *image, int layer, int level);
 
 // slots.c
-// Sets what a kernel's slots are bound to, from argument `next` on: a buffer and its element count,
-// and an image's shape.
+// Sets a kernel's slots from argument `next` on: a buffer and its element count, and an image's
+// shape.
 cl_int opencl_set_slots(cl_kernel kernel, cl_uint next, const struct rg_kernel *info,
                         const struct rg_run *run);
 
 // target.c
-// Sets a target that a kernel draws to, or none, from argument *next on: its memory, and the word
-// at which the layer and level begins.
+// Sets a draw target, or none, from argument *next on: its memory, and the first word of the layer
+// and level.
 cl_int opencl_set_target(cl_kernel kernel, cl_uint *next, const struct rg_image *image,
                          const struct rg_draw *draw);
 
@@ -142,25 +142,25 @@ cl_program opencl_build(struct opencl_device *device, const struct rg_kernel_cod
 cl_kernel opencl_kernel_of(struct opencl_pass *pass, int variant, const char *entry,
                            const char *defines);
 
-// bins.c: sorts a draw's packed primitives into tiles (kernels/dialect/draw/bins.h). Scratch of a
-// device.
+// bins.c: sorts a draw's packed primitives into tiles (kernels/dialect/draw/bins.h). These are a
+// device's scratch buffers.
 struct opencl_bins {
     struct opencl_device *device;
     cl_program program;
     cl_kernel walk, scan;
     struct opencl_memory places, list, round;
     size_t places_bytes, list_bytes;
-    rg_bins shape;   // of the draw at hand
-    int tried_prims; // primitives that the next round is tried with
+    rg_bins shape;   // of the current draw
+    int tried_prims; // primitives to try in the next round
 };
 
-struct opencl_bins *opencl_bins_of(struct opencl_device *device); // made at the first call
+struct opencl_bins *opencl_bins_of(struct opencl_device *device); // made on first use
 void opencl_bins_destroy(struct opencl_device *device);
-// Begins a draw: lays tiles over its scissor.
+// Begins a draw: covers its scissor with tiles.
 bool opencl_bins_begin(struct opencl_bins *bins, const struct rg_kernel *kernel,
                        const struct rg_run *run);
-// Sorts the primitives from shape.first_prim on, as many as the list has memory for, and says in
-// shape.end_prim where it stopped. *more: there may be others behind them.
+// Sorts the primitives from shape.first_prim on, as many as fit into the list, and sets
+// shape.end_prim. *more: others may remain.
 bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *more);
 
 // draw.c

@@ -62,7 +62,7 @@ bool opencl_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
     return opencl_check(code, "clGetProgramInfo", "kernel", pass->kernel->name);
 }
 
-// The arguments of shaders/grid.cl, in its order. Drivers take about 20 ns for each.
+// Sets the arguments of shaders/grid.cl, in its order. Drivers take about 20 ns for each.
 static cl_int set_arguments(cl_kernel kernel, const struct rg_kernel *info,
                             const struct rg_run *run)
 {
@@ -76,8 +76,8 @@ static cl_int set_arguments(cl_kernel kernel, const struct rg_kernel *info,
     return failed ? failed : opencl_set_slots(kernel, 3, info, run);
 }
 
-// How many work items are run for so many items: whole groups, of which the last one's surplus ends
-// at once.
+// The number of work items for `width` items: whole groups; surplus work items of the last one
+// return at once.
 static int64_t whole_groups(const struct opencl_device *device, int width)
 {
     int64_t group = device->pub.info.limits.group_items;
@@ -101,7 +101,7 @@ static bool enqueue(struct opencl_pass *pass, const struct rg_run *run)
                         "clEnqueueNDRangeKernel", "kernel", name);
 }
 
-// Drivers may count a run's items in 32 bits: what is larger runs in two halves.
+// Drivers may count a run's items in 32 bits, so a larger run is halved.
 static bool run_grid(struct rg_pass *pass, const struct rg_run *run)
 {
     const struct rg_extent *extent = &run->extent;

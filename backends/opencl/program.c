@@ -7,7 +7,8 @@
 
 #include "core/base/log.h"
 
-// Only options that change no value. FP contraction is off by a pragma in kernels/dialect/lang.h.
+// Options that change no value. FP contraction is switched off by a pragma in
+// kernels/dialect/lang.h.
 static void build_options(cl_device_id id, const char *defines, char *options, size_t size)
 {
     cl_device_fp_config config = 0;
@@ -19,7 +20,7 @@ static void build_options(cl_device_id id, const char *defines, char *options, s
              defines);
 }
 
-// Logs what a driver's compiler had to say, in one line: its first error, else its first line.
+// Logs a compiler's messages in one line: the first error, else the first line.
 static void build_failed(const struct opencl_device *device, cl_program program, const char *name,
                          cl_int code)
 {

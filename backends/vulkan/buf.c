@@ -35,8 +35,7 @@ static size_t part_of(size_t size)
     return size < VK_MAX_STAGING_BYTES ? size : VK_MAX_STAGING_BYTES;
 }
 
-// Writes go through the queue as long as something is in it, so that the order of the calls is
-// kept.
+// While the queue holds commands, writes go through it too, which keeps the order of the calls.
 static bool write_staged(struct vk_device *device, struct vk_buf *buf, size_t offset,
                          const char *data, size_t size)
 {

@@ -1,6 +1,5 @@
-// DRAW passes: the primitives that core/device has packed, through the graphics pipeline.
-// Nothing is left to it that a driver may round: shaders/draw.vert says how corners stay on their
-// grid.
+// Runs DRAW passes: draws the primitives that core/device has packed through the graphics pipeline.
+// The driver rounds nothing: shaders/draw.vert explains how corners stay on their grid.
 #include "backends/vulkan/vulkan.h"
 
 #include "backends/formats.h"
@@ -53,7 +52,7 @@ void vk_draw_close(struct vk_device *device)
 
 // --- running ---
 
-// The viewport that shaders/draw.vert places corners in, and the scissor.
+// Sets the viewport that shaders/draw.vert assumes, and the scissor.
 static void set_area(const struct vk_batch *batch, const struct rg_draw *draw, int width,
                      int height)
 {

@@ -16,7 +16,7 @@ static VkImageCreateInfo image_info(const struct vk_device *device,
         .arrayLayers = (uint32_t)desc->layers,
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .tiling = VK_IMAGE_TILING_OPTIMAL,
-        // The usage flags for all that this backend does with images of the format.
+        // The usage flags for everything that this backend does with images of the format.
         .usage = vk_usage(desc->format, device->pub.info.limits.formats[desc->format].uses),
         .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
         .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
@@ -46,7 +46,7 @@ static bool create_memory(struct vk_device *device, struct vk_image *image, cons
                   image->memory.handle, 0);
 }
 
-// Images stay in the general layout, which everything may read and write.
+// Images stay in the general layout, which all commands may read and write.
 static bool make_general(struct vk_device *device, const struct vk_image *image,
                          VkImageAspectFlags aspect)
 {
@@ -104,7 +104,7 @@ struct rg_image *vk_image_create(struct rg_device *device, const struct rg_image
     bool created = create(vk, image, desc, name);
     if (vk_healthy(vk) && created)
         return &image->pub;
-    vk_wait(vk); // the change of layout may be recorded
+    vk_wait(vk); // the layout change may still be recorded
     destroy(vk, image);
     return NULL;
 }

@@ -6,7 +6,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 
-// The uniform block of shaders/grid.glsl: where the items lie, then the kernel's parameters.
+// The uniform block of shaders/grid.glsl: the range of items, then the kernel's parameters.
 struct run_block {
     int32_t origin[4], end[4];
 };
@@ -49,8 +49,8 @@ void vk_pass_destroy(struct rg_pass *pass)
     destroy((struct vk_device *)pass->device, (struct vk_pass *)pass);
 }
 
-// A cache begins with a header of the driver's, which tells one build of it from another. A driver
-// that keeps no code there, as lavapipe, hands out the header alone.
+// A pipeline cache begins with a header that identifies the driver's build. A driver that caches no
+// code, such as lavapipe, returns only the header.
 bool vk_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
 {
     const VkDevice device = ((struct vk_device *)pass->device)->handle;

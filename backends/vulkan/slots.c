@@ -1,4 +1,4 @@
-// The slots of a pass in Vulkan's terms: one descriptor set, whose binding 0 is the uniform block.
+// A pass's slots as a Vulkan descriptor set, whose binding 0 is the uniform block.
 #include "backends/vulkan/vulkan.h"
 
 #include <string.h>
@@ -12,8 +12,8 @@ static VkDescriptorType descriptor_type(enum rg_slot_kind kind)
     return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-// The shader stages that read the uniform block, and those that read a slot: a program's own slots
-// are read by its fragments alone.
+// The shader stages that read the uniform block, and those that read a slot: only fragments read a
+// program's own slots.
 static VkShaderStageFlags block_stages(const struct rg_kernel *kernel)
 {
     return kernel->draw ? VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT
@@ -92,7 +92,7 @@ void vk_slots_destroy(struct vk_device *device, struct vk_pass *pass)
 
 // --- binding ---
 
-// Member by member, so that the bytes between them stay zero and descriptors can be compared.
+// Assigns members one by one, so that padding stays zero and descriptors can be compared.
 void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf)
 {
     descriptor->buffer.buffer = ((const struct vk_buf *)buf)->block.buffer;

@@ -1,5 +1,5 @@
-// What a draw draws to: views of one layer of one level, render passes and framebuffers, made when
-// first needed and kept until their images go.
+// Draw targets: views of one layer of one level, render passes and framebuffers, made on first use
+// and kept until their images are destroyed.
 #include "backends/vulkan/vulkan.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 
 struct vk_framebuffer {
     struct vk_framebuffer *next;
-    const struct rg_image *colour, *depth; // as the draw names them
+    const struct rg_image *colour, *depth; // as in the draw
     int layer, level;
     struct vk_target target;
     VkFramebuffer handle;
@@ -170,7 +170,7 @@ void vk_target_forget(struct vk_device *device, struct vk_image *image)
     image->places = NULL;
 }
 
-// Framebuffers were destroyed with their images, before.
+// Framebuffers are gone already, destroyed with their images.
 void vk_targets_close(struct vk_device *device)
 {
     for (int colour = 0; colour < VK_COLOURS; colour++)

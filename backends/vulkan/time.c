@@ -28,7 +28,7 @@ bool vk_time(struct rg_device *device, int64_t *time_ns)
     uint64_t ticks;
     if (!read_ticks(vk, &ticks))
         return false;
-    // Counters of few bits wrap within minutes: what has passed since the last reading is added up.
+    // Counters of few bits wrap within minutes, so intervals between readings are added up.
     vk->ticks_total += (ticks - vk->ticks_last) & vk->ticks_mask;
     vk->ticks_last = ticks;
     *time_ns = (int64_t)((long double)vk->ticks_total * vk->limits.timestampPeriod);

@@ -1,8 +1,8 @@
 // The vulkan backend: Vulkan 1.2 through the loader, without a window.
 //
-// Commands are recorded into batches, handed over when one is full or when somebody waits, so that
-// the driver runs one while the next is recorded. Everything that a batch needs for a while (its
-// descriptor sets, parameters, staging memory) lives and is reused with it.
+// Commands are recorded into batches, which are submitted when full or when somebody waits, so that
+// the driver runs one while the next is recorded. A batch owns the descriptor sets, parameters and
+// staging memory that its commands use, and they are reused with it.
 #ifndef RG_BACKENDS_VULKAN_VULKAN_H
 #define RG_BACKENDS_VULKAN_VULKAN_H
 
@@ -11,21 +11,21 @@
 #include "backends/backend.h"
 #include "backends/manifests.h"
 
-#define VK_PACKAGE "mesa-vulkan-drivers" // of Debian, which brings a driver
+#define VK_PACKAGE "mesa-vulkan-drivers" // the Debian package with a driver
 
 enum {
     VK_BATCHES = 3,
-    VK_BATCH_RUNS = 64,                      // pass runs a batch, at most
+    VK_BATCH_RUNS = 64,                      // pass runs in a batch
     VK_BATCH_DESCRIPTORS = 512,              // of each type
-    VK_OWN_ALLOCATIONS = 2 * VK_BATCHES + 2, // parameters, staging and what stands for nothing
+    VK_OWN_ALLOCATIONS = 2 * VK_BATCHES + 2, // parameters, staging, and objects for unused slots
     VK_PARAMS_BYTES = 128 * 1024,
     VK_MIN_STAGING_BYTES = 256 * 1024,
-    VK_MAX_STAGING_BYTES = 16 * 1024 * 1024, // larger transfers travel in parts
+    VK_MAX_STAGING_BYTES = 16 * 1024 * 1024, // larger transfers are split
 };
 
 struct vk_memory {
     VkDeviceMemory handle;
-    void *mapped; // NULL: the host cannot see it
+    void *mapped; // NULL: the host cannot map it
 };
 
 // A VkBuffer with memory of its own.
@@ -46,23 +46,23 @@ struct vk_batch {
     bool recording, in_flight;
 };
 
-// An instance, and what the validation layer said of us where RG_VK_VALIDATION=1 asks for it.
+// An instance, and the validation layer's complaints about our calls if RG_VK_VALIDATION=1.
 struct vk_instance {
     VkInstance handle;
     VkDebugUtilsMessengerEXT messenger;
-    VkResult result;                 // of making it, then of asking it for devices
-    int complaints, complaints_told; // those that made a call of ours return false
+    VkResult result;                 // of creating the instance, then of listing its devices
+    int complaints, complaints_told; // its errors, and those that made a call of ours return false
 };
 
-// The queues to work on.
+// A queue family to work on.
 struct vk_family {
     uint32_t index;
-    uint32_t timestamp_bits; // valid ones; 0: there are no timestamps
+    uint32_t timestamp_bits; // number of valid bits; 0: no timestamps
     bool draws;
 };
 
-// How a render pass is told apart: enum rg_format of the colour or RG_FORMAT_NONE, and whether
-// depth is attached.
+// The key of a render pass: enum rg_format of the colour or RG_FORMAT_NONE, and whether depth is
+// attached.
 enum { VK_COLOURS = RG_RGBA32F + 1, VK_DEPTHS = 2 };
 
 struct vk_framebuffer;
@@ -80,16 +80,17 @@ struct vk_device {
     struct vk_family family;
     VkSampler sampler;
     VkQueryPool timestamp;
-    VkQueryPool occlusion; // RG_MAX_QUERIES; made by the first draw that has some
-    uint64_t ticks_mask;   // the valid bits of a timestamp; 0: there are none
+    VkQueryPool occlusion; // RG_MAX_QUERIES; made by the first draw with queries
+    uint64_t ticks_mask;   // the valid bits of a timestamp; 0: no timestamps
     uint64_t ticks_last, ticks_total;
     struct vk_batch batches[VK_BATCHES];
     int current;
-    uint64_t serial;  // of the batch being recorded; each has its own
-    VkPipeline bound; // to compute
-    VkRenderPass render_passes[VK_COLOURS][VK_DEPTHS]; // made when first drawn with
+    uint64_t serial;                                   // of the batch being recorded, unique
+    VkPipeline bound;                                  // of compute
+    VkRenderPass render_passes[VK_COLOURS][VK_DEPTHS]; // made on first use
     struct vk_framebuffer *framebuffers;               // likewise; a list
-    struct rg_buf *no_samples; // what draws that count nothing bind; from the first DRAW pass on
+    struct rg_buf *no_samples; // bound by draws that count nothing; exists from the first DRAW pass
+                               // on
     struct rg_image *no_depth;
     PFN_vkSetDebugUtilsObjectNameEXT set_name; // NULL without the validation layer
 };
@@ -104,8 +105,8 @@ struct vk_image {
     VkImage handle;
     struct vk_memory memory;
     VkImageView sampled; // every level
-    VkImageView stored;  // level 0; none for a format that cannot be stored to
-    VkImageView *places; // of one layer of one level each, made when first drawn to; NULL: none yet
+    VkImageView stored;  // level 0; none for a format without storage
+    VkImageView *places; // of one layer of one level each, made on first use; NULL: none yet
 };
 
 union vk_descriptor {
@@ -113,8 +114,8 @@ union vk_descriptor {
     VkDescriptorImageInfo image;
 };
 
-// What a DRAW program's pass has: its shaders, and a pipeline for each way to draw, made when first
-// used.
+// The additional parts of a DRAW program's pass: its shaders, and a pipeline for each draw state,
+// made on first use.
 struct vk_drawing {
     VkShaderModule vertex, fragment;
     VkPipeline pipelines[VK_COLOURS][RG_BLEND_ADD + 1][RG_DEPTH_WRITE + 1];
@@ -122,7 +123,7 @@ struct vk_drawing {
 
 struct vk_pass {
     struct rg_pass pub;
-    struct rg_slot_info slots[RG_MAX_SLOTS]; // the kernel's, then those of the stages that draw
+    struct rg_slot_info slots[RG_MAX_SLOTS]; // the kernel's, then those of the drawing stages
     int slot_count;
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout layout;
@@ -132,7 +133,7 @@ struct vk_pass {
     struct vk_drawing *drawing;        // of a DRAW program
     size_t params_bytes;
     VkDeviceSize run_bytes; // of the uniform block
-    // The last set, good for another run in the same batch with the same objects bound.
+    // The last set, valid for another run in the same batch with the same objects.
     VkDescriptorSet set;
     uint64_t set_serial;
     union vk_descriptor bound[RG_MAX_SLOTS];
@@ -144,17 +145,17 @@ bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, si
 void vk_instance_close(struct vk_instance *instance);
 // backend->functions
 int vk_functions(struct rg_device *device, const void **functions, int max);
-// The usable devices (Vulkan 1.2, a queue that computes), hardware first; returns their number, and
-// in `why` the reason when it is 0.
+// The usable devices (Vulkan 1.2, a compute queue), hardware first; returns their number, with the
+// reason in `why` when it is 0.
 int vk_physical_devices(struct vk_instance *instance, VkPhysicalDevice *devices, int max, char *why,
                         size_t why_size);
-// api/drivers.c: where the loader finds drivers, and what backend->list says of `count` devices
-// that were found.
+// api/drivers.c: where the loader finds drivers, and the result of backend->list for `count`
+// devices found.
 extern const struct rg_manifest_rules vk_manifests;
 int vk_judge(const struct vk_instance *instance, int count, char *why, size_t why_size);
 // The first family that computes and draws, else the first that computes. False: there is none.
 bool vk_queue_family(VkPhysicalDevice device, struct vk_family *family);
-// False, and `why`, where the driver does not tell what its images can be.
+// False, and `why`, where the driver cannot describe its image formats.
 bool vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info, char *why,
                  size_t why_size);
 
@@ -165,13 +166,13 @@ struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *fami
 
 // api/error.c
 const char *vk_result_name(VkResult result);
-// True if `result` is a success; else logs "noun 'name': call failed with ..." and is false.
+// Whether `result` is a success; if not, logs "noun 'name': call failed with ...".
 bool vk_check(VkResult result, const char *call, const char *noun, const char *name);
-// vk_try(noun, name, vkDoIt, arguments...) calls a function of Vulkan and checks it.
+// vk_try(noun, name, vkDoIt, arguments...) calls a Vulkan function and checks its result.
 #define vk_try(noun, name, function, ...) vk_check(function(__VA_ARGS__), #function, noun, name)
-// False if the validation layer has complained since the last time this was asked.
+// False if the validation layer has complained since the last call.
 bool vk_healthy(struct vk_device *device);
-// Tells the validation layer what an object is called.
+// Gives an object its name in the validation layer.
 void vk_name(struct vk_device *device, VkObjectType type, uint64_t handle, const char *name);
 #define VK_HANDLE(handle) ((uint64_t)(uintptr_t)(handle))
 
@@ -184,26 +185,26 @@ void vk_memory_destroy(struct vk_device *device, struct vk_memory *memory);
 bool vk_block_create(struct vk_device *device, VkDeviceSize size, VkBufferUsageFlags usage,
                      enum vk_memory_use use, const char *name, struct vk_block *block);
 void vk_block_destroy(struct vk_device *device, struct vk_block *block);
-// Whether VK_USE_DEVICE memory is mapped, and read by the host without waiting for a bus.
+// Whether VK_USE_DEVICE memory is mapped and fast for the host to read.
 bool vk_memory_is_direct(const VkPhysicalDeviceMemoryProperties *memory);
 
 // api/batch.c
 bool vk_batches_create(struct vk_device *device);
 void vk_batches_destroy(struct vk_device *device);
-// The batch to record into, begun if need be; NULL when the driver failed.
+// The batch to record into, begun if necessary; NULL when the driver failed.
 struct vk_batch *vk_record(struct vk_device *device);
 // As vk_record, with `size` bytes (at most VK_MAX_STAGING_BYTES) of staging memory, mapped at
 // `memory`, that begin at `offset` in batch->staging.
 struct vk_batch *vk_record_staged(struct vk_device *device, size_t size, VkDeviceSize *offset,
                                   void **memory);
-// Hands the commands over without waiting.
+// Submits the commands without waiting.
 bool vk_submit(struct vk_device *device);
-// Hands the commands over and waits until all have ended.
+// Submits the commands and waits until all have ended.
 bool vk_wait(struct vk_device *device);
 bool vk_is_idle(const struct vk_device *device);
-// What is recorded next, draws apart, sees what was recorded before.
+// Makes earlier writes visible to later commands other than draws.
 void vk_barrier(const struct vk_batch *batch);
-// The same about a draw: it sees what came before, and whatever follows sees what it drew.
+// The same for a draw: earlier writes to the draw, and the draw's writes to later commands.
 void vk_barrier_before_draw(const struct vk_batch *batch);
 void vk_barrier_after_draw(const struct vk_batch *batch);
 
@@ -215,7 +216,7 @@ bool vk_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
 
 // formats.c
 VkFormat vk_format(enum rg_format format);
-// All that images of a format are made for: bits of enum rg_format_use.
+// The usages of images of a format, from bits of enum rg_format_use.
 VkImageUsageFlags vk_usage(enum rg_format format, unsigned uses);
 VkImageAspectFlags vk_aspect(enum rg_format format);
 
@@ -230,30 +231,30 @@ bool vk_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool vk_image_clear(struct rg_image *image, const void *texel);
 
 // slots.c
-// The layouts of pass->slots.
+// Creates the layouts of pass->slots.
 bool vk_slots_create(struct vk_device *device, struct vk_pass *pass,
                      const struct rg_kernel *kernel);
 void vk_slots_destroy(struct vk_device *device, struct vk_pass *pass);
-// What the kernel's own slots are bound to; the other descriptors are zero.
+// Fills in the kernel's own slots; the other descriptors are zero.
 void vk_slots_fill(const struct vk_device *device, const struct rg_kernel *kernel,
                    const struct rg_run *run, union vk_descriptor descriptors[RG_MAX_SLOTS]);
 void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf);
 void vk_slot_image(union vk_descriptor *descriptor, const struct vk_device *device,
                    VkImageView view);
-// Makes pass->set a descriptor set of these.
+// Makes pass->set a set with these descriptors.
 bool vk_slots_bind(struct vk_device *device, struct vk_batch *batch, struct vk_pass *pass,
                    union vk_descriptor descriptors[RG_MAX_SLOTS]);
 
 // target.c
-// What a run draws to: colour, or RG_FORMAT_NONE, and whether depth is attached.
+// The kind of a run's target: colour, or RG_FORMAT_NONE, and whether depth is attached.
 struct vk_target {
     enum rg_format colour;
     bool depth;
 };
 struct vk_target vk_target_of(const struct rg_draw *draw);
-// A view of one layer of one level; VK_NULL_HANDLE where the driver failed. The image keeps it.
+// A view of one layer of one level, which the image owns; VK_NULL_HANDLE where the driver failed.
 VkImageView vk_place(struct vk_device *device, struct rg_image *image, int layer, int level);
-// Both are kept by the device; VK_NULL_HANDLE where the driver failed.
+// The device owns both; VK_NULL_HANDLE where the driver failed.
 VkRenderPass vk_render_pass(struct vk_device *device, struct vk_target target, const char *name);
 VkFramebuffer vk_framebuffer(struct vk_device *device, const struct rg_draw *draw);
 // Destroys the views and framebuffers of an image.
@@ -261,36 +262,37 @@ void vk_target_forget(struct vk_device *device, struct vk_image *image);
 void vk_targets_close(struct vk_device *device);
 
 // program.c
-// Compiles what a pass runs: false, and one logged line, on failure. Destroying takes what was
-// made.
+// Compiles a pass's shaders: false, and one logged line, on failure. Destroying also accepts a
+// partly made pass.
 bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
                        struct vk_pass *pass);
 void vk_program_destroy(struct vk_device *device, struct vk_pass *pass);
 
 // api/pipeline.c
-// The pipeline of a program's way to draw, which the pass keeps; VK_NULL_HANDLE where the driver
+// The pipeline of a program's draw state, owned by the pass; VK_NULL_HANDLE where the driver
 // failed.
 VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,
                           const struct rg_draw *draw);
 
 // draw.c
-// Adds to pass->slots those of the stages that draw.
+// Adds the slots of the drawing stages to pass->slots.
 void vk_draw_slots(struct vk_pass *pass);
-// Sees to what draws that count nothing bind: a shader's slots must be bound. False: the driver
-// failed.
+// Makes the buffer for draws that count nothing, because a shader's slots must all be bound. False:
+// the driver failed.
 bool vk_draw_prepare(struct vk_device *device);
-// What the stages' slots are bound to. False: the driver failed.
+// Fills in the drawing stages' slots. False: the driver failed.
 bool vk_draw_fill(struct vk_device *device, const struct rg_run *run,
                   union vk_descriptor descriptors[RG_MAX_SLOTS]);
 // Records the draw, with pass->set.
 bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_pass *pass,
              const struct rg_run *run, uint32_t params_offset);
-void vk_draw_close(struct vk_device *device); // what all passes share, before the device closes
+void vk_draw_close(struct vk_device *device); // frees objects shared by all passes, before the
+                                              // device closes
 
 // api/query.c
-// Makes so many occlusion queries ready; 0: none. False: the driver failed.
+// Resets so many occlusion queries; 0: none. False: the driver failed.
 bool vk_queries_prepare(struct vk_device *device, const struct vk_batch *batch, int count);
-// Records the draws of a render pass, each in its query, and behind it their answers.
+// Records the draws of a render pass, each in its query, and then the copy of their results.
 void vk_draw_queries(const struct vk_device *device, const struct vk_batch *batch,
                      const struct rg_packed *packed);
 void vk_answer_queries(const struct vk_device *device, const struct vk_batch *batch,

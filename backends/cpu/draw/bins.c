@@ -5,11 +5,11 @@
 
 #include "core/base/alloc.h"
 
-// The records of a round take no more than this; its primitives without records, and its
-// references, take about as much each.
+// The most that a round's records take; its primitives without records, and its references, take
+// about as much each.
 #define MOST_BYTES ((size_t)128 << 20)
 
-// Large tiles list more pixels before one comes twice; many small tiles are shared out more evenly.
+// Large tiles list more pixels before one repeats; many small tiles balance the load better.
 enum { LEAST_SIDE_LOG2 = 6, WANTED_SIDE_LOG2 = 7, TILES_A_THREAD = 16, MOST_TILES = 4096 };
 enum { FIRST_ROOM = 1 << 16, MOST_PRIMS = 1 << 21, MOST_REFS = 1 << 23 };
 
@@ -57,7 +57,7 @@ bool cpu_sorter_sort(struct cpu_sorter *sorter, struct cpu_bins *bins, int chunk
 
 // --- room for primitives and references ---
 
-// Threads take room without waiting for each other. Where it ends, the round does.
+// Threads take room without waiting for each other. When it is full, the round ends.
 static int take(int *taken, int count, int room, bool *full)
 {
     const int first = __atomic_fetch_add(taken, count, __ATOMIC_RELAXED);
@@ -77,14 +77,14 @@ int cpu_bins_refs(struct cpu_bins *bins, int count)
     return take(&bins->ref_count, count, bins->ref_room, &bins->full);
 }
 
-// Memory of another size in place of the old: the contents need not stay from round to round.
+// Replaces memory by another size; contents are not kept between rounds.
 static void *renewed(void *held, size_t size)
 {
     free(held);
     return rg_alloc_lines(size);
 }
 
-// Twice the room where the last round lacked it.
+// Doubles the room if the last round lacked it.
 static int wanted(int room, int asked_for, int most)
 {
     int64_t more = room ? room : FIRST_ROOM;
@@ -112,7 +112,7 @@ static bool make_record_room(struct cpu_bins *bins, size_t size)
     return bins->records.of_items != NULL;
 }
 
-// Programs with records of different size take turns in the same memory.
+// Programs with records of different size share the same memory.
 static bool make_prim_room(struct cpu_bins *bins, size_t record_bytes)
 {
     const int prims = wanted(bins->prim_room, bins->prim_count, MOST_PRIMS);

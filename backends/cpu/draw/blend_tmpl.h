@@ -1,6 +1,7 @@
-// Depth test and blending of fragments whose pixels all differ, side by side. The pixels' texels
-// and depths have been copied together, and are copied back: what is not kept is as it was. Loops
-// run to a multiple of CPU_LANES. What is the same for a whole run is a constant in each.
+// Depth test and blending of fragments whose pixels all differ, vectorised. The pixels' texels and
+// depths are gathered before and scattered after; pixels that fail the test are written back
+// unchanged. Loops run to a multiple of CPU_LANES. Properties that are constant for a run are
+// constants in each loop.
 #ifndef RG_BACKENDS_CPU_DRAW_BLEND_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_BLEND_TMPL_H
 
@@ -9,13 +10,13 @@
 
 #define ALWAYS static inline __attribute__((always_inline))
 
-// What fragments are tested against and blended with.
+// The depths and colours that fragments are tested against and blended with.
 struct pixels {
     uint depth[CPU_FRAGMENTS];
     uint texels[4 * CPU_FRAGMENTS];
 };
 
-// Leaves in `kept` 1 for what passes, 0 for what does not.
+// Sets `kept` to 1 for fragments that pass, 0 for others.
 ALWAYS void test_as(struct cpu_fragments *f, struct pixels *pixels, int mode)
 {
     const int padded = cpu_padded(f->count);

@@ -1,13 +1,12 @@
-// Which pixels small shapes cover, CPU_LANES shapes side by side, in 32 bits.
+// Finds the pixels that small shapes cover, CPU_LANES shapes at a time, in 32 bits.
 //
 // Edge functions are those of kernels/dialect/draw/coverage.h, divided by 256: its at(px, py) > 0
-// has the terms 256 dx px and 256 dy py, so that it says the same as
+// has the terms 256 dx px and 256 dy py, so that it is equivalent to
 //   floor((origin - 1) / 256) - dx px + dy py >= 0.
 //
-// A convex polygon's two triangles cover together what lies inside its four edges, ties included:
-// the edge that they share gives each centre on it to one of them. A polygon is convex, perhaps
-// with corners that coincide or lie on one line, where no three consecutive corners turn the other
-// way.
+// A convex polygon's two triangles together cover the inside of its four edges, including ties:
+// each centre on their shared edge belongs to one of them. A polygon is convex if no three
+// consecutive corners turn the other way; corners may coincide or lie on one line.
 //
 // Bounds: a small shape's corners lie within 2^14 of each other (64 pixels), and of a pixel of its
 // box, so that products are below 2^28, and sums of four of them below 2^30.
@@ -20,12 +19,13 @@ enum { SMALL = 1 << 14, MOST_GROUPS = CPU_MASKS * 2 };
 
 // CPU_LANES shapes.
 struct lanes {
-    int x[4][CPU_LANES], y[4][CPU_LANES];    // corners from the centre of the box's first pixel
+    int x[4][CPU_LANES], y[4][CPU_LANES];    // corners relative to the centre of the box's first
+                                             // pixel
     int width[CPU_LANES], height[CPU_LANES]; // of the box, in pixels; 0: covers nothing
-    uint columns[CPU_LANES];                 // the box's columns in each row of a group
+    uint columns[CPU_LANES];                 // columns of the box, in each row of a group
     int turned[CPU_LANES];                   // -1: corners turn the other way; else 0
     int dx[4][CPU_LANES], dy[4][CPU_LANES], at[4][CPU_LANES];
-    uint rows[MOST_GROUPS][CPU_LANES]; // which pixels are covered: four rows of eight a word
+    uint rows[MOST_GROUPS][CPU_LANES]; // covered pixels: four rows of eight in a word
 };
 
 static inline int cross(int ax, int ay, int bx, int by, int cx, int cy)
@@ -33,8 +33,8 @@ static inline int cross(int ax, int ay, int bx, int by, int cx, int cy)
     return (ax - bx) * (cy - ay) - (cx - ax) * (ay - by);
 }
 
-// The box of pixels of each shape, by whose size shapes are small, and the corners as seen from the
-// box.
+// Computes each shape's box of pixels, which decides whether it is small, and its corners relative
+// to the box.
 static void box_lanes(const rg_draw_state *state, const struct cpu_items *items,
                       struct cpu_shapes *shapes, int first, struct lanes *l)
 {
@@ -73,8 +73,8 @@ static void box_lanes(const rg_draw_state *state, const struct cpu_items *items,
     }
 }
 
-// Which way corners turn. Folded shapes are left to their triangles; those without area are
-// dropped.
+// Finds the direction in which corners turn. Folded shapes are left to their triangles; those
+// without area are dropped.
 static void turn_lanes(struct cpu_shapes *shapes, int first, struct lanes *l)
 {
 #pragma omp simd
@@ -97,7 +97,7 @@ static void turn_lanes(struct cpu_shapes *shapes, int first, struct lanes *l)
     }
 }
 
-// The edge from corner k to the next one, at the box's first pixel.
+// Computes the edge from corner k to the next one, at the box's first pixel.
 static void edge_lanes(struct lanes *l, int k)
 {
     const int n = (k + 1) & 3;
@@ -106,8 +106,8 @@ static void edge_lanes(struct lanes *l, int k)
         const int turned = l->turned[i];
         const int dx = ((l->y[k][i] - l->y[n][i]) ^ turned) - turned;
         const int dy = ((l->x[k][i] - l->x[n][i]) ^ turned) - turned;
-        // Everything lies inside an edge without length, which a corner makes that is there twice:
-        // the last one of triangles.
+        // A repeated corner, as the last one of triangles is, gives an edge without length, which
+        // excludes nothing.
         const int tie = (dx < 0 ? 1 : 0) | ((dx == 0 ? 1 : 0) & (dy >= 0 ? 1 : 0));
         l->dx[k][i] = dx;
         l->dy[k][i] = dy;
@@ -115,7 +115,7 @@ static void edge_lanes(struct lanes *l, int k)
     }
 }
 
-// Which of `columns` columns may be covered, in four rows; then moves on to the next four rows.
+// Tests `columns` columns in four rows, then moves on to the next four rows.
 static inline __attribute__((always_inline)) void group_lanes(struct lanes *l, int group,
                                                               int columns)
 {

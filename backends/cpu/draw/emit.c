@@ -4,7 +4,7 @@
 
 #include "kernels/dialect/draw/coverage.h"
 
-// A chunk that leaves more references than this ends.
+// A chunk ends when it has more references than this.
 enum { MOST_REFS = 1 << 18 };
 
 static bool add_ref(struct cpu_sorter *sorter, int tile, struct cpu_ref ref)
@@ -18,8 +18,8 @@ static bool add_ref(struct cpu_sorter *sorter, int tile, struct cpu_ref ref)
     return true;
 }
 
-// The part of a mask of 8 x 8 pixels that lies in its columns [x0, x1) and rows [y0, y1), neither
-// of which is empty.
+// The part of a mask of 8 x 8 pixels in columns [x0, x1) and rows [y0, y1), neither of which is
+// empty.
 static uint64_t cut_mask(uint64_t mask, int x0, int y0, int x1, int y1)
 {
     const uint64_t columns = (UINT64_C(0xff) << x0) & (UINT64_C(0xff) >> (8 - x1));
@@ -27,7 +27,7 @@ static uint64_t cut_mask(uint64_t mask, int x0, int y0, int x1, int y1)
     return mask & rows & columns * UINT64_C(0x0101010101010101);
 }
 
-// Gives each tile that a mask lies in its part of the mask.
+// Gives each tile under a mask its part of the mask.
 static bool bin_cut(const struct cpu_emitter *e, int prim, uint64_t mask, int x, int y)
 {
     const struct cpu_tiling *tiling = &e->bins->tiling;
@@ -65,7 +65,7 @@ static bool bin_masks(const struct cpu_emitter *e, int shape, int prim)
     return added;
 }
 
-// Whether some pixel centre of the box may lie inside an edge.
+// Whether a pixel centre of the box may be inside an edge.
 static bool reaches(rg_edge e, int x0, int y0, int x1, int y1)
 {
     return rg_edge_at(e, e.dx < 0 ? x1 - 1 : x0, e.dy > 0 ? y1 - 1 : y0) > 0;
@@ -78,7 +78,7 @@ static bool triangle_reaches(const rg_triangle *t, int x0, int y0, int x1, int y
            reaches(t->c, x0, y0, x1, y1);
 }
 
-// Refers a shape to the tiles whose pixels one of its two triangles may cover.
+// Adds references to the tiles that one of the shape's two triangles may cover.
 static bool bin_corners(const struct cpu_emitter *e, const rg_snapped *c, int prim, int64_t *pixels)
 {
     const struct cpu_tiling *tiling = &e->bins->tiling;
@@ -98,7 +98,7 @@ static bool bin_corners(const struct cpu_emitter *e, const rg_snapped *c, int pr
                 continue;
             if (!add_ref(e->sorter, ty * tiling->across + tx, ref))
                 return false;
-            *pixels += INT64_C(1) << (2 * side - 2); // a quarter of the tile, say
+            *pixels += INT64_C(1) << (2 * side - 2); // an estimate: a quarter of the tile
         }
     }
     return true;
@@ -171,7 +171,7 @@ static void put_part(struct cpu_items *items, int place, const rg_snapped *part)
     items->y[3][place] = part->y3;
 }
 
-// A batch some of whose items have to be clipped.
+// Processes a batch with items to be clipped.
 static bool take_clipped(const struct cpu_emitter *e, struct cpu_chunk *chunk, int begin, int count)
 {
     struct cpu_items *items = &e->sorter->items;

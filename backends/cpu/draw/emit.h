@@ -1,10 +1,10 @@
-// The first step of a round: items become primitives and references to them.
+// The first step of a round: turns items into primitives and references to them.
 #ifndef RG_BACKENDS_CPU_DRAW_EMIT_H
 #define RG_BACKENDS_CPU_DRAW_EMIT_H
 
 #include "backends/cpu/draw/raster.h"
 
-// What one thread does of it, a chunk.
+// The first step's state of one thread and chunk.
 struct cpu_emitter {
     const struct cpu_program *program;
     const struct cpu_raster *raster;

@@ -1,14 +1,14 @@
-// Pixels of small primitives and short spans, gathered in a list that many primitives share, until
-// one comes again: then their fragments are computed, tested and blended side by side.
+// Gathers pixels of small primitives and short spans in a list that many primitives share, until a
+// pixel repeats; then their fragments are computed, tested and blended together.
 #ifndef RG_BACKENDS_CPU_DRAW_LIST_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_LIST_TMPL_H
 
 #include "backends/cpu/draw/bins.h"
 #include "backends/cpu/draw/blend_tmpl.h"
 
-enum { LISTED_PX = 128 }; // side of the square of pixels that a list tells apart
+enum { LISTED_PX = 128 }; // side of the square of pixels that a list distinguishes
 
-// What a tile is shaded with.
+// State of shading a tile.
 struct shader {
     const struct cpu_program *program;
     const struct cpu_call *call;
@@ -20,15 +20,15 @@ struct shader {
     struct cpu_list list;
     struct cpu_fragments fragments;
     struct pixels pixels;
-    bool drops_hidden;   // before lights fall on them
-    int recorded_lights; // that have records
-    // The list that each pixel was last in, by the low bits of x and y: pixels that share an entry
-    // pass for the same.
-    uint16_t listing; // counts from 1
+    bool drops_hidden;   // drops hidden fragments before lighting them
+    int recorded_lights; // lights with records
+    // The last list that each pixel was in, by the low bits of x and y; pixels that share an entry
+    // count as the same.
+    uint16_t listing; // number of the current list, from 1 on
     uint16_t listed[LISTED_PX][LISTED_PX];
 };
 
-// Depth test and blending of the fragments, once their pixels are gathered.
+// Tests and blends the fragments, whose pixels have been gathered.
 static void meet(struct shader *s)
 {
     test_fragments(&s->fragments, &s->pixels, s->draw.depth_mode);
@@ -43,7 +43,7 @@ static void count_sample(const struct shader *s, int prim, int samples)
                            __ATOMIC_RELAXED);
 }
 
-// `words` is a constant where this is called.
+// `words` must be a constant in each call.
 static inline __attribute__((always_inline)) void gather(uint *to, const uint *from,
                                                          const size_t *texel, int count, int words)
 {
@@ -101,7 +101,7 @@ static inline bool is_seen(const struct shader *s, int i, size_t texel)
     return s->fragments.kept[i] && s->fragments.depth[i] < rg_bits_float(s->target.depth[texel]);
 }
 
-// Takes from the list what will not pass the test of depth.
+// Removes fragments from the list that will fail the depth test.
 static void drop_hidden(struct shader *s)
 {
     struct cpu_list *list = &s->list;
@@ -116,7 +116,7 @@ static void drop_hidden(struct shader *s)
     list->count = seen;
 }
 
-// Draws what is listed, one pixel at least.
+// Draws the listed pixels, at least one.
 static void draw_list(struct shader *s)
 {
     struct cpu_list *list = &s->list;
@@ -165,8 +165,8 @@ static inline void list_pixel(struct shader *s, int prim, int x, int y)
     list->count++;
 }
 
-// Has a primitive's record on its way, and those of its lights. Were it a function to gcc, it
-// would have no effect, and be left out.
+// Prefetches a primitive's record and its lights' records. It is always inlined, because gcc drops
+// calls of a function without effect.
 static inline __attribute__((always_inline)) void fetch_record(const struct shader *s, int prim)
 {
     const size_t size = s->program->record_size, light_size = s->program->light_size;

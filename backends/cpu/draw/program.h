@@ -1,5 +1,5 @@
-// What of cpu's drawing depends on the program: its stages, and what passes between them and the
-// rest. A program includes nothing else of it.
+// The interface between cpu's drawing and a program: its stages, and their data. Programs include
+// nothing else of the drawing code.
 #ifndef RG_BACKENDS_CPU_DRAW_PROGRAM_H
 #define RG_BACKENDS_CPU_DRAW_PROGRAM_H
 
@@ -9,12 +9,12 @@
 #include "kernels/dialect/draw/clip.h"
 
 enum {
-    CPU_LANES = 16,                     // what loops handle side by side
-    CPU_BATCH = 256,                    // items
-    CPU_PARTS = 64,                     // room for what clipped items of a batch fall into
+    CPU_LANES = 16,                     // elements processed together by loops
+    CPU_BATCH = 256,                    // items in a batch
+    CPU_PARTS = 64,                     // room for the parts of a batch's clipped items
     CPU_PLACES = CPU_BATCH + CPU_PARTS, // a multiple of CPU_LANES
-    CPU_MOST_PARTS = RG_MOST_PRIMS(3),  // of one item
-    CPU_FRAGMENTS = 256,                // a list of pixels holds
+    CPU_MOST_PARTS = RG_MOST_PRIMS(3),  // parts of one item
+    CPU_FRAGMENTS = 256,                // pixels in a list
 };
 
 static inline int cpu_padded(int count)
@@ -22,7 +22,7 @@ static inline int cpu_padded(int count)
     return (count + CPU_LANES - 1) & -CPU_LANES;
 }
 
-// Corners of a batch's items, each at its place; behind them those of clipped parts.
+// Corners of a batch's items, and after them those of clipped parts.
 struct cpu_items {
     int fate[CPU_BATCH];
     int x[4][CPU_PLACES], y[4][CPU_PLACES];
@@ -35,7 +35,7 @@ struct cpu_list {
     int prim[CPU_FRAGMENTS];
 };
 
-// Their fragments, or those of neighbouring pixels of one primitive.
+// The fragments of a list, or of neighbouring pixels of one primitive.
 struct cpu_fragments {
     int count;
     float r[CPU_FRAGMENTS], g[CPU_FRAGMENTS], b[CPU_FRAGMENTS], a[CPU_FRAGMENTS];
@@ -43,34 +43,34 @@ struct cpu_fragments {
     int kept[CPU_FRAGMENTS];
 };
 
-// The records of primitives, by number: those of their items; behind the room for these, those of
-// their first light, and so on for each light. So what a loop gathers lies a constant apart.
+// The records of primitives, by number: those of items, then, after all room for these, those of
+// the first light, and so on. So the records that a loop gathers are a constant distance apart.
 struct cpu_records {
     char *of_items;
     int room; // primitives
 };
 
-// The stages of a DRAW program. All get the call, whose parameters are its rg_draw_call.
+// The stages of a DRAW program. Each gets the call, whose parameters are its rg_draw_call.
 struct cpu_program {
     int corners;        // RG_CORNERS
     size_t record_size; // of an item, in bytes
-    size_t light_size;  // of the record of an item and light; 0: there is none
+    size_t light_size;  // of the record of an item and a light; 0: none
 
-    // The items from `begin` on: fate and corners.
+    // Computes fate and corners of items from `begin` on.
     void (*items)(const struct cpu_call *call, int begin, int count, struct cpu_items *items);
-    // The parts that an item falls into where it is clipped; returns their number.
+    // Clips an item into parts; returns their number.
     int (*clip)(const struct cpu_call *call, int item, rg_snapped parts[CPU_MOST_PARTS]);
-    // The records of some items, from primitive `first` on.
+    // Computes the records of items, from primitive `first` on.
     void (*records)(const struct cpu_call *call, const int *items, int count,
                     struct cpu_records records, int first);
-    // The fragments of a list, whose pixels go on to a multiple of CPU_LANES, and of `count` pixels
-    // from (x, y) on.
+    // Compute the fragments of a list, which is padded to a multiple of CPU_LANES, and of `count`
+    // pixels from (x, y) on.
     void (*list)(const struct cpu_call *call, struct cpu_records records,
                  const struct cpu_list *list, struct cpu_fragments *fragments);
     void (*row)(const struct cpu_call *call, struct cpu_records records, int prim, int x, int y,
                 int count, struct cpu_fragments *fragments);
-    // Of programs with lights, else NULL: how many there are; and the same as `list` and `row`, but
-    // depth and `kept` alone.
+    // For programs with lights, else NULL: the number of lights; and variants of `list` and `row`
+    // that compute depth and `kept` only.
     int (*lights)(const struct cpu_call *call);
     void (*list_depth)(const struct cpu_call *call, struct cpu_records records,
                        const struct cpu_list *list, struct cpu_fragments *fragments);

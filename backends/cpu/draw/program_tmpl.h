@@ -1,4 +1,4 @@
-// Makes of the DRAW program that was just included the functions that a level draws it with.
+// Makes the drawing functions of a level for the DRAW program that was just included.
 #if RG_CHECKED
 #include "backends/cpu/draw/reference_tmpl.h"
 #else

@@ -1,11 +1,11 @@
-// What drawing shares among programs and is worth vectors, compiled once a level.
+// Vectorised parts of drawing that programs share, compiled for each level.
 #ifndef RG_BACKENDS_CPU_DRAW_RASTER_H
 #define RG_BACKENDS_CPU_DRAW_RASTER_H
 
 #include "backends/cpu/draw/bins.h"
 
 struct cpu_raster {
-    // Says of each shape what it covers. Shapes of three corners have their last one twice.
+    // Finds the coverage of each shape. Shapes of three corners repeat the last one.
     void (*cover)(const rg_draw_state *draw, const struct cpu_items *items,
                   struct cpu_shapes *shapes);
     // Draws a tile.

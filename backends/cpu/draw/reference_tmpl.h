@@ -1,5 +1,5 @@
-// Makes a C function of the DRAW program that was just included, for cpu:reference: plain loops
-// over items, triangles and pixels, in order.
+// Makes a C function for cpu:reference of the DRAW program that was just included: plain loops over
+// items, triangles and pixels, in order.
 #include "backends/cpu/kernels/bind_tmpl.h"
 #include "kernels/dialect/draw/blend.h"
 #include "kernels/dialect/draw/coverage.h"

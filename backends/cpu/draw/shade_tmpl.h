@@ -1,5 +1,5 @@
-// A tile of the target: its primitives become pixels, in order. Small ones and short spans are
-// listed (list_tmpl.h); wide spans are shaded at once, when what is listed has been drawn.
+// Draws a tile of the target: its primitives become pixels, in order. Small ones and short spans
+// are listed (list_tmpl.h); wide spans are shaded at once, after the list has been drawn.
 #ifndef RG_BACKENDS_CPU_DRAW_SHADE_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_SHADE_TMPL_H
 
@@ -7,12 +7,12 @@
 #include "backends/cpu/draw/span_tmpl.h"
 
 enum {
-    WIDE_SPAN = 24,   // pixels that are worth a row of their own
-    WORTH_LIGHTS = 2, // that cost more than asking first what is hidden
+    WIDE_SPAN = 24,   // pixels that are worth a vectorised row of their own
+    WORTH_LIGHTS = 2, // from this number of lights on, hidden fragments are dropped first
 };
 
-// Leaves of a row what lies between the first and the last pixel that will pass the test of depth;
-// returns how many.
+// Trims a row to the pixels from the first to the last one that will pass the depth test; returns
+// their number.
 static int trim_hidden(struct shader *s, int prim, int *x, int y, int count)
 {
     s->program->row_depth(s->call, s->bins->records, prim, *x, y, count, &s->fragments);
@@ -53,8 +53,8 @@ static void draw_row(struct shader *s, int prim, int x, int y, int count)
     }
 }
 
-// Draws a shape's pixels in a block. What was listed before the shape is drawn before its first
-// long row; what is listed of the shape itself can wait, for its pixels are all different.
+// Draws a shape's pixels in a block. The list is drawn before the shape's first long row, except
+// pixels of the shape itself, which are all different and can wait.
 static void draw_block(struct shader *s, int prim, const struct convex *shape, int x, int y,
                        int width, int height, bool *flushed)
 {
@@ -127,7 +127,7 @@ static void begin_tile(struct shader *s, int tile)
     s->x1 = s->x0 + side;
     s->y1 = s->y0 + side;
     s->list.count = 0;
-    // Vectors reach beyond the last pixel: there they find what was gathered before, or this.
+    // Vectors reach beyond the last pixel, where they must find initialised memory.
     memset(&s->pixels, 0, sizeof(s->pixels));
     begin_listing(s);
 }

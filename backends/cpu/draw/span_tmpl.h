@@ -1,9 +1,9 @@
-// Which pixels of each row a triangle covers: spans for a block of the target, rows side by side.
+// Finds the span of pixels that a triangle covers in each row of a block, several rows at a time.
 //
 // Edge functions are divided by 256 as in cover_tmpl.h. Bounds: corners lie within 16380 pixels of
 // each other (kernels/dialect/draw/clip.h), so |dx| and |dy| are below 2^22, and a function varies
-// by less than 2^29 within a block of 64 pixels a side. One that is cut off at 2^30 keeps its sign
-// there, and its quotients stay beyond the block: 32 bits serve.
+// by less than 2^29 within a block of 64 pixels a side. A function clamped to 2^30 keeps its sign
+// there, and its quotients stay beyond the block, so 32 bits are enough.
 #ifndef RG_BACKENDS_CPU_DRAW_SPAN_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_SPAN_TMPL_H
 
@@ -12,12 +12,12 @@
 
 enum { BLOCK_PX = 64 }; // side of a block, in pixels
 
-// The rows of a block, from its first one; pixels counted from its first column.
+// The spans of a block's rows, from its first row on, in columns of the block.
 struct spans {
     int begin[BLOCK_PX], end[BLOCK_PX];
 };
 
-// floor(value / by), cut off at 128 or so either way. The estimate is wrong by less than 1, for its
+// floor(value / by), clamped to about +-128. The estimate is off by less than 1, because its
 // relative error is below 2^-22.
 static inline int quotient(int value, int by, float inverse)
 {
@@ -26,7 +26,7 @@ static inline int quotient(int value, int by, float inverse)
     return estimate + (rest >= by ? 1 : 0) - (rest < 0 ? 1 : 0);
 }
 
-// Cuts the spans of `rows` rows, a multiple of CPU_LANES, to what lies inside an edge.
+// Clips the spans of `rows` rows, a multiple of CPU_LANES, to the inside of an edge.
 static void cut_spans(struct spans *spans, rg_edge e, int x, int y, int rows)
 {
     const int64_t far = (int64_t)1 << 30;
@@ -50,21 +50,21 @@ static void cut_spans(struct spans *spans, rg_edge e, int x, int y, int rows)
     }
 }
 
-// A triangle, or a convex quad: the triangle then has its box and three of its edges.
+// A triangle, or a convex quad; for a quad, the triangle has its box and three of its edges.
 struct convex {
     rg_triangle t;
     bool is_quad;
     rg_edge fourth;
 };
 
-// Positive where three corners turn as those of a triangle's edges do.
+// Positive where three corners turn in the same direction as a triangle's edges.
 static inline int64_t turn_of(int x0, int y0, int x1, int y1, int x2, int y2)
 {
     return (int64_t)(x0 - x1) * (y2 - y0) - (int64_t)(x2 - x0) * (y0 - y1);
 }
 
-// A quad whose corners all turn the same way. Its two triangles cover together what lies inside its
-// four edges: the edge that they share gives each centre on it to one of them.
+// Makes a shape of a quad whose corners all turn the same way. Its two triangles together cover the
+// inside of its four edges: each centre on their shared edge belongs to one of them.
 static bool make_convex(const rg_draw_state *draw, rg_snapped c, struct convex *shape)
 {
     const int64_t at_1 = turn_of(c.x0, c.y0, c.x1, c.y1, c.x2, c.y2);
@@ -79,7 +79,7 @@ static bool make_convex(const rg_draw_state *draw, rg_snapped c, struct convex *
     const rg_triangle near = rg_triangle_make(*draw, c.x0, c.y0, bx, by, c.x2, c.y2);
     const rg_triangle far = rg_triangle_make(*draw, c.x0, c.y0, c.x2, c.y2, dx, dy);
     shape->is_quad = true;
-    shape->t = near; // its third edge is the one that both share
+    shape->t = near; // its third edge is the shared one
     shape->t.c = rg_edge_make(c.x2, c.y2, dx, dy);
     shape->fourth = rg_edge_make(dx, dy, c.x0, c.y0);
     shape->t.first_x = rg_imin(near.first_x, far.first_x);

@@ -1,8 +1,8 @@
 // The loops of the DRAW program that was just included: the part of cpu's drawing that depends on
 // the program.
 //
-// They run to a multiple of CPU_LANES, which spares them a remainder. The elements that this adds
-// repeat the last one, for nothing else may be read.
+// They run to a multiple of CPU_LANES, which avoids a remainder loop. The additional elements
+// repeat the last one, since no other may be read.
 #include "backends/cpu/draw/program.h"
 #include "backends/cpu/kernels/bind_tmpl.h"
 
@@ -50,8 +50,8 @@ light_records(struct cpu_records records, int light)
     return first + (size_t)light * (size_t)records.room;
 }
 
-// Where records begin is read from an array, because gcc gathers what lies at places that it does
-// not know, and reads one item at a time where it knows that they are a whole record apart.
+// The records' indices come from an array, because gcc gathers from unknown addresses, but reads
+// one item at a time if it knows that they are a whole record apart.
 static void make_light_records(rg_ctx rg, RG_PARAMS p, const RG_RECORD *of, const int *begin,
                                int count, int light, RG_LIGHT_RECORD *made)
 {
@@ -62,7 +62,7 @@ static void make_light_records(rg_ctx rg, RG_PARAMS p, const RG_RECORD *of, cons
     }
 }
 
-// The record of a listed fragment's item and a light, of which `by` are all.
+// The record of a listed fragment's item and a light; `by` has the records of all.
 static inline __attribute__((always_inline)) const RG_LIGHT_RECORD *
 light_record_of(const RG_LIGHT_RECORD *by, const struct cpu_list *list, int i)
 {
@@ -93,7 +93,8 @@ make_item_records(rg_ctx rg, rg_draw_call p, const int *items, int count, RG_REC
 
 #if defined(RG_LIGHT_RECORD)
 
-// With the first light's, in one loop: so it need not gather what it has just made.
+// Makes items' and the first light's records in one loop, which saves gathering the records just
+// made.
 static inline __attribute__((always_inline)) void make_lit_records(rg_ctx rg, rg_draw_call p,
                                                                    const int *items, int count,
                                                                    RG_RECORD *made,
@@ -130,7 +131,7 @@ static void make_records(const struct cpu_call *call, const int *items, int coun
     make_item_records(rg, p, items, count, made);
 }
 
-// Its depth has yet to be settled.
+// Stores a fragment, except its depth.
 static inline __attribute__((always_inline)) void put_fragment(struct cpu_fragments *to, int i,
                                                                rg_fragment f)
 {
@@ -142,8 +143,8 @@ static inline __attribute__((always_inline)) void put_fragment(struct cpu_fragme
     to->kept[i] = f.kept;
 }
 
-// In a loop of its own, because gcc 12 does not vectorise choices that are the same all along a
-// row, as those of a billboard's one depth are.
+// A separate loop, because gcc 12 does not vectorise choices that are constant along a row, such as
+// those of a billboard's depth.
 static inline __attribute__((always_inline)) void settle_depths(struct cpu_fragments *fragments,
                                                                 int padded)
 {
@@ -154,9 +155,8 @@ static inline __attribute__((always_inline)) void settle_depths(struct cpu_fragm
 
 #if defined(RG_LIGHTS)
 
-// Lights come one after the other, each to all fragments side by side: a loop within theirs would
-// keep compilers from that. Its own arrays, which no slot can share, leave a light's words in
-// registers.
+// The loop over lights is outside that over fragments, which compilers then vectorise. These arrays
+// alias no slot, so that a light's words stay in registers.
 struct lit {
     float r[CPU_FRAGMENTS], g[CPU_FRAGMENTS], b[CPU_FRAGMENTS], a[CPU_FRAGMENTS];
 };
@@ -188,7 +188,8 @@ static inline __attribute__((always_inline)) rgba light_of(const struct lit *lit
 
 #endif
 
-// Where the record of a listed fragment begins: in 32 bits, as gather instructions want it.
+// The address of a listed fragment's record, with an offset of 32 bits, as gather instructions need
+// it.
 static inline __attribute__((always_inline)) const RG_RECORD *
 record_of(struct cpu_records records, const struct cpu_list *list, int i)
 {
@@ -203,7 +204,7 @@ static inline __attribute__((always_inline)) rgba added_to_none(rgba c)
     return rg_rgba(0.0f + c.r, 0.0f + c.g, 0.0f + c.b, 0.0f + c.a);
 }
 
-// One light alone is added in the loop that makes colours, so that what both need is reckoned once.
+// A single light is added in the loop that makes colours, so that common terms are computed once.
 static inline __attribute__((always_inline)) void
 shade_lit_list(rg_ctx rg, RG_PARAMS p, struct cpu_records records, const struct cpu_list *list,
                int padded, struct cpu_fragments *fragments)

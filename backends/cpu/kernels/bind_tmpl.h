@@ -1,10 +1,10 @@
-// Makes the context of the kernel that was just included from what a call binds.
+// Makes the context of the kernel that was just included from a call's bindings.
 #include "backends/cpu/kernels/call.h"
 
 #define RG_CAT_(a, b) rg_cpu_##a##_##b
 #define RG_CAT(a, b)  RG_CAT_(a, b)
 
-// Begins the definition of the object by which the kernel's file is called.
+// Begins the definition of the object that the kernel's file exports.
 #define RG_EXPORT_KERNEL                                                                           \
     extern const struct cpu_kernel RG_CAT(RG_LEVEL, RG_KERNEL_NAME);                               \
     const struct cpu_kernel RG_CAT(RG_LEVEL, RG_KERNEL_NAME)

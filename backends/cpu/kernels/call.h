@@ -1,5 +1,5 @@
-// What a compiled kernel gets and hands out. Kernels include nothing else of the backend, so that a
-// change there compiles none of them again.
+// The arguments and results of a compiled kernel. Kernels include nothing else of the backend, so
+// that changes elsewhere do not recompile them.
 #ifndef RG_BACKENDS_CPU_KERNELS_CALL_H
 #define RG_BACKENDS_CPU_KERNELS_CALL_H
 
@@ -8,11 +8,11 @@
 
 struct cpu_slot {
     void *data;
-    int count;                   // elements, or words of an image
+    int count;                   // elements, or an image's words
     const rg_image_shape *shape; // of an image
 };
 
-// What a DRAW program draws to: the texels of one layer of one level.
+// The target of a DRAW program: the texels of one layer of one level.
 struct cpu_target {
     uint *colour, *depth; // NULL: none
     uint *samples;        // by item; NULL: not counted
@@ -22,13 +22,13 @@ struct cpu_xyz {
     int x, y, z;
 };
 
-// A block of items begin <= (x, y, z) < end, to be run by one thread.
+// A block of items begin <= (x, y, z) < end, for one thread.
 struct cpu_call {
     const void *params;
     struct cpu_slot slots[RG_MAX_SLOTS];
     struct cpu_xyz begin, end;
-    struct rg_notes *notes;   // of the reference level alone
-    struct cpu_target target; // of a DRAW program
+    struct rg_notes *notes;   // for the reference level only
+    struct cpu_target target; // for DRAW programs
 };
 
 // A kernel of one instruction set.

@@ -1,8 +1,8 @@
 // Makes a C function of the GRID kernel that was just included: one call runs a block of items.
 #include "backends/cpu/kernels/bind_tmpl.h"
 
-// Items of a run are independent (docs/dialect.md), so they may run side by side in a vector. The
-// reference runs them one by one.
+// Items of a run are independent (docs/dialect.md), so they may be vectorised. The reference runs
+// them one by one.
 static inline __attribute__((always_inline)) void run_items(rg_ctx rg, RG_RUN_PARAMS p, int begin,
                                                             int end, int y, int z)
 {
@@ -13,7 +13,7 @@ static inline __attribute__((always_inline)) void run_items(rg_ctx rg, RG_RUN_PA
         rg_kernel(rg, p, x, y, z);
 }
 
-// The reference runs items that say that they have nothing to do, too: so it proves that they have.
+// The reference also runs items that claim to have nothing to do, which tests the claim.
 #if defined(RG_IDLE_ITEMS) && !RG_CHECKED
 static inline __attribute__((always_inline)) void run_row(rg_ctx rg, RG_RUN_PARAMS p, int begin,
                                                           int end, int y, int z)
@@ -33,7 +33,7 @@ static void run_block(const struct cpu_call *call)
 {
     const rg_ctx rg = bind_context(call);
     const RG_RUN_PARAMS p = *(const RG_RUN_PARAMS *)call->params;
-    // Copies, because a kernel's stores might otherwise be taken to change the call itself.
+    // Copies, because a kernel's stores might otherwise be assumed to change the call itself.
     const struct cpu_xyz begin = call->begin, end = call->end;
     for (int z = begin.z; z < end.z; z++)
         for (int y = begin.y; y < end.y; y++)

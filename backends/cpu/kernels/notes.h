@@ -1,16 +1,17 @@
-// What cpu:reference notes of a run: the first index out of range, and what the run came to.
+// Notes of cpu:reference about a run: the first index out of range, and its counts.
 #ifndef RG_BACKENDS_CPU_KERNELS_NOTES_H
 #define RG_BACKENDS_CPU_KERNELS_NOTES_H
 
 #include <stdint.h>
 
 struct rg_notes {
-    const char *slot; // of the index that is out of range; NULL: none was
+    const char *slot; // the slot of an index out of range; NULL: none
     int index, count;
-    int64_t records, fragments, fragments_kept, texels_fetched; // as core/device/work.h has them
+    int64_t records, fragments, fragments_kept, texels_fetched; // as in core/device/work.h
 };
 
-// The index if it is in range, else 0 with the fault noted, so that the run can go on and report.
+// Returns the index if it is in range, else notes the fault and returns 0, so that the run can
+// finish.
 static inline __attribute__((unused)) int rg_checked_index(struct rg_notes *notes, int index,
                                                            int count, const char *slot)
 {
@@ -24,7 +25,7 @@ static inline __attribute__((unused)) int rg_checked_index(struct rg_notes *note
     return 0;
 }
 
-// The same of an image's word, from which so many texels are fetched.
+// The same for an image's word, where `texels` texels are fetched.
 static inline __attribute__((unused)) int rg_checked_texels(struct rg_notes *notes, int index,
                                                             int count, const char *slot, int texels)
 {

@@ -1,4 +1,4 @@
-// What is bound to the context, so that equal bindings cost no call.
+// The context's current bindings, so that equal ones cost no call.
 #include "backends/gl/gl.h"
 
 void gl_bind_program(struct gl_bound *bound, GLuint id)

@@ -1,4 +1,4 @@
-// Whether a machine without a GL device lacks a driver, or has one that fails.
+// Tells whether a machine without a GL device lacks a driver, or has one that fails.
 #define _GNU_SOURCE // dlinfo, strcasestr
 #include "backends/gl/gl.h"
 
@@ -9,20 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Variables by which Mesa is asked for a driver, the first of software devices alone.
+// Variables that ask Mesa for a driver; the first applies to software devices only.
 static const struct {
     const char *name;
     bool of_software;
 } variables[] = {{"GALLIUM_DRIVER", true}, {"MESA_LOADER_DRIVER_OVERRIDE", false}};
 
-// The driver that such a variable asks for; NULL: it does not.
+// The driver that such a variable asks for; NULL: none.
 static const char *asked_by(int variable)
 {
     const char *value = getenv(variables[variable].name);
     return value && *value ? value : NULL;
 }
 
-// Mesa's names of drivers stand in the renderer's text, or EGL tells them.
+// Mesa names its driver in the renderer's text, or through EGL.
 static bool is_driver(const struct gl_egl *egl, const char *driver, const char *renderer)
 {
     const char *name = epoxy_has_egl_extension(egl->display, "EGL_MESA_query_driver")
@@ -53,7 +53,8 @@ bool gl_is_driver_asked(const struct gl_egl *egl, char *why, size_t why_size)
     return true;
 }
 
-// The folder with the drivers that Mesa's EGL loads: LIBGL_DRIVERS_PATH, or the one beside it.
+// The folder of the drivers that Mesa's EGL loads: LIBGL_DRIVERS_PATH, or the one beside the
+// library.
 static bool find_drivers(char folder[PATH_MAX])
 {
     const char *named = getenv("LIBGL_DRIVERS_PATH");
@@ -71,7 +72,7 @@ static bool find_drivers(char folder[PATH_MAX])
     return true;
 }
 
-// Mesa keeps to itself why it cannot load a driver.
+// Mesa does not report why it cannot load a driver, so the linker is asked.
 static void add_linker_error(char *why, size_t why_size)
 {
     char folder[PATH_MAX], path[PATH_MAX + 16], error[320];

@@ -9,11 +9,11 @@
 
 #include "core/base/log.h"
 
-// The serial of the context that is current on this thread, 0 for none.
+// The serial of this thread's current context, 0 for none.
 static _Thread_local unsigned current;
 
-// EGL hands every caller the same display for the same device, and eglTerminate ends it for all of
-// them. So users are counted, and the last one ends it.
+// EGL returns the same display to every caller for one device, and eglTerminate ends it for all. So
+// users are counted, and the last one ends it.
 static pthread_mutex_t displays_lock = PTHREAD_MUTEX_INITIALIZER;
 static struct {
     EGLDisplay display;
@@ -34,7 +34,7 @@ static const char *error_name(EGLint code)
                                                                          : "an unknown error";
 }
 
-// Notes why a target was refused: the first reason is the best target's.
+// Notes why a target was refused, if it is the first reason, which is the best target's.
 __attribute__((format(printf, 2, 3))) static bool refuse(struct gl_search *search,
                                                          const char *format, ...)
 {
@@ -47,7 +47,7 @@ __attribute__((format(printf, 2, 3))) static bool refuse(struct gl_search *searc
     return false;
 }
 
-// The same of a driver that is there and fails, which outweighs what another lacks.
+// The same for a driver that is installed and fails, which outweighs missing ones.
 __attribute__((format(printf, 2, 3))) static bool fail(struct gl_search *search, const char *format,
                                                        ...)
 {
@@ -61,7 +61,7 @@ __attribute__((format(printf, 2, 3))) static bool fail(struct gl_search *search,
     return false;
 }
 
-// The same where it counts, though devices may open.
+// The same for failures that count even if devices open.
 static void fail_gravely(struct gl_search *search, const char *call)
 {
     fail(search, "%s failed with %s", call, error_name(eglGetError()));
@@ -70,14 +70,13 @@ static void fail_gravely(struct gl_search *search, const char *call)
 
 // --- targets ---
 
-// Mesa warns on stderr of devices that it cannot open: kept quiet, since the search goes on to the
-// next.
+// Keeps Mesa from warning on stderr of devices that it cannot open, since the search goes on.
 static void silence_mesa(void)
 {
     setenv("EGL_LOG_LEVEL", "fatal", 0);
 }
 
-// libepoxy ends the process when it needs a library that cannot be loaded.
+// libepoxy ends the process when it cannot load a library that it needs.
 static bool can_load(struct gl_search *search, const char *noun, const char *library,
                      const char *package)
 {
@@ -91,7 +90,7 @@ static bool can_load(struct gl_search *search, const char *noun, const char *lib
                      : fail(search, "no %s: %s", noun, why);
 }
 
-// Of the two that have OpenGL's functions, one is enough.
+// Either of two libraries provides OpenGL's functions.
 static bool can_load_opengl(struct gl_search *search)
 {
     struct gl_search other = {0};
@@ -104,7 +103,7 @@ static bool has_client_extension(const char *name)
     return epoxy_has_egl_extension(EGL_NO_DISPLAY, name);
 }
 
-// Mesa refuses to run a hardware device in software, so the user's wish leaves such devices out.
+// Mesa cannot run a hardware device in software, so forcing software excludes hardware devices.
 static bool software_is_forced(void)
 {
     const char *value = getenv("LIBGL_ALWAYS_SOFTWARE");
@@ -153,7 +152,7 @@ void gl_search_begin(struct gl_search *search)
     if (!can_load(search, "EGL", "libEGL.so.1", "libegl1") || !can_load_opengl(search))
         return;
     rg_manifests_begin(&gl_manifests);
-    // Without extensions of its own EGL calls this a wrong display.
+    // Without client extensions, EGL reports a bad display here.
     const char *listed = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const EGLint code = listed ? EGL_SUCCESS : eglGetError();
     if (code != EGL_SUCCESS && code != EGL_BAD_DISPLAY)
@@ -168,7 +167,7 @@ void gl_search_begin(struct gl_search *search)
 
 // --- displays and contexts ---
 
-// Where a display is counted: its place if it is open, else a free one; -1: none is free.
+// The entry of an open display, or a free one; -1: none is free.
 static int place_of(EGLDisplay display)
 {
     int free_place = -1;
@@ -223,7 +222,7 @@ static bool open_context(struct gl_search *search, struct gl_egl *egl)
     egl->context = eglCreateContext(egl->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
     if (egl->context == EGL_NO_CONTEXT) {
         const EGLint code = eglGetError();
-        // EGL's words for a version that the driver does not have.
+        // EGL's error codes for a version that the driver lacks.
         const bool is_lack = code == EGL_BAD_MATCH || code == EGL_BAD_ATTRIBUTE;
         return (is_lack ? refuse : fail)(
             search, "no OpenGL 4.5 core: eglCreateContext failed with %s", error_name(code));
@@ -261,7 +260,8 @@ bool gl_search_next(struct gl_search *search, struct gl_egl *egl)
 {
     while (search->next < search->count) {
         const struct gl_target *target = &search->targets[search->next++];
-        // The surfaceless platform stands for one of the devices: it serves where none opened.
+        // The surfaceless platform duplicates one of the devices, so it is used only where none
+        // opened.
         if (target->platform == EGL_PLATFORM_SURFACELESS_MESA && search->found)
             continue;
         if (open_target(search, target, egl))

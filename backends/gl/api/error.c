@@ -46,7 +46,7 @@ void gl_debug_begin(struct gl_device *device)
 static bool report(struct gl_device *device, GLenum code, const char *call, const char *kind,
                    const char *name)
 {
-    // Every call of a lost context fails: one line says why, and more would hide it.
+    // Every call on a lost context fails, so only the first is logged.
     if (!device->is_lost)
         rg_driver_error("%s '%s': %s failed on %s with %s%s%s", kind, name, call,
                         device->pub.info.name, error_name(code), device->fault[0] ? ": " : "",
@@ -61,7 +61,8 @@ bool gl_check(struct gl_device *device, const char *call, const char *kind, cons
     GLenum code = glGetError();
     if (code == GL_NO_ERROR && !device->fault[0])
         return true;
-    // A driver may hold several errors, and a lost context has no last one: so the loop is bounded.
+    // A driver may hold several errors, and a lost context reports them endlessly, so the loop is
+    // bounded.
     for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; i++)
         ;
     return report(device, code, call, kind, name);
@@ -75,7 +76,7 @@ bool gl_check_reported(struct gl_device *device, const char *call, const char *k
 
 void gl_label(GLenum type, GLuint id, const char *name)
 {
-    const size_t longest = 255; // what every driver takes
+    const size_t longest = 255; // accepted by every driver
     size_t length = strlen(name);
     glObjectLabel(type, id, (GLsizei)(length < longest ? length : longest), name);
 }

@@ -1,9 +1,9 @@
-// Where the driver's code lies that serves a context.
+// Finds the file of the driver's code that serves a context.
 //
 // EGL and OpenGL are called through libglvnd, and Mesa's functions through a table of its own, so
-// that no address that they hand out lies in the driver. It is found among what is loaded: first
-// the vendor's library that EGL has taken, by what it exports, then the one behind it that draws,
-// by the names that Mesa and NVIDIA give to theirs.
+// that no address from them lies in the driver. It is found among the loaded objects instead: first
+// the vendor's EGL library, by its exports, then the library behind it that draws, by Mesa's and
+// NVIDIA's file names.
 #include "backends/gl/gl.h"
 
 #include <stdio.h>
@@ -36,7 +36,7 @@ static bool is_vendor(const char *path, const void *code)
     return rg_library_exports(code, "__egl_Main");
 }
 
-// A libEGL that is a driver itself, without libglvnd.
+// Whether a libEGL is a driver itself, without libglvnd.
 static bool is_egl(const char *path, const void *code)
 {
     return !strncmp(base_of(path), "libEGL", 6) && rg_library_exports(code, "eglInitialize");
@@ -65,8 +65,7 @@ static bool is_of(const char *word, const void *code)
     return strstr(lower, word) != NULL;
 }
 
-// Keeps those that belong to the vendor that EGL names, where several are loaded: libglvnd loads
-// all that are installed.
+// libglvnd loads all installed vendors' libraries; this keeps those of the vendor that EGL names.
 static int keep_of_vendor(EGLDisplay display, const void **codes, int count)
 {
     const char *vendor = eglQueryString(display, EGL_VENDOR);
@@ -78,7 +77,7 @@ static int keep_of_vendor(EGLDisplay display, const void **codes, int count)
     return kept;
 }
 
-// zink draws through a Vulkan driver, of which it tells the device's name.
+// zink draws through a Vulkan driver, whose device name it reports.
 static int add_below(const void **functions, int count, int max)
 {
     const char *renderer = (const char *)glGetString(GL_RENDERER);

@@ -4,7 +4,7 @@
 
 enum { HALF_BYTES = 64 * 1024 };
 
-// The start of the uniform block in shaders/grid.glsl and draw.*; the kernel's parameters follow.
+// The head of the uniform block in shaders/grid.glsl and draw.*; the kernel's parameters follow.
 struct block_head {
     int32_t origin[4], end[4];
 };
@@ -30,7 +30,7 @@ void gl_params_destroy(struct gl_device *device)
     glDeleteBuffers(1, &device->params.buffer);
 }
 
-// Goes on to the other half, once the runs that read it have ended.
+// Switches to the other half, after the runs that read it have ended.
 static bool turn(struct gl_device *device)
 {
     struct gl_params *params = &device->params;

@@ -1,4 +1,4 @@
-// Draws whose visible samples the API's own occlusion queries count.
+// Draws whose visible samples are counted by the API's occlusion queries.
 #include "backends/gl/gl.h"
 
 #include <stdlib.h>
@@ -19,13 +19,13 @@ static bool make_queries(struct gl_queries *queries, int count)
     return true;
 }
 
-// What an offset into the bound buffer is passed as.
+// An offset into the bound buffer, as the pointer that calls take.
 static void *at_byte(size_t offset)
 {
     return (char *)NULL + offset;
 }
 
-// The driver writes answers when it has them, and nobody waits.
+// The driver writes results when it has them, so that nobody waits.
 static void answer(const struct gl_queries *queries, const struct rg_run *run)
 {
     const struct rg_packed *packed = run->packed;

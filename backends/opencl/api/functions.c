@@ -1,10 +1,9 @@
-// Where the driver's code lies that serves a device.
+// Finds the driver's code that serves a device.
 #include "backends/opencl/opencl.h"
 
-// Each object of a driver that the ICD loader finds begins with a pointer to the table of the
-// driver's own functions (the extension cl_khr_icd). The loader hands out its own, whose addresses
-// tell nothing. The first function of the table may be a mark instead, in version 2 of that
-// extension.
+// Each object of a driver behind the ICD loader begins with a pointer to the driver's own function
+// table (the extension cl_khr_icd), whereas the loader exports only its own functions. In version 2
+// of that extension, the table's first entry may be a mark instead.
 int opencl_functions(struct rg_device *device, const void **functions, int max)
 {
     const cl_device_id id = ((struct opencl_device *)device)->id;

@@ -1,4 +1,4 @@
-// The devices that the ICD loader finds, and what they say of themselves.
+// Finds the devices behind the ICD loader, and their properties.
 #define _GNU_SOURCE // ST_NOEXEC
 #include "backends/opencl/opencl.h"
 
@@ -31,7 +31,7 @@ const char *opencl_platform_text(cl_platform_id id, cl_platform_info what, char 
 
 cl_ulong opencl_number(cl_device_id id, cl_device_info what, size_t size)
 {
-    cl_ulong number = 0; // little-endian hosts alone: a narrower number fills its low bytes
+    cl_ulong number = 0; // little-endian hosts only: a narrower number fills the low bytes
     return clGetDeviceInfo(id, what, size, &number, NULL) == CL_SUCCESS ? number : 0;
 }
 
@@ -41,7 +41,7 @@ int opencl_version(const char *version)
     return sscanf(version, "OpenCL %d.%d", &major, &minor) == 2 ? major * 10 + minor : 0;
 }
 
-// Why kernels cannot run on a device, or NULL.
+// Why a device cannot run kernels, or NULL.
 static const char *missing(cl_device_id id)
 {
     char text[OPENCL_TEXT];
@@ -57,7 +57,8 @@ static const char *missing(cl_device_id id)
     return floats & CL_FP_ROUND_TO_NEAREST ? NULL : "does not round floats to nearest";
 }
 
-// A driver that is there and fails outweighs what another lacks, and the first what others say.
+// Notes a driver that is installed and fails, which outweighs missing ones; the first failure
+// stays.
 __attribute__((format(printf, 2, 3))) static void fail(struct opencl_search *search,
                                                        const char *format, ...)
 {
@@ -70,8 +71,8 @@ __attribute__((format(printf, 2, 3))) static void fail(struct opencl_search *sea
     search->state = RG_MANIFEST_FAILED;
 }
 
-// PoCL has a device wherever it runs, unless POCL_DEVICES is empty. It tells of none, and not why,
-// where it cannot write to its cache, or knows no device that POCL_DEVICES asks for.
+// PoCL has a device on every machine, unless POCL_DEVICES is empty. It silently reports none where
+// it cannot write to its cache, or does not know any device in POCL_DEVICES.
 static void blame_pocl(struct opencl_search *search)
 {
     const char *devices = getenv("POCL_DEVICES"), *cache = getenv("POCL_CACHE_DIR");
@@ -118,8 +119,8 @@ static void blame_platform(struct opencl_search *search, const char *name, cl_in
                  opencl_error_name(code), name);
 }
 
-// Where PoCL keeps what it compiles, or the folder above it that is there; it loads programs from
-// there, and aborts where none may be run. Whether that is so.
+// Whether PoCL's cache folder, or its nearest existing parent, forbids execution: PoCL loads
+// compiled programs from it, and aborts where that is forbidden.
 static bool cache_is_noexec(char folder[PATH_MAX])
 {
     const char *own = getenv("POCL_CACHE_DIR"), *user = getenv("XDG_CACHE_HOME");
@@ -140,7 +141,7 @@ static bool cache_is_noexec(char folder[PATH_MAX])
     return disk.f_flag & ST_NOEXEC;
 }
 
-// Adds the usable devices of a platform to `ids`; returns how many there are then.
+// Adds a platform's usable devices to `ids`; returns the new number.
 static int find_on_platform(struct opencl_search *search, cl_platform_id platform,
                             cl_device_id *ids, int count, int max)
 {

@@ -68,7 +68,7 @@ void vk_batches_destroy(struct vk_device *device)
     }
 }
 
-// Waits for a batch and makes it empty.
+// Waits for a batch and empties it.
 static bool retire(struct vk_device *device, struct vk_batch *batch)
 {
     if (!batch->in_flight)
@@ -103,7 +103,8 @@ struct vk_batch *vk_record(struct vk_device *device)
     return batch;
 }
 
-// A batch that has used no staging memory gets another: no recorded command refers to it.
+// Replaces the staging memory of a batch that has not used it, so that no recorded command refers
+// to it.
 static bool grow_staging(struct vk_device *device, struct vk_batch *batch, size_t size)
 {
     VkDeviceSize grown = VK_MIN_STAGING_BYTES;
@@ -149,8 +150,8 @@ void vk_barrier(const struct vk_batch *batch)
                 VK_ACCESS_TRANSFER_WRITE_BIT);
 }
 
-// A draw brings barriers for the stages that draw. So no other barrier names these stages, which a
-// queue that only computes has not.
+// Only draws have barriers for the drawing stages, because a queue that only computes does not
+// support these stages.
 enum {
     DRAW_STAGES =
         VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |

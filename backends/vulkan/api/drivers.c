@@ -1,4 +1,4 @@
-// Whether a machine without a Vulkan device lacks a driver, or has one that fails.
+// Tells whether a machine without a Vulkan device lacks a driver, or has one that fails.
 #include "backends/vulkan/vulkan.h"
 
 #include <dlfcn.h>
@@ -12,8 +12,8 @@ static int say(char *why, size_t why_size, const char *call, VkResult result)
     return -1;
 }
 
-// The loader passes over a driver whose devices cannot be counted: the driver itself is asked, as
-// the loader asks it.
+// The loader skips a driver that cannot list its devices, so the driver is asked directly, as the
+// loader does it.
 static int ask_driver(void *library, char *why, size_t why_size)
 {
     uint32_t version = 5, count = 0;
@@ -28,7 +28,7 @@ static int ask_driver(void *library, char *why, size_t why_size)
     PFN_vkCreateInstance create =
         get ? (PFN_vkCreateInstance)get(VK_NULL_HANDLE, "vkCreateInstance") : NULL;
     if (!create)
-        return 0; // an old one, which the loader asks in other ways
+        return 0; // an old driver, with another interface to the loader
     const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                            .apiVersion = VK_API_VERSION_1_2};
     const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
@@ -67,7 +67,7 @@ const struct rg_manifest_rules vk_manifests = {
 int vk_judge(const struct vk_instance *instance, int count, char *why, size_t why_size)
 {
     enum rg_manifest_state state = RG_MANIFEST_NONE;
-    // The loader of Debian 12 says of no device at all that its initialisation failed.
+    // Debian 12's loader reports a failed initialisation when there is no device at all.
     if (instance->result == VK_ERROR_INITIALIZATION_FAILED)
         state = RG_MANIFEST_UNCLEAR;
     else if (instance->result < 0 && instance->result != VK_ERROR_INCOMPATIBLE_DRIVER)

@@ -1,8 +1,8 @@
-// Where the driver's code lies that serves a device.
+// Finds the driver's code that serves a device.
 #include "backends/vulkan/vulkan.h"
 
-// The loader itself, which keeps some functions for itself, or a layer. One that is a driver as
-// well, as NVIDIA's is, counts as that.
+// Whether the code is the loader's, which implements some functions itself, or a layer's. A loader
+// that is also a driver, as NVIDIA's is, counts as a driver.
 static bool is_between(const void *code)
 {
     return (rg_library_exports(code, "vkNegotiateLoaderLayerInterfaceVersion") ||
@@ -16,9 +16,9 @@ static bool is_driver(const char *path, const void *code)
     return rg_library_exports(code, "vk_icdGetInstanceProcAddr");
 }
 
-// Without a layer between, the loader hands out the driver's own functions. A driver in front of
-// another takes some of them itself, so that several are asked for. A layer that takes all of them,
-// such as validation, hides the driver: it is known then where there is but one.
+// Without layers, the loader returns the driver's own functions. A driver on top of another
+// replaces some of these, so several are asked for. A layer that replaces all, such as validation,
+// hides the driver, which is then known only if there is just one.
 int vk_functions(struct rg_device *device, const void **functions, int max)
 {
     static const char *const names[] = {

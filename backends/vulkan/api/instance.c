@@ -21,8 +21,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBi
     return VK_FALSE;
 }
 
-// Takes messages of validation alone. The loader's messages are about absent drivers, and the
-// performance hints object to the general layout, which is our choice.
+// Receives validation messages only. The loader's messages are about missing drivers, and
+// performance hints object to the general layout, which we chose.
 static VkDebugUtilsMessengerCreateInfoEXT messenger_info(struct vk_instance *instance)
 {
     return (VkDebugUtilsMessengerCreateInfoEXT){
@@ -64,7 +64,7 @@ static VkResult create_instance(struct vk_instance *instance, bool validate)
     };
     VkResult result = vkCreateInstance(&info, NULL, &instance->handle);
     char paths[4096];
-    // The loader of Debian 12 gives up all drivers for one file that is damaged.
+    // Debian 12's loader gives up all drivers for one damaged file.
     if (result == VK_ERROR_OUT_OF_HOST_MEMORY &&
         rg_manifests_sound(&vk_manifests, paths, sizeof(paths))) {
         setenv("VK_DRIVER_FILES", paths, 1);
@@ -88,8 +88,8 @@ static void say_no_instance(VkResult result, char *why, size_t why_size)
 
 bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, size_t why_size)
 {
-    // Keeps lavapipe and others from announcing themselves on stderr. The 0 keeps what the user has
-    // set.
+    // Keeps lavapipe and others from announcing themselves on stderr. The 0 keeps the user's own
+    // value.
     setenv("MESA_VK_IGNORE_CONFORMANCE_WARNING", "1", 0);
     memset(instance, 0, sizeof(*instance));
     uint32_t version = VK_API_VERSION_1_0;

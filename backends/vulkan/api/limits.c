@@ -1,4 +1,4 @@
-// What a device can do, as core/device checks it.
+// A device's limits, which core/device checks.
 #include "backends/vulkan/vulkan.h"
 
 #include <limits.h>
@@ -16,7 +16,7 @@ static int64_t at_most_int64(uint64_t value)
     return value < INT64_MAX ? (int64_t)value : INT64_MAX;
 }
 
-// Depth images need a queue that draws: on another queue they cannot even be written.
+// Depth images need a queue that draws: another queue cannot even write to them.
 static unsigned uses_of(VkPhysicalDevice device, enum rg_format format, bool draws)
 {
     VkFormatProperties properties;
@@ -35,7 +35,7 @@ static unsigned uses_of(VkPhysicalDevice device, enum rg_format format, bool dra
     return uses;
 }
 
-// A driver may allow less for a format than for images in general. `*result` keeps an error.
+// A driver may allow less for one format than for images in general. `*result` keeps an error.
 static struct rg_format_limits format_limits(VkPhysicalDevice device, enum rg_format format,
                                              bool draws, VkResult *result)
 {
@@ -61,8 +61,8 @@ static struct rg_format_limits format_limits(VkPhysicalDevice device, enum rg_fo
     };
 }
 
-// Corners keep their place on the grid only in a viewport as large as
-// kernels/dialect/draw/clip.h says.
+// Says why the device cannot draw: corners stay on their grid only in a viewport of the size in
+// kernels/dialect/draw/clip.h.
 static void say_no_draws(VkPhysicalDevice device, const VkPhysicalDeviceLimits *l, bool draws,
                          char *why, size_t size)
 {

@@ -1,7 +1,7 @@
-// The graphics pipelines of a DRAW program: one for each way to draw, made when first used.
+// The graphics pipelines of a DRAW program: one for each draw state, made on first use.
 #include "backends/vulkan/vulkan.h"
 
-// One way to draw.
+// A draw state.
 struct look {
     struct vk_target target;
     enum rg_blend blend;
@@ -53,8 +53,8 @@ static VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShader
     };
 }
 
-// Nothing is culled here, for packing has culled. There are no vertex attributes: corners come from
-// the packed primitives.
+// Culling is off, because packing has culled, and there are no vertex attributes, because corners
+// come from the packed primitives.
 static VkGraphicsPipelineCreateInfo plain_pipeline(void)
 {
     static const VkPipelineVertexInputStateCreateInfo no_input = {

@@ -1,4 +1,4 @@
-// Draws whose visible samples the API's own occlusion queries count.
+// Draws whose visible samples are counted by the API's occlusion queries.
 #include "backends/vulkan/vulkan.h"
 
 bool vk_queries_prepare(struct vk_device *device, const struct vk_batch *batch, int count)
@@ -32,7 +32,7 @@ void vk_answer_queries(const struct vk_device *device, const struct vk_batch *ba
                        const struct rg_run *run)
 {
     const VkDeviceSize word = sizeof(uint32_t);
-    vk_barrier(batch); // the answers are a transfer
+    vk_barrier(batch); // the copy of results is a transfer
     vkCmdCopyQueryPoolResults(batch->commands, device->occlusion, 0, (uint32_t)run->packed->queries,
                               ((const struct vk_buf *)run->draw->samples)->block.buffer,
                               word * (VkDeviceSize)run->packed->first_query, word,

@@ -1,4 +1,4 @@
-// Texels between the host and images, through staging memory, in bands of whole rows.
+// Transfers texels between host and images through staging memory, in bands of whole rows.
 #include "backends/vulkan/vulkan.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "backends/formats.h"
 #include "kernels/dialect/image/memory.h"
 
-// Part of one layer of one level.
+// A part of one layer of one level.
 struct band {
     int layer, level;
     int width; // of the level
@@ -30,7 +30,7 @@ static int smaller(int64_t a, int64_t b)
     return (int)(a < b ? a : b);
 }
 
-// The band below `above`, of as many rows as fit `max_bytes`; 0 rows at the end.
+// The band after `above`, of as many rows as fit into `max_bytes`; 0 rows at the end.
 static struct band next_band(const struct rg_image *image, const struct band *above,
                              size_t max_bytes)
 {
@@ -135,8 +135,8 @@ static rgba unpack(enum rg_format format, const void *texel)
     }
 }
 
-// Whether any driver turns the number into the very bits it was unpacked from: not so for
-// subnormals, infinities and NaN of the small formats, nor for -0.
+// Whether any driver packs the number to the bits it was unpacked from: false for subnormals,
+// infinities and NaN of the small formats, and for -0.
 static bool is_plain(float v)
 {
     const float smallest_normal_half = 6.103515625e-5f, above_largest_half = 65536.0f;
@@ -172,7 +172,7 @@ static bool clear_by_colour(struct vk_device *device, struct vk_image *image, rg
     return true;
 }
 
-// Copies one band of equal texels to every place, for texels that a driver would not convert
+// Clears by copying one band of equal texels everywhere, for texels that a driver would not convert
 // exactly.
 static bool clear_by_copies(struct vk_device *device, struct rg_image *image, const void *texel)
 {
