@@ -1,25 +1,25 @@
-// What each stage of a run left in each asset, as digests: equal runs have equal ones, so that two
-// of them tell which stage differed first.
+// Digests of the assets after each stage of a run. Equal runs have equal digests, so that two runs
+// show which stage differed first.
 #ifndef RG_HARNESS_FRAMES_DIGESTS_H
 #define RG_HARNESS_FRAMES_DIGESTS_H
 
 #include "core/techniques/stages/dispatched.h"
 #include "harness/frames/subject.h"
 
-// So many frames of a subject, each simulated and drawn.
+// A run: so many frames of a subject, each simulated and drawn.
 struct rg_digest_run {
     struct rg_subject subject;
     int frames;
 };
 
-// One asset after one stage. An asset has a digest after each stage that wrote it, and after any
-// other behind which it was found to have changed.
+// The digest of one asset after one stage. An asset gets one after each stage that wrote it, and
+// after any other stage that changed it.
 struct rg_digest {
-    int64_t frame;  // that is being simulated or drawn
-    int stages_run; // since the instance was opened, this one included
+    int64_t frame;  // the frame being simulated or drawn
+    int stages_run; // since the instance was opened, including this one
     char stage[RG_ASSET_NAME], asset[RG_ASSET_NAME];
     uint64_t hash;
-    int64_t weight; // of the run until then: items of its stages, and words of its assets
+    int64_t weight; // work of the run so far: items of its stages, and words of its assets
 };
 
 // Zeroed: none.
@@ -41,16 +41,16 @@ void rg_digests_free(struct rg_digests *digests);
 bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
                          struct rg_contents *contents, struct rg_state *state);
 
-// Runs once more, up to the stage before which so many have run, one less than its number, and
-// keeps each dispatch from the end of the stage before it to its own end. False, and one logged
-// line, on failure; to be freed in either case.
+// Runs again, up to the stage with this number of stages run, and records each dispatch between the
+// end of the stage before and its own end. False, and one logged line, on failure; free them in
+// either case.
 bool rg_digests_dispatches(const struct rg_digest_run *run, struct rg_device *device,
                            int stages_run, struct rg_dispatches *dispatches);
-// Runs one of them on a device (rg_dispatched_run).
+// Replays one dispatch on a device (rg_dispatched_run).
 bool rg_digests_dispatch(struct rg_dispatched *dispatched, struct rg_device *device);
 
-// The code that a device gives its driver for a kernel, or would if its API took this kind: bytes
-// that the caller frees. NULL, and one logged line, on failure.
+// The code of a kernel that a device gives to its driver, or would give if its API took this kind:
+// bytes that the caller frees. NULL, and one logged line, on failure.
 void *rg_digests_code(struct rg_device *device, const struct rg_kernel *kernel,
                       enum rg_code_kind kind, size_t *size);
 

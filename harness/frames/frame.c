@@ -49,7 +49,7 @@ void rg_frame_tell_dry(struct rg_device *device, const struct rg_subject *subjec
 {
     static const int others[] = {60, 240};
     int found = -1;
-    rg_log_hold(true); // that none is found says enough
+    rg_log_hold(true); // the caller reports that none was found
     for (int i = 0; found < 0 && i < 2; i++)
         if (others[i] != frames && shows_rain(device, subject, others[i], exposure))
             found = others[i];
@@ -68,10 +68,10 @@ void rg_frame_tell_dry(struct rg_device *device, const struct rg_subject *subjec
                             : "60 and 240");
 }
 
-// Pictures from this size on are looked at in small first.
+// Pictures of at least this size are first drawn in small, to time them.
 #define LARGE_PX ((int64_t)4096 * 4096)
 
-// Tells how long a large picture takes, where that is long.
+// Estimates how long a large picture takes, and tells if that is long.
 static bool foretell(struct rg_device *device, const struct rg_subject *subject)
 {
     enum { SIDES = 8 };

@@ -25,7 +25,7 @@ static bool is_initial(const struct rg_param *param, const void *settings, const
     return !strcmp(value, usual);
 }
 
-// A number with a fraction goes as its bits, for a text rounds it.
+// A fractional number is sent as its bits, because text would round it.
 static void put_param(struct rg_message *message, const struct rg_param *param,
                       const void *settings, const void *initial)
 {
@@ -77,7 +77,7 @@ static bool take_text(struct rg_message *message, const struct rg_param *param, 
     return rg_params_set_one(param, settings, value);
 }
 
-// What this build does not know may be left alone where it is as it usually is.
+// Ignores an unknown parameter if it has its default.
 static bool take_param(struct rg_message *message, const struct rg_param_table *params,
                        void *settings)
 {
@@ -149,7 +149,7 @@ _Static_assert(offsetof(struct rg_asked_run, run.subject) == 0, "a subject that 
 
 // --- what a session tells ---
 
-// Beyond any time, and far from infinity; beyond any frame's stages.
+// Larger than any time, yet far from infinity; more than any frame's stages.
 #define MOST_MS INT64_C(1000000000000000000)
 enum { MOST_STAGES = 1 << 16 };
 
@@ -173,7 +173,7 @@ const struct rg_field rg_told_account_fields[] = {
     RG_FIELDS_END,
 };
 
-// Counts, of which -1 is one that is unknown.
+// Counts; -1 means unknown.
 const struct rg_field rg_told_tally_fields[] = {
     {RG_KIND_INTEGER, 0, sizeof(int64_t), -1, INT64_MAX,
      .entries = sizeof(struct rg_tally) / sizeof(int64_t)},
@@ -240,7 +240,7 @@ static const struct rg_field layout_fields[] = {
 
 // --- images and bytes ---
 
-// A buffer has no levels, nor anything else.
+// A buffer's description is all zeroes.
 static bool is_desc(const void *all)
 {
     static const struct rg_image_desc none;
@@ -259,7 +259,7 @@ static const struct rg_field desc_fields[] = {
     RG_FIELDS_END,
 };
 
-// Sides may be such that an int64_t does not hold their product.
+// Computes the size without overflow, since the product of the sides may exceed an int64_t.
 static bool is_of_size(const void *all)
 {
     const struct rg_contents *c = all;
@@ -318,7 +318,7 @@ static const struct rg_field extent_fields[] = {
     RG_FIELDS_END,
 };
 
-// Behind its kernel's name, and before its slots, whose number the kernel says.
+// The fields after the kernel's name; the slots follow, whose number depends on the kernel.
 static const struct rg_field dispatched_fields[] = {
     RG_FIELD_FLAG(struct rg_dispatched, was_kept),
     RG_FIELD_BYTES(struct rg_dispatched, params),

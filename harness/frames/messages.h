@@ -1,5 +1,5 @@
-// What sessions hand from one process to the other. What is a table is put and taken by it
-// (harness/devices/workers/fields.h).
+// The messages of sessions between the processes. Structs with a table of fields are sent and
+// received by it (harness/devices/workers/fields.h).
 #ifndef RG_HARNESS_FRAMES_MESSAGES_H
 #define RG_HARNESS_FRAMES_MESSAGES_H
 
@@ -18,18 +18,18 @@ struct rg_asked_run {
     int row;
 };
 
-// A subject goes by names, so that a build with other parameters takes it too: what it does not
-// know it refuses only where the value is not the usual one.
+// A subject is sent by names, so that builds with other parameters can receive it: they refuse an
+// unknown parameter only if it differs from its default.
 void rg_put_subject(struct rg_message *message, const struct rg_subject *subject);
-// The caller frees the settings, NULL where it failed.
+// The caller frees the settings, which are NULL on failure.
 bool rg_take_subject(struct rg_message *message, struct rg_subject *subject);
 
-// Of a session that was opened.
+// The reply to opening a session.
 struct rg_told_session {
     int number, state_count;
 };
 
-// What each stage of a frame took.
+// The time of each stage of a frame.
 struct rg_told_stage {
     const char *kernel;
     double ms;
@@ -40,7 +40,7 @@ struct rg_told_stages {
     struct rg_told_stage *rows; // owned
 };
 
-// Of a law: whether it holds, and what is wrong.
+// Whether a law holds, and what is wrong if not.
 struct rg_told_law {
     bool holds;
     char detail[512];
@@ -52,17 +52,17 @@ struct rg_told_texture {
     int first_level;
 };
 
-// Bytes as they are: texels, words of a state, code.
+// Raw bytes: texels, words of a state, code.
 struct rg_told_bytes {
     void *bytes; // owned
     size_t size;
-    struct rg_state layout; // of a state, without its asset; no name where it is none
+    struct rg_state layout; // of a state, without its asset; no name for other bytes
 };
 
-// An asset of a run.
+// The contents of an asset in a run.
 struct rg_told_contents {
     struct rg_contents contents;
-    struct rg_state state; // likewise
+    struct rg_state state; // its layout, as above
 };
 
 // Of struct rg_account, rg_tally, rg_session_code, rg_digests and rg_dispatches, of those above,

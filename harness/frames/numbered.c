@@ -5,7 +5,7 @@
 
 #include "core/base/log.h"
 
-// The length of a place at `at`, 0 where there is none; *digits: how many it has at least.
+// The length of a place at `at`, 0 where there is none; *digits: its least number of digits.
 static int place_at(const char *at, int *digits)
 {
     *digits = 0;
@@ -19,7 +19,7 @@ static int place_at(const char *at, int *digits)
     return 4;
 }
 
-// The first place at or behind `at`, or NULL.
+// The first place from `at` on, or NULL.
 static const char *find_place(const char *at, int *digits, int *length)
 {
     for (; *at; at++)

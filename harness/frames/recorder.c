@@ -1,4 +1,4 @@
-// Digests of a run in this process.
+// Records digests of a run in this process.
 #include "harness/frames/recorder.h"
 
 #include <stdlib.h>
@@ -10,20 +10,20 @@
 #include "core/techniques/stages/stages.h"
 #include "harness/console/interrupt.h"
 
-// A run that is recorded.
+// State of a recorded run.
 struct recorder {
     struct rg_instance *instance;
     struct rg_digests *digests;
     uint64_t last[RG_MAX_ASSETS]; // by asset
     bool seen[RG_MAX_ASSETS];
     int stages_run;
-    int64_t weight; // as struct rg_digest has it
+    int64_t weight; // as in struct rg_digest
     bool ok;
-    // Where one row's contents are asked for: which row, and where they go.
+    // If a row's contents are wanted: the row, and their destination.
     int wanted; // -1: none
     struct rg_contents *contents;
     struct rg_state *state;
-    // Where the dispatches of one stage are asked for: which stage, and where they go.
+    // If a stage's dispatches are wanted: the stage, and their destination.
     int watched; // its number from 1 on; 0: none
     struct rg_dispatches *dispatches;
 };
@@ -37,8 +37,8 @@ static bool add(struct rg_digests *digests, const struct rg_digest *digest)
     return true;
 }
 
-// Whether an asset has a digest: it has been made and written, and is not another asset under a
-// second name.
+// Whether an asset has a digest: it exists, has been written, and is not another name of an earlier
+// asset.
 static bool is_own(const struct rg_instance *instance, int asset)
 {
     const struct rg_asset *a = &instance->assets[asset];
@@ -57,7 +57,7 @@ static void keep_state(struct recorder *r, const struct rg_opened_stage *stage,
     r->state->words = rg_asset_words(r->instance, stage, asset);
 }
 
-// A lent asset that no stage writes is read once, since nobody changes it.
+// A lent asset that no stage writes is read only once, because it cannot change.
 static void record(struct recorder *r, const struct rg_opened_stage *stage, int at)
 {
     const struct rg_asset *asset = &r->instance->assets[at];
@@ -107,12 +107,12 @@ static bool run_recorded(const struct rg_digest_run *run, struct rg_device *devi
         rg_instance_open(technique, device, subject->settings, subject->width, subject->height);
     r->ok = r->instance != NULL;
     for (int i = 0; r->ok && !r->watched && i < r->instance->asset_count; i++)
-        record(r, NULL, i); // what opening has left
+        record(r, NULL, i); // contents from opening
     if (r->instance) {
         r->instance->after_stage = after_stage;
         r->instance->user = r;
     }
-    // What is asked for of one row or stage is brought also once raingauge is to end.
+    // An interruption ends a run of digests, but not a search for one row or stage.
     const bool may_end = r->wanted < 0 && !r->watched;
     for (int i = 0; r->ok && i < run->frames && !(may_end && rg_interrupted()); i++)
         r->ok = technique->step(r->instance) && technique->draw(r->instance) && r->ok;

@@ -13,10 +13,10 @@
 
 struct run {
     const struct rg_sequence *sequence;
-    struct rg_clip *clip; // NULL: pictures
+    struct rg_clip *clip; // NULL: numbered pictures
     struct rg_session *session;
     struct rg_progress progress;
-    int kept; // frames
+    int kept; // frames written
 };
 
 // --- where frames go ---
@@ -62,7 +62,7 @@ static bool keep(struct run *run, int frame)
 
 // --- running ---
 
-// False: something failed, or the user interrupts.
+// False on failure or interruption.
 static bool run_frame(struct run *run, int frame)
 {
     const bool is_kept = frame >= run->sequence->first;

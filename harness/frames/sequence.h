@@ -1,5 +1,5 @@
-// Frames in a row: one session simulates each of them once, draws those that are asked for, and
-// keeps them as a clip or as numbered pictures.
+// Writes a sequence of frames: one session simulates each frame once, draws the wanted ones, and
+// writes them as a clip or as numbered pictures.
 #ifndef RG_HARNESS_FRAMES_SEQUENCE_H
 #define RG_HARNESS_FRAMES_SEQUENCE_H
 
@@ -7,19 +7,18 @@
 
 struct rg_sequence {
     struct rg_subject subject;
-    int first, last;  // frames that are simulated before the first and the last drawing
-    const char *path; // a clip (core/image/clip/clip.h), or a picture whose name has a place for
-                      // the frame's number (harness/frames/numbered.h)
-    int fps;          // of a clip: frames a second
+    int first, last;  // frames simulated before the first and the last drawing
+    const char *path; // a clip (core/image/clip/clip.h), or a picture with a place for the frame's
+                      // number (harness/frames/numbered.h)
+    int fps;          // of a clip: frames in a second
     double exposure;
 };
 
-// Runs it with a bar of progress, and returns the session after the last frame. Whether the path
-// can be written, and a clip be made, it finds out before it simulates.
+// Runs a sequence with a progress bar, and returns the session after the last frame. Checks before
+// simulating that the path is writable and that clips can be made.
 //
-// NULL, and one logged line, on failure, or when the user interrupts
-// (harness/console/interrupt.h), which it watches for. A clip is then not written; pictures that
-// are written stay, each of them whole.
+// NULL, and one logged line, on failure or interruption (harness/console/interrupt.h). A clip is
+// then not written; complete pictures stay.
 struct rg_session *rg_sequence_run(const struct rg_sequence *sequence, struct rg_device *device);
 
 #endif

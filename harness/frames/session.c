@@ -246,7 +246,7 @@ bool rg_digests_dispatches(const struct rg_digest_run *run, struct rg_device *de
 
 bool rg_digests_dispatch(struct rg_dispatched *dispatched, struct rg_device *device)
 {
-    for (int i = 0; i < RG_MAX_SLOTS; i++) // of another kernel before it, perhaps
+    for (int i = 0; i < RG_MAX_SLOTS; i++) // earlier kernels may have left some
         rg_contents_free(&dispatched->after[i]);
     return rg_run_ask(device, RG_CALL_DISPATCH, dispatched, dispatched);
 }

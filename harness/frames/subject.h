@@ -1,18 +1,18 @@
-// What a session is opened with, and what it tells of itself.
+// The input of opening a session, and the account that a session gives.
 #ifndef RG_HARNESS_FRAMES_SUBJECT_H
 #define RG_HARNESS_FRAMES_SUBJECT_H
 
 #include "core/techniques/technique.h"
 #include "harness/record/passport/program.h"
 
-// What is opened, and for how large an image. Nothing in it is owned.
+// The technique, settings and image size of a session. Owns nothing.
 struct rg_subject {
     const struct rg_technique *technique;
     const void *settings;
     int width, height; // pixels
 };
 
-// What an instance tells of itself now.
+// An instance's current account of itself.
 struct rg_account {
     int64_t frame; // frames simulated
     int counter_count;
@@ -21,25 +21,26 @@ struct rg_account {
     struct rg_fact facts[RG_MAX_FACTS];
 };
 
-// What runs for an instance: equal where the same code does. It is told of, and decides nothing.
+// Identifies the code that runs for an instance; equal code gives equal values. It is for
+// information only.
 struct rg_session_code {
     char program[RG_BUILD_ID_SIZE]; // raingauge itself
-    uint64_t libraries;             // drivers among them
+    uint64_t libraries;             // including drivers
     struct {
         uint64_t hash;
-        int64_t bytes; // 0: the API hands none out
-    } passes;          // what the driver's compiler has made of them
+        int64_t bytes; // 0: the API returns none
+    } passes;          // code that the driver's compiler has made
 };
 
 // --- files of the user's own that its settings name ---
 
-// Whether a value of a parameter names a file of the user's own, and not a model or a map.
+// Whether a parameter's value is a file of the user's, rather than a model or map of a package.
 bool rg_file_is_own(const char *value);
-// The next parameter that names such a file, from the place `at` in the technique's table on, which
-// is moved behind it; `value` gets the file. NULL: there is none.
+// Finds the next parameter with such a file, from index `at` in the technique's table on, and
+// advances `at`; `value` gets the file. NULL: there is none.
 const struct rg_param *rg_file_own_next(const struct rg_subject *subject, int *at,
                                         char value[RG_PATH_SIZE]);
-// Whether what is written there replaces none of them. False, and one logged line.
+// Whether writing `output` replaces none of these files. False, and one logged line, if it does.
 bool rg_files_spared_by(const struct rg_subject *subject, const char *output);
 
 #endif

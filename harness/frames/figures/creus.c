@@ -1,13 +1,13 @@
-// Figures of C. Creus, Real-time realistic rain rendering, 2010, chapters 4 and 5. The city stands
-// for the thesis's statue and its city.
+// Figures of C. Creus, Real-time realistic rain rendering, 2010, chapters 4 and 5. The city
+// replaces the thesis's statue and its city.
 #include "harness/frames/figures/figures.h"
 
-// The view from outside on rain so thin that each drop is seen.
+// The view from outside on rain thin enough to show each drop.
 #define OUTSIDE                                                                                    \
     "look=thesis city=small atlas=small lights=0 overlay=on depth_map_px=512 cull=exact "
-// All of the rain space, as if the observer saw it whole.
+// The whole rain space, as if the observer saw all of it.
 #define WHOLE "limits=off packets=world blocks=all local_height_m=230 drops_m2_s=0.02 "
-// An observer above the roofs, so that the local space is seen whole.
+// An observer above the roofs, where the whole local space is visible.
 #define ABOVE                                                                                      \
     "camera=free eye_x_m=-40 eye_y_m=110 eye_z_m=60 target_x_m=60 target_y_m=95 target_z_m=-60 "   \
     "local_height_m=70 culling_radius_m=55 drops_m2_s=0.6 "

@@ -1,4 +1,4 @@
-// Draws figures, and writes the page that shows them.
+// Draws figures, and writes a page with them.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +41,7 @@ static bool write_greys(const char *path, const struct rg_figure *figure)
     return written;
 }
 
-// Writes the file that a figure needs, and sets the parameter that names it.
+// Writes the file that a figure needs, and sets its parameter.
 static bool set_file(const struct rg_figure_run *run, const struct rg_figure *figure,
                      const struct rg_technique *technique, void *settings)
 {
@@ -57,7 +57,7 @@ static bool set_file(const struct rg_figure_run *run, const struct rg_figure *fi
     return rg_params_set(technique->params, settings, assignment);
 }
 
-// The session that has drawn it; NULL, and one logged line, on failure.
+// Draws a figure and returns its session; NULL, and one logged line, on failure.
 static struct rg_session *draw(const struct rg_figure_run *run, const struct rg_figure *figure)
 {
     const struct rg_technique *technique = rg_technique_find(figure->technique);
@@ -112,8 +112,8 @@ static bool write_page(const struct rg_figure_run *run)
 
 // --- all of them ---
 
-// Draws and writes one, into a folder that is made once there is a picture for it, and closes the
-// one before, so that what figures share is made once.
+// Draws and writes a figure, making the folder if needed, and only then closes the session before,
+// so that shared assets are made once.
 static bool next(const struct rg_figure_run *run, const struct rg_figure *figure,
                  struct rg_session **last)
 {
