@@ -7,12 +7,12 @@
 
 enum { STEPS = 400000, WORDS = 1 << 18 }; // 2 MiB
 
-// A virtual machine can stand still for longer than the load takes, which says nothing of its
-// speed.
+// The median of three counts, because a virtual machine may pause for longer than a load, which
+// says nothing of its speed.
 enum { LOADS = 3 };
 
-// Each step waits for the one before it, so that no level of vectors and no reordering changes
-// what the load is.
+// Each step depends on the one before it, so that neither vector width nor reordering changes the
+// load.
 static uint64_t chain(uint64_t x)
 {
     for (int i = 0; i < STEPS; i++) {
@@ -36,7 +36,7 @@ static uint64_t sweep(uint64_t *words, uint64_t x)
 void rg_calibration_load(void)
 {
     static uint64_t words[WORDS];
-    static volatile uint64_t kept; // so that nothing is left out
+    static volatile uint64_t kept; // keeps the compiler from removing the work
     kept = sweep(words, chain(88172645463325252u + kept % 2));
 }
 

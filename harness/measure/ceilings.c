@@ -11,7 +11,7 @@
 
 enum { RUNS = 9, MIB = 1 << 20, LARGE = 64 * MIB, SMALL = MIB, ARITHMETIC_ITEMS = 1 << 17 };
 
-// The shortest of several batches of one run, in milliseconds a run.
+// The time of one run in milliseconds, from the fastest of several batches.
 static bool time_run(struct rg_pass *pass, const struct rg_run *run, int batch, double *best_ms)
 {
     struct rg_device *device = pass->device;
@@ -28,7 +28,7 @@ static bool time_run(struct rg_pass *pass, const struct rg_run *run, int batch, 
     return true;
 }
 
-// Gigabytes a second, read and written, of a copy of so many bytes.
+// The rate of a copy of so many bytes, read and written, in gigabytes a second.
 static bool measure_copy(struct rg_device *device, int bytes, int batch, double *gb_s)
 {
     void *zeroes = rg_alloc(1, (size_t)bytes, "ceiling source");

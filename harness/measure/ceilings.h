@@ -1,4 +1,4 @@
-// What a device can do at most, measured: the limits that docs/performance.md holds frames against.
+// A device's measured ceilings, with which docs/performance.md compares frames.
 #ifndef RG_HARNESS_MEASURE_CEILINGS_H
 #define RG_HARNESS_MEASURE_CEILINGS_H
 
@@ -12,7 +12,7 @@ struct rg_ceilings {
     double arithmetic_gop_s; // single-precision multiplications and additions, 10^9 a second
 };
 
-// The best of several runs after warm-up; takes about a second. False, and one logged line, when
+// Takes the best of several runs after warm-up; about a second. False, and one logged line, when
 // the device failed.
 bool rg_ceilings_measure(struct rg_device *device, struct rg_ceilings *ceilings);
 

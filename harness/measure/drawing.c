@@ -14,13 +14,13 @@ enum { WIDTH = 128, HEIGHT = RG_DRAWING_PIXELS / WIDTH, PANES = 48, MAX_WORDS = 
 
 static const enum rg_format formats[RG_DRAWING_FORMATS] = {RG_RGBA8, RG_RGBA16F, RG_RGBA32F};
 
-// What a device left.
+// The images read back from a device.
 struct result {
     uint32_t colour[RG_DRAWING_PIXELS * MAX_WORDS];
     float depth[RG_DRAWING_PIXELS];
 };
 
-// A device's program and its panes.
+// The test's objects on one device.
 struct studio {
     struct rg_device *device;
     struct rg_pass *pass;
@@ -66,8 +66,8 @@ static void close_studio(struct studio *studio)
     rg_pass_destroy(studio->pass);
 }
 
-// Panes over each other that write depth, and then, turned a little, such that add their light
-// where they are not hidden.
+// Draws overlapping panes that write depth, and then slightly rotated panes that add light where
+// they are not hidden.
 static bool draw_panes(const struct studio *studio, struct rg_draw *to)
 {
     raster_quads_params params = {.aspect = (float)WIDTH / HEIGHT};
@@ -133,7 +133,7 @@ static bool is_alike(const struct result *a, const struct result *b, enum rg_for
     return alike;
 }
 
-// Draws twice, so that compiling is in no time.
+// Draws twice, so that times do not include compiling.
 static bool check_format(const struct studio *studio, const struct studio *truth,
                          enum rg_format format, struct result results[2],
                          struct rg_drawing *drawing)

@@ -62,8 +62,8 @@ static bool keep_told(struct rg_record *record, const struct rg_session *session
     return true;
 }
 
-// The frames up to the last but one are simulated and not drawn, as those are that the expected
-// image is made by: what is drawn changes no state.
+// Frames before the last are not drawn, as for the expected image, because drawing does not change
+// the state.
 static bool simulate(struct rg_job *job)
 {
     const int frames = job->check_frames - 2;
@@ -85,7 +85,7 @@ bool rg_job_open(struct rg_job *job)
     return job->record->outcome == RG_OK && keep_told(job->record, job->session);
 }
 
-// Whether an image that is not identical holds the tier that its device owes.
+// Whether an image that is not identical still meets the device's tier.
 static bool holds(struct rg_job *job, const struct rg_expected *expected, const void *texels,
                   enum rg_tier tier)
 {
@@ -136,7 +136,7 @@ static int64_t count_of(const struct rg_account *account, const char *name)
     return 0;
 }
 
-// What the counters that are asked for grew by since then.
+// Stores how much the requested counters have grown since `before`.
 static bool keep_counted(struct rg_job *job, const struct rg_account *before)
 {
     struct rg_record *record = job->record;
@@ -162,8 +162,8 @@ bool rg_job_count(struct rg_job *job)
     return keep_counted(job, &before);
 }
 
-// Until two frames in a row take the same time to 10 %: drivers go on compiling for a while. The
-// check frames have begun it.
+// Runs until two successive frames take the same time to 10 %, because drivers compile for a while
+// even after the check frames.
 bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options)
 {
     const double start = rg_now_ms();

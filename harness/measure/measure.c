@@ -9,8 +9,7 @@
 #include "harness/measure/sampling.h"
 #include "kernels/dialect/rng.h"
 
-// Settles how the job is sampled. Samples that it has from an earlier visit, or an earlier run, are
-// of the same length.
+// Decides how the job is sampled. Samples from an earlier visit or run have the same length.
 static void calibrate(struct rg_job *job, const struct rg_measure_options *options)
 {
     double ms = job->warm_frame_ms;
@@ -18,14 +17,14 @@ static void calibrate(struct rg_job *job, const struct rg_measure_options *optio
         return;
     if (ms < options->sample_ms && rg_job_be_ready(job, 4))
         ms = fmin(rg_job_time(job, 2), rg_job_time(job, 2));
-    if (rg_interrupted()) // so that fewer frames were run than were asked for
+    if (rg_interrupted()) // fewer frames were run than asked for
         return;
     const struct rg_sampling sampling = rg_sampling_of(ms, job->window_frames, options);
     job->record->frames_a_sample = sampling.frames_a_sample;
     job->record->wanted_samples = sampling.samples;
 }
 
-// Shuffled by the project's own generator, so that a run's order can be had again.
+// Shuffled by the project's own generator, so that the order is reproducible.
 static void shuffle(int *order, int count, int round)
 {
     for (int i = count - 1; i > 0; i--) {
@@ -37,8 +36,7 @@ static void shuffle(int *order, int count, int round)
     }
 }
 
-// What the API's own clock says. A device may have none; one that has it and does not tell it
-// fails.
+// Reads the API's clock. A device may lack one; one that has it and cannot read it fails.
 static bool tell_time(struct rg_job *job, int64_t *time_ns)
 {
     if (rg_session_time(job->session, time_ns))
@@ -49,7 +47,7 @@ static bool tell_time(struct rg_job *job, int64_t *time_ns)
     return false;
 }
 
-// The last sample of a job is timed by the API's own clock, too.
+// Takes a sample; the job's last one is also timed by the API's clock.
 static void take_sample(struct rg_job *job)
 {
     struct rg_record *record = job->record;
@@ -63,7 +61,7 @@ static void take_sample(struct rg_job *job)
     if (record->outcome != RG_OK)
         return;
     const double ms = rg_job_time(job, record->frames_a_sample);
-    if (rg_interrupted()) // so that it may have fewer frames
+    if (rg_interrupted()) // it may have fewer frames
         return;
     if (has_begun && tell_time(job, &end))
         record->api_over_wall =
@@ -71,7 +69,7 @@ static void take_sample(struct rg_job *job)
     record->samples_ms[record->sample_count++] = ms;
 }
 
-// Whether a job takes a sample in this round: its own are spread evenly over all rounds.
+// Whether a job takes a sample in this round: its samples are spread evenly over all rounds.
 static bool takes_turn(const struct rg_job *job, int round, int rounds)
 {
     const struct rg_record *record = job->record;
@@ -81,16 +79,16 @@ static bool takes_turn(const struct rg_job *job, int round, int rounds)
 
 // --- rounds ---
 
-// The jobs that are measured, visited in turn.
+// State of measuring jobs in rounds.
 struct rounds {
     struct rg_job *jobs;
     int *order, count; // indices of jobs
-    bool *is_begun;    // a job: it has samples of an earlier visit
-    int all;           // rounds, of which so many share the samples of the longest job
+    bool *is_begun;    // by job: it has samples from an earlier visit
+    int all;           // total number of rounds, which is the longest job's number of samples
     struct rg_calibration calibration;
 };
 
-// Settles how the jobs that can be measured are sampled.
+// Decides how the measurable jobs are sampled.
 static void begin(struct rounds *r, struct rg_job *jobs, int count,
                   const struct rg_measure_options *options)
 {
@@ -108,7 +106,7 @@ static void begin(struct rounds *r, struct rg_job *jobs, int count,
     }
 }
 
-// False where no job had its turn.
+// False where no job took a sample.
 static bool do_round(struct rounds *r, int round)
 {
     bool any = false;
@@ -122,7 +120,7 @@ static bool do_round(struct rounds *r, int round)
     return any;
 }
 
-// What the load takes goes into all records: at the beginning of the first visit, and now.
+// Writes the load's times into all records: at the beginning of the first visit, and now.
 static void note_calibration(struct rounds *r)
 {
     double begin_ms, end_ms;
@@ -156,8 +154,8 @@ static void tell(const struct rg_measure_options *options, double done_ms, doubl
         options->progress(all_ms > 0 ? done_ms / all_ms : 1, options->user);
 }
 
-// What taking the job's samples up to so many of all rounds takes, and then telling its passes
-// apart.
+// The time in milliseconds of a job's samples up to so many of all rounds, and of timing its
+// passes.
 static double rounds_ms(const struct rg_job *job, int rounds, int all)
 {
     const struct rg_record *record = job->record;

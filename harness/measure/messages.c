@@ -7,10 +7,10 @@
 #include "harness/measure/drawing.h"
 #include "harness/measure/timer_audit.h"
 
-// Beyond any time in ms or us, any ratio of times and any rate of a device, and far from infinity.
+// Larger than any time in ms or us, any ratio of times and any rate, yet far from infinity.
 #define MOST INT64_C(1000000000000000000)
 
-// Zeros of unlike signs differ by nothing; what does not differ has no distance.
+// Zeros of opposite sign have distance 0 but different bits; equal results have no distance.
 static bool is_result(const void *all)
 {
     const struct rg_probe_result *result = all;
@@ -33,7 +33,7 @@ const struct rg_field rg_probe_fields[] = {
 
 static const struct rg_field drawn_fields[] = {
     RG_FIELD_INTEGER(struct rg_drawn, format, RG_FORMAT_NONE + 1,
-                     RG_RGBA32F), // that can be drawn to
+                     RG_RGBA32F), // formats that can be drawn to
     RG_FIELD_INTEGER(struct rg_drawn, differing, 0, RG_DRAWING_PIXELS),
     RG_FIELDS_END,
 };
@@ -48,7 +48,7 @@ const struct rg_field rg_audit_fields[] = {
     RG_FIELD_INTEGER(struct rg_timer_audit, passes, 1, INT_MAX),
     RG_FIELD_FLAG(struct rg_timer_audit, has_timer),
     RG_FIELD_NUMBER(struct rg_timer_audit, wall_ms, 0, MOST),
-    RG_FIELD_NUMBER(struct rg_timer_audit, api_ms, -MOST, MOST), // a bad timer may go backwards
+    RG_FIELD_NUMBER(struct rg_timer_audit, api_ms, -MOST, MOST), // a bad timer may run backwards
     RG_FIELD_NUMBER(struct rg_timer_audit, ratio, -MOST, MOST),
     RG_FIELD_NUMBER(struct rg_timer_audit, sync_us, 0, MOST),
     RG_FIELD_NUMBER(struct rg_timer_audit, dispatch_us, 0, MOST),

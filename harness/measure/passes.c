@@ -1,4 +1,4 @@
-// What each pass of a frame takes.
+// Times each pass of a frame.
 #include <math.h>
 #include <string.h>
 
@@ -8,20 +8,20 @@
 
 enum { MOST_FRAMES = 40 };
 
-// What each pass of the record has taken in each frame.
+// The time of each pass in each frame.
 struct times {
     struct rg_record *record;
     int frame;
     double ms[RG_MAX_PASS_TIMES][MOST_FRAMES];
 };
 
-// Of a run that may take no time one frame tells.
+// With a limit of 0, one frame is measured.
 static int least_frames(double passes_ms)
 {
     return passes_ms > 0 ? 2 : 1;
 }
 
-// The place of a pass.
+// The index of a pass in the record.
 static int pass_of(struct rg_record *record, const char *name)
 {
     for (int i = 0; i < record->pass_count; i++)
@@ -43,8 +43,8 @@ static void add_stage(const char *kernel, double ms, void *user)
     times->ms[pass_of(times->record, kernel)][times->frame] += ms;
 }
 
-// The run ends with the frame in which it has taken so long. A pass takes its median over the
-// frames, for what disturbs the machine in one of them would be told as the pass's.
+// Ends after the frame in which the limit is reached. A pass has its median over the frames,
+// because a disturbance of the machine in one frame would otherwise count as the pass's.
 bool rg_job_time_passes(struct rg_job *job, double passes_ms)
 {
     struct rg_record *record = job->record;
@@ -61,7 +61,7 @@ bool rg_job_time_passes(struct rg_job *job, double passes_ms)
     return ok;
 }
 
-// A frame that waits after every stage takes longer than one that does not.
+// A frame that waits after every stage takes longer than a normal one.
 double rg_passes_expected_ms(double frame_ms, double passes_ms)
 {
     const double ms = 1.5 * frame_ms;

@@ -4,7 +4,7 @@
 
 #include "harness/measure/measure.h"
 
-// A frame that takes longer than this is not slowed by what the job before left in the caches.
+// Longer frames are not slowed by another job's data in the caches.
 #define LONG_FRAME_MS 100
 
 bool rg_sampling_has_run_up(double frame_ms)

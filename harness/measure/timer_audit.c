@@ -8,7 +8,7 @@
 #include "harness/record/stats.h"
 #include "kernels/probe/copy_params.h"
 
-// Large enough to leave the caches of one core, small enough for every device.
+// Large enough to exceed the caches of one core, small enough for every device.
 enum { SIDE = 1024, WORDS = SIDE * SIDE };
 enum { REPETITIONS = 7, SYNCS = 51, DISPATCHES = 100, MAX_PASSES = 20000 };
 static const double load_ns = 50e6;
@@ -56,7 +56,7 @@ static bool run(struct load *load, int passes, int side)
     return true;
 }
 
-// Wall time of `passes` from sync to sync.
+// The wall time of `passes` between syncs.
 static bool time_wall(struct load *load, int passes, int side, double *wall_ns)
 {
     if (!rg_device_sync(load->device))
@@ -68,7 +68,7 @@ static bool time_wall(struct load *load, int passes, int side, double *wall_ns)
     return true;
 }
 
-// The faster of two runs, so that a disturbance of one does not count.
+// The faster of two runs, so that one disturbance does not count.
 static bool time_twice(struct load *load, int passes, double *wall_ns)
 {
     double again_ns;
@@ -78,8 +78,8 @@ static bool time_twice(struct load *load, int passes, double *wall_ns)
     return true;
 }
 
-// Finds how many passes make the load long enough. Of two runs the faster counts, for drivers
-// compile in the first.
+// Finds the number of passes that makes the load long enough. The faster of two runs counts,
+// because drivers compile in the first.
 static bool calibrate(struct load *load, int *passes)
 {
     double wall_ns;
@@ -87,7 +87,8 @@ static bool calibrate(struct load *load, int *passes)
     while (time_twice(load, *passes, &wall_ns)) {
         if (wall_ns >= load_ns || *passes == MAX_PASSES)
             return true;
-        // Short runs overestimate a pass; at most 8 times as many before measuring again.
+        // Short runs overestimate a pass, so the number grows at most 8 times before it is measured
+        // again.
         double wanted = *passes * load_ns / (wall_ns > 1 ? wall_ns : 1) * 1.1 + 1;
         wanted = wanted > *passes * 8.0 ? *passes * 8.0 : wanted;
         *passes = wanted > MAX_PASSES ? MAX_PASSES : (int)wanted;

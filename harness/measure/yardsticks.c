@@ -20,7 +20,7 @@ const char *rg_yardstick_name(enum rg_yardstick yardstick)
 
 // --- arithmetic ---
 
-// Both converge at 1, so that no number becomes too small or too large for full speed.
+// Both converge to 1, so that no number becomes too small or too large for full speed.
 static float chain(float x)
 {
     static volatile float factor = 0.75f, more = 0.25f;
@@ -30,7 +30,7 @@ static float chain(float x)
     return x;
 }
 
-// Vectors as all machines have them, whatever code is made for, so that the work is the same.
+// Vectors that all machines have, whatever the code is compiled for, so that the work is the same.
 typedef float four __attribute__((vector_size(16)));
 
 static float vectors(float start)
@@ -109,7 +109,7 @@ bool rg_yardsticks_open(struct rg_yardstick_room *room)
     room->fork = room->to ? open_fork() : NULL;
     if (!room->fork)
         return false;
-    memset(room->from, 1, COPY_BYTES); // so that all pages are there before anything is timed
+    memset(room->from, 1, COPY_BYTES); // touches all pages before anything is timed
     memset(room->to, 2, COPY_BYTES);
     return true;
 }
@@ -125,7 +125,7 @@ void rg_yardsticks_close(struct rg_yardstick_room *room)
 
 double rg_yardstick_take(struct rg_yardstick_room *room, enum rg_yardstick yardstick)
 {
-    static volatile float kept; // so that nothing is left out
+    static volatile float kept; // keeps the compiler from removing the work
     const double start_ms = rg_now_ms();
     switch (yardstick) {
     case RG_YARDSTICK_CHAIN:
