@@ -46,7 +46,7 @@ static void add_told(const struct rg_told_list *told, int backend, struct rg_dev
         snprintf(missing->why, sizeof(missing->why), "%s", told->why);
 }
 
-// Asks a worker for the devices of a backend. Nothing is believed of a list that is damaged.
+// Asks a worker for the devices of a backend. A damaged list is not used.
 static void list_remote(struct rg_worker *worker, int backend, struct rg_device_list *list)
 {
     static struct rg_told_list told;
@@ -65,7 +65,7 @@ static void list_remote(struct rg_worker *worker, int backend, struct rg_device_
     rg_message_free(&request);
 }
 
-// Each backend's worker goes into `workers`, by backend, for the first of its devices.
+// Keeps each backend's worker in `workers`, by backend, to be reused for its first opened device.
 static void list_all(struct rg_device_list *list, struct rg_worker *workers[RG_MAX_BACKENDS])
 {
     memset(list, 0, sizeof(*list));
@@ -152,7 +152,7 @@ static void open_listed(struct rg_devices *devices, const struct rg_device_list 
         const char *name = list->infos[i].name;
         struct rg_device *device =
             rg_workers.program ? rg_remote_open(*worker, name, name, NULL) : rg_device_open(name);
-        *worker = NULL; // the device owns it
+        *worker = NULL; // the device owns it now
         if (device)
             devices->devices[devices->count++] = device;
         else
@@ -184,7 +184,8 @@ bool rg_devices_are_apart(const struct rg_device_info *a, const struct rg_device
            rg_drivers_are_apart(a, of_a.environment, b, of_b.environment);
 }
 
-// A short name is one device's, and two drivers that are named differently are two.
+// Short names must be unique, and two devices with different drivers in their names must run
+// different ones.
 static bool are_apart(const struct rg_devices *devices)
 {
     bool ok = true;
@@ -199,8 +200,8 @@ static bool are_apart(const struct rg_devices *devices)
     return ok;
 }
 
-// One that is unsupported is noted, and the others are opened all the same: what is required may be
-// among them.
+// Notes a device that is unsupported and opens the others all the same, because required ones may
+// be among them.
 static int open_named(const char *names, struct rg_devices *devices)
 {
     struct rg_device_name name;

@@ -14,7 +14,7 @@ static bool is_same(const struct rg_subject *a, const struct rg_subject *b)
            !memcmp(a->settings, b->settings, a->technique->params->settings_size);
 }
 
-// A subject with settings of its own. False, with one logged line, without memory.
+// Copies a subject with its settings. False, with one logged line, when memory runs out.
 static bool own_subject(struct rg_subject *own, const struct rg_subject *subject)
 {
     *own = *subject;
@@ -45,7 +45,7 @@ struct rg_device *rg_kept_device(struct rg_kept *kept, const char *name)
 
 // --- sessions ---
 
-// Where the session on a device is kept, or will be: there is a place for each.
+// The place of the session kept on a device; each device has one.
 static struct rg_kept_session *kept_on(struct rg_kept *kept, const struct rg_device *device)
 {
     struct rg_kept_session *place = kept->sessions;

@@ -13,7 +13,7 @@
 
 enum { MOST_SHORT = 64, SHORT_SIZE = 64 };
 
-// Those that were given to this process. A name is read many times on its way.
+// The short names given to this process, because a name is read many times.
 static struct {
     int count;
     struct {
@@ -29,7 +29,7 @@ const char *rg_device_name_full(const char *name)
     return name;
 }
 
-// How long the short name is with which a name begins; 0: it has none.
+// The length of the short name at a name's beginning; 0: none.
 static size_t short_length(const char *name)
 {
     const size_t length = strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -37,7 +37,7 @@ static size_t short_length(const char *name)
     return name[length] == '=' ? length : 0;
 }
 
-// Whether something is called so that is no short name.
+// Whether a backend or device has this name, so that it cannot be a short name.
 static bool is_taken(const char *name)
 {
     bool taken = !strcmp(name, "all");
@@ -46,7 +46,7 @@ static bool is_taken(const char *name)
     return taken;
 }
 
-// Takes the short name off the full one, or puts what a short one alone stands for.
+// Splits off the short name, or replaces a short name by what it stands for.
 static bool read_short(struct rg_device_name *name)
 {
     const size_t length = short_length(name->name);
@@ -78,7 +78,7 @@ static bool read_short(struct rg_device_name *name)
 
 // --- reading ---
 
-// The end of a name: a comma outside of quotes, or the end of all. NULL: a quote does not end.
+// The end of a name: a comma outside quotes, or the end. NULL: a quote is not closed.
 static const char *find_end(const char *name)
 {
     bool quoted = false;
@@ -87,7 +87,7 @@ static const char *find_end(const char *name)
     return quoted ? NULL : name;
 }
 
-// Copies a value up to its semicolon, or the end, without quotes. Returns what follows it.
+// Copies a value without quotes, up to its semicolon or the end. Returns the rest.
 static const char *copy_value(const char *from, char **to)
 {
     bool quoted = false;
@@ -102,7 +102,7 @@ static const char *copy_value(const char *from, char **to)
     return *from ? from + 1 : from;
 }
 
-// Copies a variable's name and its '='. NULL where it is none.
+// Copies a variable's name and its '='. NULL where there is none.
 static const char *copy_key(const char *from, char **to)
 {
     const size_t length = strcspn(from, "=");
@@ -116,12 +116,12 @@ static const char *copy_key(const char *from, char **to)
     return from + length + 1;
 }
 
-// What is set for all devices is mended (harness/console/threads.h). A device's own is in its name
-// and in every record, so that it has to be what runs.
+// Bad thread counts of the whole process are corrected (harness/console/threads.h). Those in a
+// device's name are in every record, so they must be what runs, and are refused.
 static bool has_sound_threads(const struct rg_device_name *name)
 {
     const char *given = rg_environment_find(name->environment, "OMP_NUM_THREADS");
-    char *end; // of the first number of what may be a list
+    char *end; // end of the first number in a possible list
     const long threads = given ? strtol(given, &end, 10) : 1;
     return !given || (threads >= 1 && threads <= rg_threads_most() && (!*end || *end == ',')) ||
            rg_error("device '%s': OMP_NUM_THREADS is no number from 1 to %ld, four a processor; "
@@ -129,7 +129,7 @@ static bool has_sound_threads(const struct rg_device_name *name)
                     name->name, rg_threads_most());
 }
 
-// Whether one of the variables up to `last` sets the same one as that does.
+// Whether a variable before `last` has the same name.
 static bool is_set_before(const char *environment, const char *last)
 {
     const size_t length = strcspn(last, "=") + 1;
@@ -160,7 +160,7 @@ static bool read_environment(struct rg_device_name *name)
                     name->name);
 }
 
-// Where a list of names is amiss at its beginning, "" where it is not.
+// The faulty beginning of a list of names, "" if it is well-formed.
 static const char *fault_of(const char *names, const char *end)
 {
     if (!end)
@@ -172,7 +172,8 @@ static const char *fault_of(const char *names, const char *end)
                : "";
 }
 
-// Reads the first of `rest`, a part of `names`, which messages quote with what they were given to.
+// Reads the first name of `rest`, a part of `names`; messages quote `names` and the option in
+// `given_to`.
 static bool read_name(const char *given_to, const char *names, const char **rest,
                       struct rg_device_name *name)
 {
@@ -216,7 +217,7 @@ bool rg_device_names_one(const char *names, const char *command)
                     command);
 }
 
-// Writes a value between double quotes, two for each of its own; at most `size` bytes.
+// Writes a value in double quotes, doubling those in it; at most `size` bytes.
 static size_t quote_value(const char *value, char *to, size_t size)
 {
     size_t used = 0;

@@ -28,7 +28,7 @@ static const char *value_of(const char *environment, const char *variable)
     return value ? value : "";
 }
 
-// The variable by which two names choose their drivers differently; NULL: none.
+// The variable by which two names choose different drivers; NULL: none.
 static const char *find_difference(const char *a, const char *b)
 {
     for (int i = 0; choosing[i]; i++)
@@ -49,7 +49,7 @@ static bool is_all(const struct rg_device_info *a, const struct rg_device_info *
     return all;
 }
 
-// The prefix that a folder of libraries lies in; "PREFIX" where it says none.
+// Guesses the prefix of a folder of libraries; "PREFIX" if unclear.
 static void guess_prefix(const char *libraries, char prefix[PATH_MAX])
 {
     const char *end = strstr(libraries, "/usr/lib");
@@ -58,7 +58,7 @@ static void guess_prefix(const char *libraries, char prefix[PATH_MAX])
              end && end > libraries ? libraries : "PREFIX");
 }
 
-// Why a variable did not choose another driver, and what does.
+// Explains why a variable did not choose another driver, and what would.
 static bool tell_same(const struct rg_device_info *a, const struct rg_device_info *b,
                       const char *variable, const char *api, const char *value)
 {

@@ -21,7 +21,7 @@
 
 // --- folders that are in use ---
 
-// Held until this process ends, so that no other removes them.
+// Locks held until this process ends, so that no other removes the folders.
 static struct {
     int count;
     char paths[128][PATH_MAX];
@@ -42,8 +42,8 @@ static void hold(const char *path)
     const int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd < 0)
         return;
-    flock(fd, LOCK_SH | LOCK_NB); // it stays open on purpose
-    futimens(fd, NULL);           // when it was used last
+    flock(fd, LOCK_SH | LOCK_NB); // stays open on purpose
+    futimens(fd, NULL);           // marks the time of use
     snprintf(held.paths[held.count++], PATH_MAX, "%s", path);
 }
 
@@ -58,7 +58,7 @@ static int remove_entry(const char *path, const struct stat *what, int kind, str
     return 0;
 }
 
-// One that another process uses stays.
+// Removes a folder unless another process uses it.
 static void remove_unused(const char *path)
 {
     const int fd = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -69,7 +69,7 @@ static void remove_unused(const char *path)
     close(fd);
 }
 
-// The folder in `parent` that was used longest ago and is not held here, and how many there are.
+// The least recently used folder in `parent` that is not held here, and the number of folders.
 static int find_oldest(const char *parent, char oldest[PATH_MAX])
 {
     DIR *all = opendir(parent);
@@ -97,7 +97,7 @@ static int find_oldest(const char *parent, char oldest[PATH_MAX])
     return count;
 }
 
-// One that does not go, for it is in use, ends it.
+// Stops at a folder in use, which cannot be removed.
 static void keep_last(const char *parent, int kept)
 {
     char oldest[PATH_MAX];
@@ -109,7 +109,7 @@ static void keep_last(const char *parent, int kept)
     }
 }
 
-// Makes a folder where it is not, and holds it; a new one has old ones go.
+// Makes a folder if it is missing, and holds it; a new folder evicts old ones.
 static bool use(const char *parent, const char *path, int kept)
 {
     const bool is_new = !mkdir(path, 0700);
@@ -125,7 +125,7 @@ static bool use(const char *parent, const char *path, int kept)
 
 // --- which folder ---
 
-// In the user's cache, or where there is none in a folder of his own among temporary files.
+// In the user's cache, or if there is none in a private folder among temporary files.
 static bool find_root(char root[PATH_MAX])
 {
     char why[256], name[PATH_MAX];
@@ -147,7 +147,7 @@ static bool find_root(char root[PATH_MAX])
                     root);
 }
 
-// All that a driver may read counts, in whatever order it was written: a sum.
+// Hashes everything that a driver may read, in any order: a sum.
 static uint64_t hash_settings(const char *api, const char *environment)
 {
     uint64_t hash = XXH3_64bits(api, strlen(api));
@@ -213,7 +213,7 @@ bool rg_side_folder_move(struct rg_side_folder *f, uint64_t driver)
         return false;
     name_note(f, path);
     FILE *note = fopen(path, "we");
-    if (note) { // without it the next opening finds the driver anew
+    if (note) { // without a note, the next opening finds the driver again
         fprintf(note, "%016" PRIx64 "\n", driver);
         fclose(note);
     }

@@ -12,10 +12,10 @@
 
 // --- what is named ---
 
-// Variables that name manifests, by API. Of one API the first that is set counts.
+// Variables that name manifests, by API; the first one set counts.
 static const struct {
     const char *api, *variable;
-    const char *pattern; // of a folder's files
+    const char *pattern; // for files in a folder
 } manifests[] = {
     {"vulkan", "VK_DRIVER_FILES", "*.json"},
     {"vulkan", "VK_ICD_FILENAMES", "*.json"},
@@ -31,7 +31,7 @@ static void add_manifest(struct rg_choice *c, const char *path)
         rg_manifest_read(path, &c->manifests[c->count++]);
 }
 
-// A file, or all of a folder.
+// Adds a file, or all files in a folder.
 static void add_named(struct rg_choice *c, const char *path, const char *pattern)
 {
     struct stat what;
@@ -88,7 +88,7 @@ static bool refuse_manifest(const struct rg_choice *c, const struct rg_manifest 
                            device, m->path, c->api);
 }
 
-// One that is well is enough, as it is for the loaders.
+// As for the loaders, one good manifest is enough.
 static bool are_manifests_well(const struct rg_choice *c)
 {
     bool any = !c->count;
@@ -174,7 +174,7 @@ bool rg_choice_refuse(const struct rg_choice *c, const char *why)
                            c->name, c->manifests[0].path, why, c->api);
 }
 
-// Whether a library of the device is this file, through whatever links.
+// Whether a library of the device is this file, after following links.
 static bool runs_file(const struct rg_device_info *info, const char *path)
 {
     char *real = realpath(path, NULL);
@@ -197,8 +197,8 @@ static bool is_in_prefix(const struct rg_choice *c, const struct rg_device_info 
                     c->name, driver->path, c->driver);
 }
 
-// A manifest of one tree whose library is of another: a bare name was found in the system's
-// folders, or a path leads there.
+// Whether the driver that was named runs. A manifest in one tree may lead to a library of another:
+// a bare name is found in the system's folders, or a path leads there.
 bool rg_choice_is_met(const struct rg_choice *c, const struct rg_device_info *info)
 {
     const struct rg_library *driver = &info->libraries[0];

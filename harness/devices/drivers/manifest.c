@@ -18,7 +18,7 @@ static bool is_icd(const char *path)
     return length > 4 && !strcmp(path + length - 4, ".icd");
 }
 
-// A path with a slash counts from the manifest's own folder.
+// A path with a slash is relative to the manifest's folder.
 static void find_library(struct rg_manifest *m)
 {
     const char *slash = strrchr(m->path, '/');
@@ -52,7 +52,7 @@ void rg_manifest_read(const char *path, struct rg_manifest *m)
 
 // --- writing ---
 
-// The manifest's text with another library; the caller frees it. NULL without memory.
+// The manifest's text with another library; the caller frees it. NULL when memory runs out.
 static char *text_with(const struct rg_manifest *m, const char *library)
 {
     char *text = NULL;
@@ -82,7 +82,7 @@ static bool holds_already(const char *path, const char *text)
     return size == strlen(text) && !memcmp(there, text, size);
 }
 
-// Under another name first, for another process may read it.
+// Writes under another name first, because another process may be reading it.
 bool rg_manifest_write(const struct rg_manifest *m, const char *library, const char *path)
 {
     char *text = text_with(m, library), other[PATH_MAX];

@@ -15,7 +15,7 @@
 static const char *const folders[] = {
     "/usr/lib/*-linux-*", "/usr/lib64", "/usr/lib", "/usr/local/lib/*-linux-*", "/usr/local/lib64",
     "/usr/local/lib", "/lib/*-linux-*", "/lib64", "/lib",
-    // of a build folder of Mesa
+    // in a build folder of Mesa
     "/src/egl", "/src/gbm", "/src/glx", "/src/mapi/shared-glapi", "/src/gallium/targets/*", NULL};
 
 static const struct place {
@@ -37,7 +37,7 @@ static const struct place {
     {"opencl", "/src/gallium/targets/*/*.icd"},
 };
 
-// Calls for each path of a pattern below the prefix.
+// Calls `take` for each path of a pattern below the prefix.
 static void for_each(struct rg_prefix *prefix, const char *pattern,
                      void (*take)(struct rg_prefix *prefix, const char *path, const void *user),
                      const void *user)
@@ -62,13 +62,13 @@ static void add_folder(struct rg_prefix *prefix, const char *path, const void *u
         snprintf(prefix->folders[prefix->folder_count++], PATH_MAX, "%s", path);
 }
 
-// What a look for a library met that cannot be taken.
+// Unsuitable files found while looking for a library.
 struct seen {
     char foreign[PATH_MAX];  // for another processor
-    char manifest[PATH_MAX]; // its library is not in the prefix
+    char manifest[PATH_MAX]; // whose library is outside the prefix
 };
 
-// Takes a file that is there and is for this processor.
+// Takes a file that exists and fits this processor.
 static bool take_library(const char *path, char library[PATH_MAX], struct seen *seen)
 {
     if (access(path, F_OK))
@@ -93,8 +93,8 @@ static bool find_in_folders(const struct rg_prefix *prefix, const char *name,
     return is_found;
 }
 
-// A manifest names its library by a bare name, by where it lies once it is installed in the system,
-// or by where it lies now.
+// A manifest names its library by a bare name, by the place where it will be installed, or by its
+// current place.
 static bool find_library(const struct rg_prefix *prefix, const struct rg_manifest *m,
                          char library[PATH_MAX], struct seen *seen)
 {
@@ -150,7 +150,8 @@ static const struct rg_prefix_driver *driver_of(const struct rg_prefix *prefix, 
     return NULL;
 }
 
-// EGL without a vendor's file: Mesa's library is enough, and so is a libEGL that is the driver.
+// Adds EGL without a vendor's manifest: Mesa's library is enough, and so is a libEGL that is the
+// driver.
 static void add_egl(struct rg_prefix *prefix, struct seen *seen)
 {
     static const char *const names[] = {"libEGL_mesa.so.0", "libEGL.so.1"};
@@ -212,7 +213,7 @@ static void append(char list[], size_t size, const char *path)
         snprintf(list + used, size - used, "%s%s", used ? ":" : "", path);
 }
 
-// A copy of a driver's manifest that names its library by path.
+// Copies a driver's manifest with its library's path.
 static bool copy_manifest(const struct rg_prefix_driver *driver, const char *folder, int number,
                           char copy[PATH_MAX])
 {
@@ -235,7 +236,7 @@ static bool is_vendor(const char *library)
     return strcmp(slash ? slash + 1 : library, "libEGL.so.1") != 0;
 }
 
-// The list of an API's manifests, copied.
+// Copies an API's manifests and lists them.
 static bool list_manifests(const struct rg_prefix *prefix, const char *api, const char *folder,
                            char list[], size_t size)
 {
@@ -252,7 +253,7 @@ static bool list_manifests(const struct rg_prefix *prefix, const char *api, cons
     return true;
 }
 
-// A folder of the prefix that lies in one of libraries, as "dri" does; "": there is none.
+// A folder in one of the prefix's library folders, such as "dri"; "": there is none.
 static void find_below(const struct rg_prefix *prefix, const char *name, char found[PATH_MAX])
 {
     *found = 0;

@@ -15,7 +15,7 @@ void rg_sides_begin(void)
     are_all_sides = true;
 }
 
-// What decides which code a driver makes, and is not in every driver's key of what it keeps.
+// Whether variables are set that change a driver's code but are not in every driver's cache key.
 static bool changes_code(void)
 {
     static const char *const variables[] = {"GALLIVM_DEBUG", "GALLIVM_PERF",
@@ -23,11 +23,11 @@ static bool changes_code(void)
     bool any = false;
     for (int i = 0; !any && variables[i]; i++)
         any = getenv(variables[i]);
-    // Whoever sets both says himself where code is kept.
+    // A user who also chooses the cache folder is left to decide.
     return any && !getenv("MESA_SHADER_CACHE_DIR");
 }
 
-// A device of cpu has no driver, and keeps no code.
+// A cpu device has no driver, and caches no code.
 static bool is_side(const struct rg_asked *asked)
 {
     return strncmp(asked->full, "cpu", 3) != 0 &&
@@ -43,8 +43,8 @@ static uint64_t hash_driver(const struct rg_device_info *info)
     return hash;
 }
 
-// Has the worker load one of the libraries that the name names, so that the reason is known where
-// none can be: the loaders of the APIs pass over them without a word.
+// Whether the worker can load one of the named libraries; if not, this finds the reason, about
+// which the APIs' loaders are silent.
 static bool can_be_loaded(struct rg_worker *worker, const struct rg_choice *choice)
 {
     const char *libraries[RG_CHOICE_MANIFESTS];
@@ -62,7 +62,7 @@ static bool can_be_loaded(struct rg_worker *worker, const struct rg_choice *choi
     return rg_worker_finish(&reply, ok) && (!*why || rg_choice_refuse(choice, why));
 }
 
-// Opens it with its folder's caches, unless no folder is given.
+// Opens the device with its folder's caches, if a folder is given.
 static struct rg_device *open_in(const struct rg_asked *asked, const struct rg_choice *choice,
                                  const struct rg_side_folder *folder)
 {
@@ -81,8 +81,8 @@ static struct rg_device *open_in(const struct rg_asked *asked, const struct rg_c
     return device;
 }
 
-// A driver is known once it is loaded, and reads then where it keeps its code. So the folder is
-// that of the driver that was there the last time; where another one is, the device is opened anew.
+// A driver is known only after loading, but reads its cache folder while loading. So the folder is
+// that of the last driver; if another one is found, the device is reopened.
 static struct rg_device *open_side(const struct rg_asked *asked, const struct rg_choice *choice)
 {
     struct rg_side_folder folder;

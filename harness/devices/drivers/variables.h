@@ -1,5 +1,5 @@
-// Variables for a worker's process while they are gathered: "KEY=value", each ended by a zero, the
-// last by two (harness/devices/workers/environment.h).
+// Collects variables for a worker's process: "KEY=value", each ended by a zero, the last by two
+// (harness/devices/workers/environment.h).
 #ifndef RG_HARNESS_DEVICES_DRIVERS_VARIABLES_H
 #define RG_HARNESS_DEVICES_DRIVERS_VARIABLES_H
 
@@ -10,14 +10,14 @@
 struct rg_worker_variables {
     char *text; // NULL: none, or no memory
     size_t size;
-    bool failed; // there was no memory
+    bool failed; // memory ran out
 };
 
-// Sets a variable, in the place of what it was before. Returns false without memory.
+// Sets a variable, replacing an earlier value. False when memory runs out.
 bool rg_variables_set(struct rg_worker_variables *variables, const char *key, const char *value);
-// Takes one away that was set here.
+// Removes a variable that was set here.
 void rg_variables_drop(struct rg_worker_variables *variables, const char *key);
-// What the worker will have: what is set here, or this process's own; NULL: neither.
+// The value in the worker: set here, or this process's own; NULL: neither.
 const char *rg_variables_find(const struct rg_worker_variables *variables, const char *key);
 void rg_variables_free(struct rg_worker_variables *variables);
 

@@ -1,5 +1,5 @@
-// Calls about the device (harness/devices/workers/device.c, harness/devices/ and harness/doctor/
-// make them).
+// Serves calls about the device (made by harness/devices/workers/device.c, harness/devices/ and
+// harness/doctor/).
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,7 +31,7 @@ bool rg_served_device_close(void)
     return clean;
 }
 
-// A list of one backend holds no pointer but of the backend itself.
+// The only pointer in a list of one backend is that to the backend.
 bool rg_serve_list(struct rg_message *request, struct rg_message *reply)
 {
     static struct rg_device_list list;
@@ -47,7 +47,7 @@ bool rg_serve_list(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
-// What was loaded stays, so that the loader of the API gets the same.
+// Loaded libraries stay, so that the API's loader gets the same ones.
 bool rg_serve_load(struct rg_message *request, struct rg_message *reply)
 {
     char why[512] = "";
@@ -80,7 +80,7 @@ bool rg_serve_open(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
-// A process that was started again has not opened it.
+// A restarted process has not opened the device.
 static bool is_open(void)
 {
     return device || rg_driver_error("its device has gone with its process");

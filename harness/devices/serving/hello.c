@@ -1,5 +1,5 @@
-// What a worker says of the messages that it takes and gives, so that one of another build is told
-// from one that lies.
+// Describes the messages that a worker understands, so that another build is told from a damaged
+// worker.
 #include <stdio.h>
 
 #include "core/device/probe.h"

@@ -1,12 +1,12 @@
-// The services of a worker, by subject. Only files of this folder may include this.
+// The services of a worker, by subject. Only files of this folder include it.
 #ifndef RG_HARNESS_DEVICES_SERVING_SERVICES_H
 #define RG_HARNESS_DEVICES_SERVING_SERVICES_H
 
 #include "core/device/device.h"
 #include "harness/devices/workers/serve.h"
 
-// The worker's device, which is opened where it is not yet; `name` may have an environment behind
-// it. NULL, and one logged line, on failure.
+// The worker's device, which is opened on first use; `name` may include an environment. NULL, and
+// one logged line, on failure.
 struct rg_device *rg_served_device(const char *name);
 bool rg_served_device_close(void);
 // Closes every session.

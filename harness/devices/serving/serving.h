@@ -1,18 +1,18 @@
-// What a worker does: it holds one device, with sessions on it, and serves the calls of
+// A worker's main part: it holds one device with sessions on it, and serves the calls of
 // harness/devices/workers/calls.h.
 #ifndef RG_HARNESS_DEVICES_SERVING_SERVING_H
 #define RG_HARNESS_DEVICES_SERVING_SERVING_H
 
 #include "harness/devices/workers/serve.h"
 
-// By call.
+// The services by call.
 extern rg_service *const rg_services[RG_CALL_COUNT_OF_CALLS];
 
-// Serves as a worker (rg_serve), until the harness ends. Returns the exit status.
+// Serves as a worker (rg_serve) until the harness ends. Returns the exit status.
 int rg_serving(const char *argument);
 
-// The messages that this build takes and gives, as a text for rg_workers.hello: builds that have
-// the same understand each other.
+// A description of the messages that this build understands, for rg_workers.hello: builds with
+// equal texts are compatible.
 const char *rg_serving_hello(void);
 
 #endif

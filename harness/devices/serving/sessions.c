@@ -9,7 +9,7 @@
 #include "harness/frames/messages.h"
 #include "harness/devices/serving/services.h"
 
-// By number; NULL: closed. Numbers are not used again, so that none means two sessions.
+// By number; NULL: closed. Numbers are never reused, so that each means one session.
 static struct {
     int count;
     int64_t room;

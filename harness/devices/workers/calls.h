@@ -1,7 +1,7 @@
-// What the harness asks of workers: the one list of calls, each with the name of its service
-// (harness/devices/serving/) and with what a worker does meanwhile. What a call is given and gives
-// is told by tables of fields that both sides use (harness/frames/messages.h,
-// harness/measure/messages.h, harness/devices/workers/device.h).
+// The calls from the harness to workers: one list, with each call's service
+// (harness/devices/serving/) and the worker's activity during it. Tables of fields, used by both
+// sides, describe requests and replies (harness/frames/messages.h, harness/measure/messages.h,
+// harness/devices/workers/device.h).
 #ifndef RG_HARNESS_DEVICES_WORKERS_CALLS_H
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 
@@ -51,7 +51,7 @@
 #define RG_CALL_NUMBER(name, service, doing) RG_CALL_##name,
 enum rg_call { RG_CALLS(RG_CALL_NUMBER) RG_CALL_COUNT_OF_CALLS };
 
-// What a worker does while it serves a call: "opening the device".
+// The worker's activity during a call: "opening the device".
 const char *rg_call_doing(enum rg_call call);
 
 #endif

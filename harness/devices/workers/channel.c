@@ -13,8 +13,8 @@
 
 // --- the page ---
 
-// The page in a file, or one of this process alone where there is none: then nobody sees what the
-// worker does, and how long it has been at that is counted from its last message.
+// Maps the page from a file, or as private memory where there is none. Private, it shows nobody
+// what the worker does, and the time without progress counts from its last message.
 static struct rg_doing *map(int page)
 {
     const int shared = page < 0 ? MAP_PRIVATE | MAP_ANONYMOUS : MAP_SHARED;
@@ -22,8 +22,8 @@ static struct rg_doing *map(int page)
     return bytes != MAP_FAILED ? bytes : page < 0 ? NULL : map(-1);
 }
 
-// A file for the page; -1 where there can be none, as with ulimit -f 0. It has as few bytes as it
-// needs, and zeros are written, which no filter of system calls refuses.
+// Makes the page's file; -1 where that fails, as with ulimit -f 0. Writes zeros up to the page's
+// size, because no filter of system calls refuses a write.
 static int make_page(void)
 {
     static const char zeros[sizeof(struct rg_doing)];
@@ -100,7 +100,8 @@ bool rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
 
 // --- receiving ---
 
-// Memory for more of a message: no more than twice of what has come, for its size may be a lie.
+// Grows a message's memory, at most to twice of what has arrived, because the announced size may be
+// false.
 static bool make_room(struct rg_channel *channel)
 {
     enum { LEAST_BYTES = 1 << 16 };
@@ -118,7 +119,7 @@ static bool make_room(struct rg_channel *channel)
     return true;
 }
 
-// Takes what is there, of the size before a message first. What the kernel says of it.
+// Receives available bytes, starting with the message's size. Returns the kernel's result.
 static ssize_t take(struct rg_channel *channel)
 {
     struct rg_message *taken = &channel->taken;
@@ -135,7 +136,8 @@ static ssize_t take(struct rg_channel *channel)
     return got;
 }
 
-// How far the message has come. Its size was sent by a process that a driver may have damaged.
+// How much of the message has arrived. Its size comes from a process that a driver may have
+// damaged.
 static enum rg_arrival look(struct rg_channel *channel)
 {
     if (channel->taken_bytes < (int64_t)sizeof(channel->taken_size))

@@ -12,14 +12,13 @@
 
 struct remote {
     struct rg_device pub;
-    struct rg_backend
-        backend; // the worker's, of which the name alone is used, and how it is closed
+    struct rg_backend backend; // the worker's backend; only its name and `destroy` are used
     struct rg_worker *worker;
 };
 
 static bool sync_remote(struct rg_device *device)
 {
-    (void)device; // nothing is asked of it but through sessions, and their calls have been answered
+    (void)device; // nothing to wait for: all calls of sessions have been answered
     return true;
 }
 
@@ -105,7 +104,7 @@ const struct rg_field rg_told_list_fields[] = {
     RG_FIELDS_END,
 };
 
-// Asks for the device. Its name is as the driver's list has it, before an environment.
+// Opens the device in the worker. `name` is the name in the driver's list, without an environment.
 static bool ask_for(struct remote *remote, const char *name, const char *full)
 {
     struct rg_message request = {0};

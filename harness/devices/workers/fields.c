@@ -5,7 +5,7 @@
 
 #include "core/base/array.h"
 
-// Where a field's entry lies in its struct, or what lies at an offset beside it.
+// The address of a field's entry in its struct, or of a member beside it.
 static void *at(const void *all, size_t offset)
 {
     return (char *)(uintptr_t)all + offset;
@@ -79,7 +79,7 @@ void rg_put_fields(struct rg_message *message, const struct rg_field *fields, co
 
 // --- taking ---
 
-// As it lies in the message. What is never below 0 may be unsigned.
+// The integer as stored in the message; it is unsigned if its range has no negative number.
 static int64_t integer_of(const void *value, const struct rg_field *field)
 {
     uint8_t byte;
@@ -130,7 +130,7 @@ static bool take_block(struct rg_message *message, const struct rg_field *field,
     return bytes;
 }
 
-// Memory is taken as rows come, whatever their number is said to be.
+// Allocates memory as rows arrive, because the announced number may be false.
 static bool take_list(struct rg_message *message, const struct rg_field *field, void *all)
 {
     void **rows = at(all, field->offset);

@@ -1,5 +1,5 @@
-// What a message holds, described once: the fields of a struct, from which it is put and taken. So
-// whoever takes it checks all that the description says, and forgets nothing.
+// Describes the contents of a message once, as fields of a struct by which it is sent and received,
+// so that the receiver checks everything that the description says.
 //
 //   static const struct rg_field fields[] = {
 //       RG_FIELD_INTEGER(struct fact, count, 0, 9),
@@ -41,9 +41,9 @@ struct rg_field_way {
 struct rg_field {
     enum rg_field_kind kind;
     size_t offset, size; // of one entry, or of one row of a list
-    int64_t least, most; // of a list: of its rows
-    size_t entries;      // of an array, one after the other
-    bool is_counted;     // as many of them as the int at `count` says
+    int64_t least, most; // for a list: of its rows
+    size_t entries;      // number of elements of an array
+    bool is_counted;     // the int at `count` says how many of them are used
     size_t count, room;  // offsets
     const struct rg_field *of;
     const struct rg_field_way *way;
@@ -65,7 +65,7 @@ struct rg_field {
 #define RG_FIELD_NAME_OR_NONE(S, field)  RG_FIELD_OF(NAME, S, field, .least = 0)
 #define RG_FIELD_STRUCT(S, field, table) RG_FIELD_OF(STRUCT, S, field, .of = (table))
 #define RG_FIELD_BLOCK(S, field, bytes)  RG_FIELD_OF(BLOCK, S, field, .count = offsetof(S, bytes))
-// An array of integers, or of structs.
+// An array of integers or structs.
 #define RG_FIELD_INTEGERS(S, field, from, to)                                                      \
     {                                                                                              \
         RG_KIND_INTEGER, offsetof(S, field), sizeof(((S *)0)->field[0]),                           \
@@ -76,7 +76,7 @@ struct rg_field {
         RG_KIND_STRUCT, offsetof(S, field), sizeof(((S *)0)->field[0]),                            \
             .entries = RG_FIELD_ENTRIES(S, field), .of = (table)                                   \
     }
-// The same of structs that are as many as an int says.
+// The same with an int for the number of used elements.
 #define RG_FIELD_SOME(S, field, number, table)                                                     \
     {                                                                                              \
         RG_KIND_STRUCT, offsetof(S, field), sizeof(((S *)0)->field[0]),                            \
@@ -106,8 +106,8 @@ struct rg_field {
     }
 
 void rg_put_fields(struct rg_message *message, const struct rg_field *fields, const void *all);
-// `all` is zeroed before. False, with one logged line, where the message has failed. Blocks and
-// lists that were taken until then stay in `all`, which the caller frees in either case.
+// Zero `all` before. False, with one logged line, where the message is damaged. Blocks and lists
+// received until then stay in `all`, which the caller frees in either case.
 bool rg_take_fields(struct rg_message *message, const struct rg_field *fields, void *all);
 // Gives back the memory of blocks, lists and structs that go their own way.
 void rg_free_fields(const struct rg_field *fields, void *all);

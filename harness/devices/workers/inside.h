@@ -1,14 +1,12 @@
-// What both sides of a worker agree on. Only files of this folder may include this.
+// Constants that both sides of a worker share. Only files of this folder include it.
 #ifndef RG_HARNESS_DEVICES_WORKERS_INSIDE_H
 #define RG_HARNESS_DEVICES_WORKERS_INSIDE_H
 
-// The channel's socket and its page in the worker's process, behind the three descriptors that
-// every process has.
+// The worker's descriptors of the channel's socket and page, after the three standard ones.
 enum { RG_WORKER_SOCKET = 3, RG_WORKER_PAGE, RG_WORKER_FDS };
-// Its arguments behind the program: RG_WORKER_ARGUMENT, and the harness's process.
+// The arguments after the program: RG_WORKER_ARGUMENT, and the harness's process id.
 #define RG_WORKER_CHANNEL "%ld"
-// A reply has at most so many lines that were logged: beyond them a worker keeps none but one
-// error.
+// The most logged lines in a reply; beyond that a worker keeps only one error.
 enum { RG_WORKER_MOST_LINES = 1000 };
 
 #endif

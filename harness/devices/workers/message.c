@@ -83,7 +83,7 @@ int rg_take_index(struct rg_message *message, int end)
     return 0;
 }
 
-// Where a block lies in the message; NULL, and no size, where it does not.
+// The place of a block in the message; NULL, and size 0, where it does not fit.
 static const char *take_place(struct rg_message *message, int64_t *size)
 {
     const int64_t said = rg_take_int(message);
@@ -142,7 +142,7 @@ void *rg_take_block(struct rg_message *message, int64_t *size)
     char *block = place ? malloc((size_t)*size + WORD_BYTES) : NULL;
     if (block) {
         memcpy(block, place, (size_t)*size);
-        memset(block + *size, 0, WORD_BYTES); // where whole words are compared
+        memset(block + *size, 0, WORD_BYTES); // for comparisons of whole words
     }
     if (place && !block) {
         message->failed = true;

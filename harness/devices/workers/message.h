@@ -1,8 +1,8 @@
-// A message between two processes of this program: values one after the other, as they lie in
-// memory. Whoever takes them does so in the order in which they were put.
+// A message between two processes of this program: values in sequence, in their memory layout. The
+// receiver takes them in the order in which they were put.
 //
-// A driver may have scribbled over what its process sends. So taking checks every size, a message
-// that is too short or too long has failed, and taking more of it gives nothing.
+// A driver may have overwritten the sender's memory. So taking checks every size; a message that is
+// too short or too long has failed, and taking more from it gives nothing.
 #ifndef RG_HARNESS_DEVICES_WORKERS_MESSAGE_H
 #define RG_HARNESS_DEVICES_WORKERS_MESSAGE_H
 
@@ -13,9 +13,9 @@
 struct rg_message {
     char *bytes; // owned
     int64_t size, room;
-    int64_t at;         // of the next value to take
-    bool failed;        // without memory, or taken amiss; one line has been logged
-    const char *device; // whose process sent it, which outlives it; NULL: whoever
+    int64_t at;         // offset of the next value to take
+    bool failed;        // memory ran out, or the content is invalid; one line was logged
+    const char *device; // whose process sent it, which outlives it; NULL: unknown
 };
 
 void rg_message_free(struct rg_message *message);
@@ -26,7 +26,7 @@ void rg_put(struct rg_message *message, const void *bytes, int64_t size);
 #define RG_PUT(message, value) rg_put(message, &(value), sizeof(value))
 void rg_put_int(struct rg_message *message, int64_t value);
 void rg_put_text(struct rg_message *message, const char *text);
-// Bytes with their size before them.
+// Puts bytes preceded by their size.
 void rg_put_block(struct rg_message *message, const void *bytes, int64_t size);
 
 // --- taking: false, 0 or NULL from a message that has failed ---
@@ -34,17 +34,17 @@ void rg_put_block(struct rg_message *message, const void *bytes, int64_t size);
 bool rg_take(struct rg_message *message, void *bytes, int64_t size);
 #define RG_TAKE(message, value) rg_take(message, &(value), sizeof(value))
 int64_t rg_take_int(struct rg_message *message);
-// A number from 0 to `end` - 1; else the message has failed.
+// Takes a number from 0 to `end` - 1; else the message has failed.
 int rg_take_index(struct rg_message *message, int end);
-// A text of the message, which lives as long; "" where it has failed.
+// A text in the message, valid as long as it; "" where it has failed.
 const char *rg_take_text(struct rg_message *message);
-// The same text for as long as this process lives: names that structs point to. No process gives
-// more of them, or longer ones, than a program has; else the message has failed.
+// The same text, valid for the process's life: for names that structs point to. A message with more
+// or longer names than any program has fails.
 const char *rg_take_name(struct rg_message *message);
-// A block, which the caller frees, with a word of zeros behind it; one of no bytes is no NULL. Its
-// size is 0 where it is NULL.
+// Takes a block, which the caller frees, with a word of zeros after it; an empty block is not NULL.
+// Size is 0 where the result is NULL.
 void *rg_take_block(struct rg_message *message, int64_t *size);
-// For those who find that what they took cannot be: the message has failed. False.
+// Marks the message as failed because its content is invalid. Returns false.
 bool rg_message_fail(struct rg_message *message);
 
 #endif

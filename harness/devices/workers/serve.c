@@ -14,7 +14,7 @@
 #include "harness/devices/workers/channel.h"
 #include "harness/devices/workers/inside.h"
 
-// Lines that were logged since the last reply.
+// Lines logged since the last reply.
 static struct {
     int count;
     struct rg_message lines;
@@ -69,14 +69,14 @@ static bool serve_one(struct rg_channel *channel, rg_service *const services[],
     return sent;
 }
 
-// The harness's death is this process's; no core of it is kept, for its memory is a driver's. False
-// where another process started it.
+// Makes this process end with the harness, without core dumps, which would mostly hold the driver's
+// memory. False if it was not started by the harness.
 static bool become_a_worker(pid_t harness)
 {
     const struct rlimit none = {0, 0};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != harness)
-        return false; // or it has ended before this was set
+        return false; // or the harness ended before this was set
     setrlimit(RLIMIT_CORE, &none);
     signal(SIGXFSZ, SIG_IGN);
     rg_interrupt_serve();

@@ -25,22 +25,22 @@
 #include "harness/devices/workers/held.h"
 #include "harness/devices/workers/inside.h"
 
-// A program that is asked whether it is a raingauge gets so long, or --timeout where that is less.
+// The time limit for a program to answer whether it is a raingauge; --timeout, if shorter, applies.
 enum { LOOK_MS = 100, END_MS = 5000, HELLO_MS = 20000 };
 
-// Of what a process prints its last line is told. It lies in memory that is not counted as the
+// Only the last printed line is reported. The output is in memory that does not count as the
 // process's, so that more than this is dropped.
 enum { MOST_PRINTED = 1 << 20 };
 
-// What a process may hold beside what it was allowed to take (core/base/memory.h): the program, its
-// driver, and what that compiles.
+// Memory allowed to a process in addition to what it counts (core/base/memory.h): the program, its
+// driver, and compiled code.
 #define OWN_BYTES ((int64_t)1 << 30)
 
 struct rg_workers rg_workers = {.timeout_s = 120};
 
 struct rg_worker {
     char *name, *environment; // owned
-    pid_t process;            // 0: none lives
+    pid_t process;            // 0: not running
     struct rg_channel channel;
     FILE *printed;        // what the process prints; drivers do
     bool is_interrupted;  // it was told so
@@ -50,9 +50,9 @@ struct rg_worker {
     int64_t memory_bytes; // that its process may hold
     int64_t taken_bytes;  // of them counted here (core/base/memory.h)
     int life;
-    int ended;           // processes, since it was renewed
-    enum rg_outcome end; // how its process ended last
-    char doing[560];     // while it did so
+    int ended;           // processes that ended since it was renewed
+    enum rg_outcome end; // how its last process ended
+    char doing[560];     // what that process was doing
 };
 
 struct rg_worker *rg_worker_create(const char *name, const char *environment)
@@ -103,11 +103,11 @@ bool rg_worker_still_has(const struct rg_worker *worker, int life)
 
 // --- its process ---
 
-// What is counted of all workers, in bytes.
+// Bytes counted for all workers.
 static int64_t taken_by_all;
 
-// What a worker has taken counts for the harness, so that others get less. It may have scribbled
-// over the page: it counts as no more than it may hold.
+// Counts a worker's memory for the harness, so that others get less. The worker may have
+// overwritten the page, so that at most its limit is counted.
 static void count_taken(struct rg_worker *worker, int64_t bytes)
 {
     const int64_t most = worker->memory_bytes;
@@ -128,14 +128,14 @@ static void forget_process(struct rg_worker *worker)
     worker->printed = NULL;
 }
 
-// Another build; NULL: this one.
+// Another build's program; NULL: this one.
 static const char *program_of(const struct rg_worker *worker)
 {
     return rg_environment_find(worker->environment, RG_WORKER_PROGRAM);
 }
 
-// A worker that goes on may hold more once others hold less. What the harness has taken for
-// pictures is no less for it: they pass through the worker's memory.
+// A running worker's limit rises when others hold less. The harness's memory for pictures is not
+// subtracted, because they pass through the worker's memory.
 static void limit_memory(struct rg_worker *worker)
 {
     const int64_t others = taken_by_all - worker->taken_bytes;
@@ -174,7 +174,7 @@ static bool make_channel(struct rg_channel *channel, int theirs[2], char why[RG_
     return !error;
 }
 
-// Starts it with its ends of the channel. 0, or the errno.
+// Starts the process with its ends of the channel. Returns 0 or the errno.
 static int start_program(struct rg_worker *worker, const int theirs[2])
 {
     char argument[24];
@@ -193,8 +193,8 @@ static int start_program(struct rg_worker *worker, const int theirs[2])
     return error;
 }
 
-// False, with the reason in `why`, or one logged line where it is the user's, on failure. A process
-// that the machine refuses says nothing of the driver.
+// Starts the worker. False on failure, with the reason in `why`, or one logged line if it is an
+// input error. A process that the machine refuses says nothing about the driver.
 static bool start(struct rg_worker *worker, char *why, size_t size)
 {
     char lack[RG_NAMELESS_WHY];
@@ -225,8 +225,8 @@ static bool start(struct rg_worker *worker, char *why, size_t size)
     return false;
 }
 
-// Waits for the end of a process that has closed its channel; it is killed where that lasts. One
-// that is stuck in the kernel does not end for that either, and is left as killed.
+// Waits for a process that has closed its channel, and kills it if that takes long. A process stuck
+// in the kernel does not end even then, and is left as killed.
 static int end_process(struct rg_worker *worker)
 {
     int status = 0;
@@ -279,11 +279,12 @@ bool rg_worker_destroy(struct rg_worker *worker)
 
 // --- watching it ---
 
-// What ended a process, where that was we.
+// Why a process ended, if we ended it.
 enum verdict { BY_ITSELF, HANGS, HOLDS_TOO_MUCH, NO_ROOM, LIES };
 
-// A terminal's Ctrl-C does not reach the worker, which is in a group of its own. It is told once,
-// for a second signal would end it. Whether that was now.
+// Passes an interruption on, because the terminal's Ctrl-C does not reach the worker, which has its
+// own process group. It does so once, since a second signal would end the worker. Returns whether
+// it did so now.
 static bool pass_on_interruption(struct rg_worker *worker)
 {
     if (!rg_interrupted() || worker->is_interrupted)
@@ -292,7 +293,7 @@ static bool pass_on_interruption(struct rg_worker *worker)
     return worker->is_interrupted = true;
 }
 
-// Also where a process of its own keeps the channel open. It is not waited for yet.
+// Whether the process has ended, even if a child of it keeps the channel open. Does not reap it.
 static bool is_dead(const struct rg_worker *worker)
 {
     siginfo_t info = {0};
@@ -336,7 +337,7 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
             *verdict = HOLDS_TOO_MUCH;
         if (*verdict != BY_ITSELF)
             return RG_ENDED;
-        if (is_dead(worker)) // it may have sent its last reply meanwhile
+        if (is_dead(worker)) // its last reply may have arrived meanwhile
             return rg_channel_receive(&worker->channel, reply, 0) == RG_ARRIVED ? RG_ARRIVED
                                                                                 : RG_ENDED;
     }
@@ -344,8 +345,8 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
 
 // --- telling how it ended ---
 
-// What it was doing, and which kernels nobody had waited for: a driver may compile and run them
-// whenever it likes, and in threads of its own.
+// Notes what the process was doing, and which kernels nobody had waited for: a driver may compile
+// and run them at any time, in its own threads.
 static void tell_doing(struct rg_worker *worker)
 {
     struct rg_doing seen = *worker->channel.doing;
@@ -357,7 +358,7 @@ static void tell_doing(struct rg_worker *worker)
              is_told ? "" : seen.queued);
 }
 
-// What it was doing goes behind how it ended, and then what its process printed last.
+// Writes how the process ended, what it was doing, and the last line that it printed.
 static void tell_end(struct rg_worker *worker, enum verdict verdict, int status, char *why,
                      size_t size)
 {
@@ -393,7 +394,7 @@ static void tell_end(struct rg_worker *worker, enum verdict verdict, int status,
     snprintf(why, size, "%s%s%s%s", line, worker->doing, last, mend);
 }
 
-// A sanitizer's report has many lines, and all of them are wanted.
+// A sanitizer's report has many lines, all of which are shown.
 static void show_report(FILE *printed)
 {
 #ifdef __SANITIZE_ADDRESS__
@@ -466,7 +467,7 @@ static bool open_reply(const struct rg_worker *worker, struct rg_message *reply)
     return (has_told || rg_message_fail(reply)) && ok && !reply->failed;
 }
 
-// What is asked: the call, then the request.
+// Sends the call, then the request.
 static bool send(struct rg_worker *worker, enum rg_call call, const struct rg_message *request)
 {
     static const struct rg_message nothing;
@@ -478,7 +479,7 @@ static bool send(struct rg_worker *worker, enum rg_call call, const struct rg_me
 
 // --- coming to life ---
 
-// Whether there is a message within the patience, which a signal does not end.
+// Waits for a message up to the patience, which signals do not shorten.
 static bool hears(struct rg_worker *worker, struct rg_message *reply, int patience_ms)
 {
     const double end_ms = rg_now_ms() + patience_ms;
@@ -488,8 +489,8 @@ static bool hears(struct rg_worker *worker, struct rg_message *reply, int patien
     return arrival == RG_ARRIVED;
 }
 
-// Whether a process of another program has the same messages as this one. What it says otherwise
-// cannot be understood.
+// Whether a process of another program uses the same messages. Any other answer cannot be
+// understood.
 static bool is_greeted(struct rg_worker *worker)
 {
     struct rg_message reply = {0}, due = {0};
@@ -508,7 +509,7 @@ static bool is_greeted(struct rg_worker *worker)
     return same;
 }
 
-// Ends a process that is not greeted.
+// Ends a process with incompatible messages.
 static bool turn_away(struct rg_worker *worker)
 {
     kill(worker->process, SIGKILL);
@@ -521,8 +522,8 @@ static bool turn_away(struct rg_worker *worker)
                     worker->name, program_of(worker));
 }
 
-// False where it has ended too often, or cannot be started, with how it ended in `why`, or one
-// logged line.
+// Ensures that a process is running. False where it has ended too often, or cannot be started, with
+// the reason in `why`, or one logged line.
 static bool comes_to_life(struct rg_worker *worker, char *why, size_t size)
 {
     if (worker->process)

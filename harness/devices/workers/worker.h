@@ -1,10 +1,10 @@
 // A worker: a process that holds one device for a command, so that a driver that crashes, hangs or
-// eats all memory takes along nothing else. The harness asks, the worker serves
+// exhausts memory ends nothing else. The harness makes calls, the worker serves them
 // (harness/devices/workers/serve.h).
 //
-// A worker is this program, started again. It is started when it is first asked, and once more when
-// it is asked after it has ended; one that has ended RG_WORKER_LIVES times is left out. What was
-// asked counts as done only when the worker says so, whatever its exit status.
+// A worker is this program, started again at the first call, and restarted at the next call after
+// it has ended; after RG_WORKER_LIVES ends it is given up. A call counts as done only if the worker
+// says so, whatever its exit status.
 #ifndef RG_HARNESS_DEVICES_WORKERS_WORKER_H
 #define RG_HARNESS_DEVICES_WORKERS_WORKER_H
 
@@ -16,75 +16,75 @@
 
 enum { RG_WORKER_LIVES = 3 };
 
-// How workers are started and watched: for all of a process, set before the first is started.
+// How workers are started and watched: constants for the process, set before the first start.
 struct rg_workers {
-    const char *program;  // rg_program_self(); NULL: there are no workers, and devices live in this
+    const char *program;  // rg_program_self(); NULL: no workers, so that devices live in this
                           // process, as they do in a worker
-    const char *hello;    // what a worker of another program must answer; NULL: there are none
-    int timeout_s;        // a worker that has begun nothing for so long is ended
-    int64_t memory_bytes; // one that holds more is ended; 0: what may be taken (core/base/memory.h)
-                          // and 1 GiB
+    const char *hello;    // the answer required of another program; NULL: none are used
+    int timeout_s;        // a worker is ended after no operation has begun for so long
+    int64_t memory_bytes; // a worker that holds more is ended; 0: the memory limit
+                          // (core/base/memory.h) and 1 GiB
 };
 extern struct rg_workers rg_workers;
 // The first argument of a program that is started as a worker.
 #define RG_WORKER_ARGUMENT "worker"
-// The variable of a worker's environment that names its program where that is not
-// rg_workers.program: another build, which is greeted first.
+// The variable in a worker's environment that names its program, if not rg_workers.program: another
+// build, whose messages are checked first.
 #define RG_WORKER_PROGRAM "RG_PROGRAM"
 
 struct rg_worker;
 
-// A worker for the device of this name, not started yet. `environment` holds "KEY=value" over the
-// harness's own, each ended by a zero, the last by two; NULL: none. Both are copied. NULL, and one
-// logged line, without memory.
+// Makes a worker for a device, without starting it. `environment` holds "KEY=value" in addition to
+// the harness's variables, each ended by a zero, the last by two; NULL: none. Both are copied.
+// NULL, and one logged line, when memory runs out.
 struct rg_worker *rg_worker_create(const char *name, const char *environment);
-// Has a worker that lives close its device, which logs what is left on it. False, with a logged
-// line, where something is, or where it ends meanwhile.
+// Makes a running worker close its device, which logs leaks. False, with a logged line, if there
+// are any, or if it ends meanwhile.
 bool rg_worker_retire(struct rg_worker *worker);
 // What a worker replies to that: a bool, whether nothing was left and nothing on it had failed.
 extern const struct rg_field rg_closed_fields[];
 // What its process did when it crashed or was ended last, as the line about that has it: " while
 // running kernel 'flow_blur'"; "": nothing that is known.
 const char *rg_worker_end_doing(const struct rg_worker *worker);
-// Ends its process, so that the next call has a new one, and forgets how often one ended: for those
-// who bring a driver down on purpose, again and again.
+// Ends the process, so that the next call starts a new one, and resets the count of ends: for code
+// that crashes a driver deliberately and repeatedly.
 void rg_worker_renew(struct rg_worker *worker);
-// Has rg_worker_retire return false: something on the device could not be closed, and a line is
-// logged.
+// Makes rg_worker_retire return false, because something on the device could not be closed, which
+// has been logged.
 void rg_worker_closes_badly(struct rg_worker *worker);
-// Ends it, at once where it does not end by itself. False, with one logged line, where it had
-// closed its device and ended as a driver does that crashes. NULL is accepted.
+// Ends the worker, by force if necessary. False, with one logged line, if it had closed its device
+// and then ended as in a driver's crash. NULL is accepted.
 bool rg_worker_destroy(struct rg_worker *worker);
 
-// Its process; 0: none lives.
+// Its process; 0: none is running.
 pid_t rg_worker_process(const struct rg_worker *worker);
-// How often it has been started: what lived in the process of another life is gone.
+// How often it has been started; state of earlier lives is gone.
 int rg_worker_life(const struct rg_worker *worker);
-// Whether what lived in its process in that life still does.
+// Whether state of its process in that life still exists.
 bool rg_worker_has(const struct rg_worker *worker, int life);
-// The same; where it does not, one line has been logged.
+// The same; if not, one line has been logged.
 bool rg_worker_still_has(const struct rg_worker *worker, int life);
 
-// What the worker may take in all (rg_memory_grant), as others have left it by now.
+// The current memory limit of the worker (rg_memory_grant).
 int64_t rg_worker_grant(struct rg_worker *worker);
 
-// Asks for a call and waits for the reply. What the worker logged meanwhile is logged here. False,
-// with one logged line, where the call failed, or the worker ended: the error then is a crash or a
-// timeout. `reply` is to be freed in either case.
+// Makes a call and waits for the reply; the worker's messages are logged here. False, with one
+// logged line, where the call failed, or the worker ended, which is a crash or timeout error. Free
+// `reply` in either case.
 bool rg_worker_call(struct rg_worker *worker, enum rg_call call, const struct rg_message *request,
                     struct rg_message *reply);
-// The same for those who tell themselves how the worker ended: RG_OK, what the worker's error comes
-// to, or, with nothing logged and one line in `why`, how it ended.
+// The same for callers that report a worker's end themselves: returns RG_OK, the outcome of the
+// worker's error, or, with nothing logged and one line in `why`, how it ended.
 enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
                               const struct rg_message *request, struct rg_message *reply, char *why,
                               size_t why_size);
-// As rg_worker_call where the reply is a struct of these fields, which is zeroed before, and whose
-// blocks and lists the caller frees in either case.
+// As rg_worker_call for a reply that is a struct with these fields. Zero it before; the caller
+// frees its blocks and lists in either case.
 bool rg_worker_fetch(struct rg_worker *worker, enum rg_call call, const struct rg_message *request,
                      const struct rg_field *fields, void *all);
-// Where nothing but success comes back.
+// The same for calls with an empty reply.
 bool rg_worker_ask(struct rg_worker *worker, enum rg_call call, const struct rg_message *request);
-// Ends the taking of a reply, which is freed: whether it went well, and nothing is left of it.
+// Ends taking a reply and frees it; returns whether it was valid and fully taken.
 bool rg_worker_finish(struct rg_message *reply, bool ok);
 
 #endif
