@@ -9,8 +9,8 @@
 #include "core/scene/atlas/levels.h"
 #include "harness/record/output.h"
 
-// How much brighter than the brightest cell's scale a sheet shows cells times their factors: most
-// are a hundred times darker.
+// Sheets of cells times their factors are scaled by this relative to the brightest cell, because
+// most are a hundred times darker.
 #define SHEET_EXPOSURE 4.0f
 
 enum { PATH_SIZE = 2048, GAP = 12, ZOOM = 4, FRAMES_A_ROW = 7 };
@@ -73,13 +73,14 @@ static bool write_level(const struct rg_atlas *atlas, enum rg_atlas_part part, i
     return written;
 }
 
-// The level of the full size that sheets show: 720 columns.
+// The level of the full size that sheets show, with 720 columns.
 static int sheet_level(const struct rg_atlas *atlas)
 {
     return 2 - atlas->first_level;
 }
 
-// Copies a view's row of cells to column x of a sheet; with `scaled`, times the cells' factors.
+// Copies a view's row of cells to column x of a sheet, multiplied by the cells' factors if
+// `scaled`.
 static void draw_row(const struct rg_atlas *atlas, enum rg_atlas_part part, int layer, int view,
                      bool scaled, struct rg_picture *sheet, int x)
 {

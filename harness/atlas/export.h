@@ -1,4 +1,4 @@
-// The streak atlas as files for people: every level of every layer, the factors, and sheets.
+// Writes the streak atlas to files for people: every level of every layer, the factors, and sheets.
 #ifndef RG_HARNESS_ATLAS_EXPORT_H
 #define RG_HARNESS_ATLAS_EXPORT_H
 
@@ -13,8 +13,8 @@ struct rg_atlas_range {
 };
 struct rg_atlas_range rg_atlas_range(const float *factors, size_t count);
 
-// Writes into a folder, which is made where its own folder is there:
-//   factors.csv                 what each cell's texels are multiplied by
+// Writes into a folder, whose last part is made if missing:
+//   factors.csv                 each cell's factor
 //   PART-LAYER-level-LEVEL.exr  the texels, half floats as they are
 //   sheet-LAYER.png             an oscillation as the thesis's figures 4.8 and 4.9 show it: point
 //                               and env, each cell with a largest value of 1; then the same times

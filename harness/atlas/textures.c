@@ -10,13 +10,13 @@
 
 enum { PATH_SIZE = 2048, CELL_PX = 256, GAP = 12, COLUMNS = 6, ROWS = 8 };
 
-// The grey-blue of a wet wall, before which both water and ink are seen. Linear light.
+// The grey-blue of a wet wall, on which both water and ink are visible. Linear light.
 static const float ground[3] = {0.13f, 0.17f, 0.22f};
 
 struct writing {
     const char *folder;
     struct rg_picture sheet;
-    int rows_used; // of the sheet
+    int rows_used; // rows of the sheet in use
 };
 
 static float channel(uint32_t word, int i)
@@ -26,7 +26,7 @@ static float channel(uint32_t word, int i)
 
 // --- a texture's files ---
 
-// The texels themselves: four channels of paint, or one of grey.
+// Writes the texels: four channels of paint, or one of grey.
 static bool write_texels(const struct rg_made_texture *t, const char *folder)
 {
     char path[PATH_SIZE];
@@ -41,7 +41,7 @@ static bool write_texels(const struct rg_made_texture *t, const char *folder)
     return written;
 }
 
-// A PNG keeps colours that are not multiplied by alpha.
+// Writes a PNG, whose colours are not premultiplied.
 static bool write_looks(const struct rg_made_texture *t, const char *folder)
 {
     char path[PATH_SIZE];
@@ -75,7 +75,7 @@ static bool create_sheet(struct rg_picture *sheet)
     return true;
 }
 
-// Lays a texture over its cell, a whole number of pixels a texel.
+// Draws a texture into its cell, scaled by a whole number.
 static void lay(const struct rg_made_texture *t, struct rg_picture *sheet)
 {
     const int left = t->column * (CELL_PX + GAP) + GAP, top = t->row * (CELL_PX + GAP) + GAP;

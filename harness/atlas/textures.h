@@ -1,10 +1,10 @@
-// What a technique generates as textures, as files for people.
+// Writes the textures that a technique generates to files for people.
 #ifndef RG_HARNESS_ATLAS_TEXTURES_H
 #define RG_HARNESS_ATLAS_TEXTURES_H
 
 #include "core/techniques/technique.h"
 
-// A texture: its name, and its finest level and how many levels there are.
+// A texture: its name, size of the finest level, and number of levels.
 struct rg_texture_row {
     char name[40];
     int side_px, levels;
@@ -17,8 +17,8 @@ struct rg_texture_rows {
     struct rg_texture_row items[RG_MAX_TEXTURE_ROWS];
 };
 
-// Makes the textures of a technique that has some, lists them, and with a `folder`, which is made
-// where its own folder is there, writes into it:
+// Makes and lists the textures of a technique that has some, and writes into `folder`, if given,
+// whose last part is made if missing:
 //   textures.csv          the list
 //   NAME.png              a texture as it looks, its colours not multiplied by alpha
 //   NAME-level-LEVEL.exr  its texels as kernels sample them: premultiplied linear light, or grey

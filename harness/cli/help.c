@@ -1,4 +1,4 @@
-// What --help prints.
+// Prints --help.
 #include <stdio.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ static int left_text(const struct rg_option *row, char text[LEFT_SIZE])
                     *value ? " " : "", value);
 }
 
-// Words from the present column to the line's end, and on from `column` in the next.
+// Prints words from the current column to the line's end, continuing at `column`.
 static void print_wrapped(const char *words, int column)
 {
     for (int used = column; *words;) {

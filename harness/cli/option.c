@@ -10,7 +10,7 @@ static const struct rg_option help_rows[] = {
     {RG_OPTION_END},
 };
 
-// `includer` is the row that includes the table: what it says goes before what the table's rows do.
+// `includer` is the row that includes the table; its properties override those of the table's rows.
 static int add_rows(const struct rg_option *table, const struct rg_option *includer,
                     struct rg_option *rows, int count)
 {

@@ -1,4 +1,4 @@
-// A command line, by the command's table.
+// Parses a command line by the command's table.
 #include <popt.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +14,7 @@ struct line {
     struct rg_option rows[RG_MAX_OPTION_ROWS];
     bool given[RG_MAX_OPTION_ROWS];
     void *values;              // owned
-    struct rg_words arguments; // they live as long as `context`
+    struct rg_words arguments; // valid as long as `context`
     poptContext context;
 };
 
@@ -22,8 +22,8 @@ enum parsed { RUN, HELP, REFUSED };
 
 // --- flags with values ---
 
-// Programs that start tests write a flag as --NAME=1, and --NAME=0 where it does not hold. Whether
-// a word is one of these, and which flag's.
+// Programs that start tests write flags as --NAME=1, or --NAME=0 for an unset one. Finds the flag
+// of such a word; NULL: it is none.
 static const struct rg_option *flag_of(const struct line *line, const char *word, bool *holds)
 {
     static const char yes[] = "1 true yes on", no[] = "0 false no off";
@@ -51,7 +51,7 @@ static void free_words(const char **words)
 static const char **settle_flags(const struct line *line, int argc, const char **argv, int *count)
 {
     const char **words = rg_alloc((size_t)argc + 1, sizeof(*words), "options");
-    bool goes_on = words != NULL; // to the "--" behind which nothing is an option
+    bool goes_on = words != NULL; // up to "--", after which nothing is an option
     for (int i = *count = 0; words && i < argc; i++) {
         bool holds;
         goes_on = goes_on && strcmp(argv[i], "--");
@@ -68,7 +68,7 @@ static const char **settle_flags(const struct line *line, int argc, const char *
 
 // --- the line ---
 
-// Sets every option's value to that of an option that is not given.
+// Sets every value to that of an option that is not given.
 static bool set_defaults(struct line *line)
 {
     bool ok = true;
@@ -80,7 +80,7 @@ static bool set_defaults(struct line *line)
     return ok;
 }
 
-// The options as popt wants them: it splits the line and hands back the row's number, from 1.
+// Converts the options for popt, which splits the line and returns the row's number, from 1.
 static void make_table(const struct line *line, struct poptOption *table)
 {
     char text[RG_ARGUMENT_SIZE];
@@ -106,7 +106,7 @@ static bool take_option(struct line *line, int number)
     return ok;
 }
 
-// Whether a file can have what the arguments name.
+// Whether a file can list what the arguments name.
 static bool has_list(const struct line *line)
 {
     for (int i = 0; i < line->count; i++)
@@ -148,7 +148,7 @@ static bool check_exclusions(const struct line *line)
     return true;
 }
 
-// What stands for the arguments that an option goes with.
+// Names the arguments that an option requires.
 static const char *arguments_of(const struct line *line, const struct rg_option *option)
 {
     for (int i = 0; i < line->count; i++)
@@ -157,7 +157,7 @@ static const char *arguments_of(const struct line *line, const struct rg_option 
     return "";
 }
 
-// An option that goes with another number of arguments than there are would be ignored.
+// Refuses options that require another number of arguments, since they would be ignored.
 static bool check_belonging(const struct line *line)
 {
     const int count = line->arguments.count;

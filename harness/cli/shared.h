@@ -1,12 +1,13 @@
-// Options that several commands take. Each table is included in a command's own, at a value of the
-// type named here, and means the same in all of them; a default is the including command's.
+// Options shared by several commands. Each table is included at a value of the type given here, and
+// means the same in all commands; the default is the including command's.
 #ifndef RG_HARNESS_CLI_SHARED_H
 #define RG_HARNESS_CLI_SHARED_H
 
 #include "harness/cli/option.h"
 #include "harness/devices/devices.h"
 
-extern const struct rg_option rg_devices_option[];  // char *: --device, names with commas, or "all"
+extern const struct rg_option rg_devices_option[];  // char *: --device, names separated by commas,
+                                                    // or "all"
 extern const struct rg_option rg_asked_options[];   // struct rg_devices_asked: --require, --timeout
 extern const struct rg_option rg_timeout_option[];  // int, seconds: --timeout
 extern const struct rg_option rg_settings_option[]; // struct rg_words: --set
@@ -18,7 +19,7 @@ extern const struct rg_option rg_json_option[];     // bool: --json
 extern const struct rg_option rg_length_options[];  // struct rg_length: --quick, --full
 
 struct rg_length {
-    bool quick, full; // at most one of them
+    bool quick, full; // at most one is set
 };
 
 #endif

@@ -1,4 +1,4 @@
-// Texts that the user writes, as values of options.
+// Parses the values of options.
 #include <errno.h>
 #include <limits.h>
 #include <popt.h>
@@ -55,7 +55,7 @@ static bool set_factor(const struct rg_option *row, double *number, const char *
     return true;
 }
 
-// A number with a unit behind it; each unit is 1024 of the one before.
+// A number with an optional unit; each unit is 1024 of the one before.
 static bool set_bytes(const struct rg_option *row, int64_t *bytes, const char *text)
 {
     static const char units[] = "KMGT";
@@ -74,8 +74,7 @@ static bool set_bytes(const struct rg_option *row, int64_t *bytes, const char *t
 
 // --- pairs of numbers ---
 
-// Reads a whole number at *text and moves *text behind it. A number that does not fit becomes the
-// nearest int.
+// Parses a whole number at *text and advances *text. A number out of range becomes the nearest int.
 static bool take_int(const char **text, int *number)
 {
     char *end;
@@ -87,7 +86,7 @@ static bool take_int(const char **text, int *number)
     return true;
 }
 
-// Two numbers with a sign between them, and nothing else.
+// Parses exactly two numbers with a sign between them.
 static bool take_pair(const char *text, char sign, int *first, int *second)
 {
     return take_int(&text, first) && *text++ == sign && take_int(&text, second) && !*text;
@@ -103,7 +102,7 @@ static bool set_size(const struct rg_option *row, struct rg_size *size, const ch
     return true;
 }
 
-// Two numbers, or one that is both.
+// Parses two numbers, or one that stands for both.
 static bool set_range(const struct rg_option *row, struct rg_range *range, const char *text)
 {
     const char *rest = text;

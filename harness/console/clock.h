@@ -1,4 +1,4 @@
-// The clock that raingauge goes by: wall time that only goes forward.
+// The clock of all measurements: monotonic wall time.
 #ifndef RG_HARNESS_CONSOLE_CLOCK_H
 #define RG_HARNESS_CONSOLE_CLOCK_H
 

@@ -10,8 +10,7 @@
 #define RG_YELLOW "\033[33m"
 #define RG_PLAIN  "\033[0m"
 
-// Whether what is printed there is shown in colours: it is a terminal, and NO_COLOR is unset or
-// empty.
+// Whether to print colours to a stream: it is a terminal, and NO_COLOR is unset or empty.
 bool rg_has_colours(FILE *out);
 
 #endif

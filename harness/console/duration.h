@@ -1,4 +1,4 @@
-// How long work takes, for people.
+// Durations for people.
 #ifndef RG_HARNESS_CONSOLE_DURATION_H
 #define RG_HARNESS_CONSOLE_DURATION_H
 
@@ -8,11 +8,11 @@
 enum { RG_DURATION_TEXT = 24 };
 const char *rg_duration_text(double s, char text[RG_DURATION_TEXT]);
 
-// Seconds of "90s", "4m" or "1h". False, and one logged line that names the option, where a text is
-// none of these.
+// Parses seconds from "90s", "4m" or "1h". False, and one logged line that names the option, for
+// any other text.
 bool rg_duration_read(const char *text, const char *option, double *s);
 
-// Seconds from which a command says how long it will take: 30, or what RG_LONG_S says.
+// The duration in seconds from which a command estimates its time aloud: 30, or RG_LONG_S.
 double rg_long_s(void);
 
 #endif

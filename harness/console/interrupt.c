@@ -7,7 +7,7 @@
 
 #include "core/base/program.h"
 
-// Long work has so long to come to an end. With what it then takes to end it, that is below 2 s.
+// Long work has this long to end. With the clean-up after that, it is below 2 s.
 enum { PATIENCE_S = 1 };
 
 static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGALRM};
@@ -15,7 +15,7 @@ enum { NUMBERS = sizeof(numbers) / sizeof(numbers[0]) };
 
 static volatile sig_atomic_t noted, is_watched, patience_s;
 
-// SIGALRM is the end of the patience, or another program's clock for this one.
+// SIGALRM is the end of the patience, or another program's timer for this one.
 static void hear(int number)
 {
     static const char line[] = "raingauge: what it was at did not stop within a second, and is not "
@@ -26,11 +26,11 @@ static void hear(int number)
         return;
     }
     if (noted && number == SIGALRM && write(STDERR_FILENO, line, strlen(line)) < 0)
-        number = noted; // nobody hears it
+        number = noted; // nobody waits for the signal
     rg_program_end_by(noted ? noted : number);
 }
 
-// The signals that are heard, as a set for sigprocmask.
+// Blocks or unblocks the handled signals.
 static void mask(int how)
 {
     sigset_t set;
@@ -47,7 +47,7 @@ void rg_interrupt_hold(void)
 
 void rg_interrupt_heed(void)
 {
-    // SA_RESTART: drivers' system calls go on.
+    // SA_RESTART, so that drivers' system calls continue.
     struct sigaction action = {.sa_handler = hear, .sa_flags = SA_RESTART}, before;
     sigemptyset(&action.sa_mask);
     for (int i = 0; i < NUMBERS; i++) {

@@ -30,7 +30,7 @@ static void draw(struct rg_progress *p)
     const double passed_s = (p->drawn_ms - p->start_ms) * 1e-3;
     wipe();
     fprintf(stderr, "[%s] %3d %%", bar, (int)(part * 100));
-    // The first moments do not tell how long the rest takes, unless that was expected.
+    // The first moments do not predict the rest, unless a time was expected.
     if (p->expected_unit_ms > 0 || (part > 0.01 && passed_s > 1)) {
         const double left_ms = (double)(p->total - p->done) * rg_progress_unit_ms(p, p->drawn_ms);
         const int left_s = (int)(left_ms * 1e-3 + 0.5);
@@ -40,7 +40,7 @@ static void draw(struct rg_progress *p)
     fflush(stderr);
 }
 
-// A message takes the bar's line; the bar is drawn anew below it.
+// Prints a message over the bar's line, and redraws the bar below it.
 static void print_above(enum rg_log_level level, const char *line, void *user)
 {
     if (!rg_log_is_news(level, line))
@@ -140,7 +140,7 @@ static void tell_if_long(struct rg_progress *p)
     }
 }
 
-// With every tenth, where what units take was expected.
+// With an expected time, tells the time left at every tenth.
 static void tell_left(struct rg_progress *p)
 {
     char text[RG_DURATION_TEXT];

@@ -1,7 +1,6 @@
-// A progress bar with the time left, on stderr, where that is a terminal. In a pipe what lasts long
-// is told in one line, once the first units show how long, and again where that was off by more
-// than half; where what units take was expected beforehand, it is told at once, and with every
-// tenth how long the rest takes.
+// A progress bar with the time left, on stderr if it is a terminal. Otherwise, long work is told in
+// one line, after the first units show its duration, and again if that was off by more than half.
+// With an expected time it is told at once, and the time left at every tenth.
 #ifndef RG_HARNESS_CONSOLE_PROGRESS_H
 #define RG_HARNESS_CONSOLE_PROGRESS_H
 
@@ -12,43 +11,43 @@ struct rg_progress {
     bool shown; // stderr is a terminal
     int64_t total, done;
     double start_ms, drawn_ms;
-    double first_ms;         // when the first units were done; 0: they are not
-    int64_t first_done;      // how many they were
-    double told_ms;          // how long all of it takes, as was told last; 0: it was not
-    double told_after_ms;    // when that was, from the start
-    double expected_unit_ms; // what a unit was to take; 0: nobody knows
+    double first_ms;         // when the first units were done; 0: not yet
+    int64_t first_done;      // their number
+    double told_ms;          // total time last told; 0: none
+    double told_after_ms;    // when it was told, since the start
+    double expected_unit_ms; // expected time of a unit; 0: unknown
     int told_tenths;
     char label[64];
 };
 
-// Starts a bar over `total` units of work of like length. While one is shown, messages go to the
-// line above it. One bar at a time.
+// Starts a bar over `total` units of similar duration. While it is shown, messages appear above it.
+// Only one bar at a time.
 void rg_progress_start(struct rg_progress *progress, int64_t total);
-// The same over units of which one is expected to take so long.
+// The same with an expected time of a unit.
 void rg_progress_start_expected(struct rg_progress *progress, int64_t total, double unit_ms);
-// So many units more are to be done, or fewer, than was thought.
+// Changes the number of units by so many.
 void rg_progress_grow(struct rg_progress *progress, int64_t units);
-// What is being done, at the bar's right.
+// Sets the text at the bar's right.
 void rg_progress_label(struct rg_progress *progress, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-// So many units more are done. Cheap: it draws ten times a second at most.
+// Advances the bar by so many units. Cheap: it draws at most ten times a second.
 void rg_progress_add(struct rg_progress *progress, int64_t units);
-// How long all of it takes, in milliseconds, as far as is known: the first units are slower than
-// the others, for drivers compile in them. 0: it is not known yet.
+// The total time in milliseconds, as far as known. The first units are slower than the others,
+// because drivers compile in them. 0: unknown yet.
 double rg_progress_all_ms(const struct rg_progress *progress, double now_ms);
-// What a unit takes, in milliseconds, by those that are done, and by what was expected, which
-// counts as much as a tenth of all. 0: nothing is known.
+// The time of a unit in milliseconds, from finished units and the expected time, which weighs as
+// much as a tenth of all. 0: unknown.
 double rg_progress_unit_ms(const struct rg_progress *progress, double now_ms);
-// Whether all of it takes longer than `long_ms`, and a tenth of `long_ms` shows it.
+// Whether the total exceeds `long_ms`, judged after a tenth of `long_ms`.
 bool rg_progress_is_long(const struct rg_progress *progress, double now_ms, double long_ms);
-// Whether it takes more than twice as long as was told, or less than half, which is worth a line
-// where twice the time has passed since the start.
+// Whether the total is more than twice or less than half of what was told, and a correction is due:
+// twice the time has passed since.
 bool rg_progress_is_off(const struct rg_progress *progress, double now_ms);
-// How long has been told otherwise: no bar of this process tells it.
+// The duration has been told elsewhere, so that no bar of this process tells it.
 void rg_progress_told(void);
-// Wipes the bar away until more is done, for others to print.
+// Hides the bar until the next progress, so that others can print.
 void rg_progress_hide(const struct rg_progress *progress);
-// Wipes the bar away.
+// Removes the bar.
 void rg_progress_end(struct rg_progress *progress);
 
 #endif

@@ -67,8 +67,8 @@ void rg_sheet_free(struct rg_sheet *sheet)
 
 // --- Markdown, with columns aligned for those who read it as text ---
 
-// A column's width steps by so many characters, so that a digit more or less in a new measurement
-// does not move what it has beside it.
+// Column widths are multiples of this, so that a digit more or less in a new measurement does not
+// shift the columns beside it.
 enum { WIDTH_STEP = 8 };
 
 static int width_of(const struct rg_sheet *sheet, int column)
@@ -90,7 +90,7 @@ int rg_sheet_width(const struct rg_sheet *sheet)
     return width;
 }
 
-// The cell, in the terminal's colours where it is painted; its spaces are not.
+// Prints a cell, in a terminal colour if it has one, padded without colour.
 static void print_md_cell(FILE *out, const char *code, int width, const char *text)
 {
     const int length = (int)strlen(text);
@@ -105,7 +105,7 @@ static void print_md_row(FILE *out, const struct rg_sheet *sheet, const int *wid
     fprintf(out, "|");
     for (int c = 0; c < sheet->column_count; c++) {
         const char *text = row < 0 ? sheet->columns[c] : sheet->cells[row][c];
-        const bool is_painted = row >= 0 && sheet->paint; // a heading "error" is none
+        const bool is_painted = row >= 0 && sheet->paint; // a heading "error" is not painted
         print_md_cell(out, is_painted ? sheet->paint(text) : NULL, widths[c], text);
     }
     fprintf(out, "\n");

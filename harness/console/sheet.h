@@ -8,7 +8,7 @@
 
 enum { RG_SHEET_COLUMNS = 32, RG_SHEET_CELL = 512 };
 
-// Columns of a page that a terminal shows whole.
+// The columns of a page that terminals show whole.
 enum { RG_PAGE_WIDTH = 110 };
 
 struct rg_sheet {
@@ -20,25 +20,25 @@ struct rg_sheet {
     char (*cells)[RG_SHEET_COLUMNS][RG_SHEET_CELL]; // owned
     int note_count;
     int64_t note_room;
-    char **notes;    // owned; printed below, in Markdown and LaTeX
-    bool incomplete; // a row, column or note was lost, for which there is one logged line
-    int level;       // of its heading in Markdown; 0: 2
-    int width_step;  // a column's width steps by so many characters; 0: 8
-    int note_width;  // lines of notes in Markdown are no wider; 0: a note is one line
-    // The terminal's code that a cell's text is painted with, or NULL: none. NULL: nothing is.
+    char **notes;    // owned; printed below the table, in Markdown and LaTeX
+    bool incomplete; // memory for a row, column or note ran out, with one logged line
+    int level;       // heading level in Markdown; 0: 2
+    int width_step;  // column widths are multiples of this; 0: 8
+    int note_width;  // width of notes' lines in Markdown; 0: each note is one line
+    // The terminal's colour code for a cell's text, or NULL. The function itself may be NULL.
     const char *(*paint)(const char *cell);
 };
 
 // Adds a column, before any row, and returns its index.
 int rg_sheet_column(struct rg_sheet *sheet, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-// Adds a row of empty cells and returns them; NULL without memory for it.
+// Adds a row of empty cells and returns them; NULL when memory runs out.
 char (*rg_sheet_row(struct rg_sheet *sheet))[RG_SHEET_CELL];
 void rg_sheet_note(struct rg_sheet *sheet, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void rg_sheet_free(struct rg_sheet *sheet);
 
-// How wide its lines are in Markdown.
+// The width of its lines in Markdown.
 int rg_sheet_width(const struct rg_sheet *sheet);
 void rg_sheet_print_md(const struct rg_sheet *sheet, FILE *out);
 void rg_sheet_print_csv(const struct rg_sheet *sheet, FILE *out);

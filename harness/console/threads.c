@@ -23,19 +23,18 @@ long rg_threads_most(void)
 
 static const char count_name[] = "OMP_NUM_THREADS", stderr_name[] = "RG_STDERR";
 
-// libgomp's threads spin for tens of milliseconds before they sleep, and on a busy machine keep
-// from running what they wait for: frames can take ten times as long. A millisecond is set, unless
-// the user has chosen. True where something has changed.
+// libgomp's threads spin for tens of milliseconds before they sleep, which on a busy machine blocks
+// the thread they wait for: frames can take ten times as long. Sets a millisecond, unless the user
+// has chosen. True if something changed.
 static bool spin_briefly(void)
 {
     return !getenv("GOMP_SPINCOUNT") && !getenv("OMP_WAIT_POLICY") &&
            !setenv("GOMP_SPINCOUNT", "8000", 0);
 }
 
-// A number that libgomp has complained of, and ignores, is taken away, so that no other process of
-// raingauge complains of it again; a list of numbers is libgomp's to judge. A number that is too
-// large becomes the largest: a stack each, and frames that take a hundred times as long, would
-// follow. True where something has changed.
+// Removes a thread count that libgomp rejects, so that no other process of raingauge has it
+// complain again; lists are left to libgomp. Reduces a count that is too large, because each thread
+// needs a stack and frames could take a hundred times as long. True if something changed.
 static bool limit_threads(void)
 {
     const char *given = getenv(count_name);
@@ -52,8 +51,8 @@ static bool limit_threads(void)
     return !setenv(count_name, most, 1);
 }
 
-// libgomp has complained when this process was loaded: when it is loaded again, nothing is heard of
-// it. The next process finds the right file in a variable.
+// libgomp complained when this process was loaded; the reloaded one would repeat it, so its stderr
+// is silenced. A variable tells the next process the right file.
 static void silence(void)
 {
     char number[16];
@@ -84,7 +83,7 @@ void rg_threads_settle(char **argv)
     execv(rg_program_self(), argv);
     hear_again();
     if (spins)
-        unsetenv("GOMP_SPINCOUNT"); // the passport must not claim what libgomp never read
+        unsetenv("GOMP_SPINCOUNT"); // the passport must not claim a value that libgomp never read
 }
 
 // --- as many as can be started ---
