@@ -8,7 +8,7 @@
 #include "core/base/log.h"
 #include "core/base/text/plain.h"
 
-// Whether a text is UTF-8: jansson takes nothing else.
+// Whether a text is UTF-8; jansson accepts nothing else.
 static bool is_utf8(const char *text)
 {
     json_t *json = json_string(text);
@@ -25,7 +25,7 @@ static void mark_foreign_bytes(char *text)
 void rg_text_copy(char *to, size_t size, const char *from)
 {
     size_t length = strnlen(from, size - 1);
-    // A character that is cut has its first byte and perhaps some of those that go on with it.
+    // Drops the first bytes of a character that was cut.
     while (from[length] && length > 0 && (from[length] & 0xc0) == 0x80)
         length--;
     memcpy(to, from, length);
@@ -54,7 +54,7 @@ json_t *rg_json_text(const char *text)
     return json;
 }
 
-// Whether a number is whole, and small enough to be written as an integer without loss.
+// Whether a number is whole, and small enough to be written exactly as an integer.
 static bool is_whole(double number)
 {
     return number == floor(number) && fabs(number) < 9007199254740992.0;

@@ -1,5 +1,5 @@
-// Named values as a record keeps them: what an instance tells of itself, what tells a row from
-// others. Plain data, without a pointer, so that a record can be copied as it is.
+// Named values in a record: facts of an instance, and keys that identify a row. Plain data without
+// pointers, so that records can be copied.
 #ifndef RG_HARNESS_RECORD_NAMED_H
 #define RG_HARNESS_RECORD_NAMED_H
 
@@ -10,7 +10,7 @@
 
 enum { RG_NAME_SIZE = 48, RG_FACTS_TEXT = 2048 };
 
-// Digits of a number that is not whole, in every machine form.
+// The digits of a fractional number, in every machine format.
 enum { RG_NUMBER_DIGITS = 9 };
 
 struct rg_named {
@@ -24,21 +24,22 @@ struct rg_count {
     int64_t value;
 };
 
-// Copies text as JSON can hold it and terminals take it: whole characters of UTF-8, as many as fit,
-// question marks for bytes of what is none, and plain (core/base/text/plain.h).
+// Copies text so that JSON and terminals accept it: whole UTF-8 characters, as many as fit,
+// question marks for invalid bytes, control characters replaced (core/base/text/plain.h).
 void rg_text_copy(char *to, size_t size, const char *from);
-// What a document gives back for a number: rounded to RG_NUMBER_DIGITS; NAN where JSON has none.
+// A number as it is after writing and reading a document: rounded to RG_NUMBER_DIGITS; NAN where
+// JSON has no such number.
 double rg_number_kept(double number);
 
 void rg_named_set_text(struct rg_named *named, const char *name, const char *text);
 void rg_named_set_number(struct rg_named *named, const char *name, double number);
 
-// Copies what an instance tells: `count` of them.
+// Copy `count` facts or counters of an instance.
 void rg_facts_copy(struct rg_named *named, const struct rg_fact *facts, int count);
 void rg_counters_copy(struct rg_count *counts, const struct rg_counter *counters, int count);
 
-// "model bunny.obj, faces 69666": those whose names are not among `except` (NULL-terminated; NULL:
-// no exception). "" where there is none.
+// Prints "model bunny.obj, faces 69666": the values whose names are not in `except`
+// (NULL-terminated; NULL: all). "" where there is none.
 void rg_named_text(const struct rg_named *named, int count, const char *const *except, char *text,
                    size_t size);
 

@@ -26,7 +26,7 @@ static bool write_all(int fd, const char *text, size_t left)
     return fsync(fd) == 0 || errno == EINVAL;
 }
 
-// Makes a folder unless it is there; `made` says whether it was made.
+// Makes a folder if it is missing; `made` says whether it was.
 static bool make_folder(const char *folder, bool *made)
 {
     *made = mkdir(folder, 0777) == 0;
@@ -41,7 +41,7 @@ bool rg_output_folder(const char *folder)
     return make_folder(folder, &made);
 }
 
-// What is tried: a file in the folder, or the folder itself, as a file, where it is to be made.
+// Tries a file in the folder, or, if the folder does not exist yet, a file in its place.
 bool rg_output_can_be_written(const char *folder, int64_t bytes)
 {
     char path[2048];
@@ -75,7 +75,7 @@ bool rg_output_can_be_replaced(const char *folder, const char *name)
     return lstat(path, &st) || rg_temporary_try(path, &why) || rg_why_tell(&why, path);
 }
 
-// A file that is written and not yet in its place.
+// A file that is written but not yet renamed into place.
 struct pending {
     char path[2048];
     bool is_open;

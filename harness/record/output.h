@@ -1,4 +1,4 @@
-// Writing results: a file is there whole or not at all.
+// Writes results atomically: a file is complete or not there.
 #ifndef RG_HARNESS_RECORD_OUTPUT_H
 #define RG_HARNESS_RECORD_OUTPUT_H
 
@@ -8,37 +8,35 @@
 
 struct rg_output_file {
     const char *name, *text;
-    size_t size; // in bytes; 0: the text ends with a zero
+    size_t size; // in bytes; 0: the text is terminated by a zero
 };
 enum {
     RG_MAX_OUTPUT_FILES = 48,
-    RG_OUTPUT_TABLE_BYTES = 1 << 13, // of a table's files, at least
+    RG_OUTPUT_TABLE_BYTES = 1 << 13, // least bytes of a table's files
 };
 
-// Writes files that belong together: all are there, or what was there before. They are written
-// beside their names first, which takes what can fail, and then renamed. The folder is made as
-// below.
+// Writes files that belong together: either all are replaced or none. They are first written under
+// other names, which is where failures occur, and then renamed. The folder is made as below.
 bool rg_output_write_set(const char *folder, const struct rg_output_file *files, int count);
 
-// Writes `text` to FOLDER/NAME by a temporary file that is renamed. The folder is made if only its
-// last part is missing. False, with one logged line and nothing left behind, on failure.
+// Writes `text` to FOLDER/NAME by a temporary file that is renamed. The last part of the folder's
+// path is made if missing. False, with one logged line and nothing left behind, on failure.
 bool rg_output_write(const char *folder, const char *name, const char *text);
 
-// The same of a path, whose folder has to be there, or its last part be missing.
+// The same for a path.
 bool rg_output_write_file(const char *path, const char *text);
 
-// Whether files of so many bytes can be written into a folder, as is found out before any work; one
-// that is not there can be made as below, and is not yet. False, and one logged line.
+// Whether files of so many bytes can be written into a folder, to be asked before any work. A
+// missing last part counts as writable, and is not made yet. False, and one logged line.
 bool rg_output_can_be_written(const char *folder, int64_t bytes);
 
-// The same of a file of so many bytes, whose folder has to be there.
+// The same for a file of so many bytes, whose folder must exist.
 bool rg_output_file_can_be_written(const char *path, int64_t bytes);
 
-// Whether what has this name in a folder can be replaced, such as no read-only file; nothing can.
+// Whether a file of this name in a folder can be replaced (false if read-only), or does not exist.
 bool rg_output_can_be_replaced(const char *folder, const char *name);
 
-// Makes a folder for what is written next, if only its last part is missing. False, with one logged
-// line, where that fails.
+// Makes the last part of a folder's path if it is missing. False, with one logged line, on failure.
 bool rg_output_folder(const char *folder);
 
 #endif

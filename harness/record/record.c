@@ -115,7 +115,7 @@ void rg_record_published_range(const struct rg_record *record, double *low, doub
     *high = least ? 1000 / *least : rg_record_published_fps(record);
 }
 
-// The farthest that a number of particles may be from print, as a ratio.
+// The largest acceptable ratio between our number of particles and the printed one.
 #define SAME_COUNT 1.2
 
 bool rg_record_is_other_work(const struct rg_record *record, double *apart)

@@ -1,6 +1,6 @@
-// A record: what running one cell of a table leaves behind, as plain data. It holds no pointer and
-// no open device, so that it outlives the job that made it (harness/measure/job.h), and can come
-// from a file or another process.
+// A record: the plain data that one cell of a table leaves behind. Without pointers or open
+// devices, it outlives the job that made it (harness/measure/job.h), and may come from a file or
+// another process.
 #ifndef RG_HARNESS_RECORD_RECORD_H
 #define RG_HARNESS_RECORD_RECORD_H
 
@@ -11,111 +11,111 @@
 #include "harness/record/stats.h"
 
 enum {
-    // Passes of so many names are told apart; what all others take is summed as "other".
+    // Passes with their own entry; the time of all others is summed as "other".
     RG_MAX_PASS_TIMES = 64,
     RG_MAX_SAMPLES = 256,
     RG_MAX_COUNTED = 4,
-    RG_MAX_VALUES = 10, // what tells a row from others, and what the paper printed of it
+    RG_MAX_VALUES = 10, // a row's keys, or printed values
     RG_SET_SIZE = 1024,
     RG_DETAIL_SIZE = 200,
 };
 
 struct rg_pass_time {
     char name[RG_NAME_SIZE];
-    double ms; // a frame, in a run of its own that syncs after every pass
+    double ms; // of a frame, in a separate run that syncs after every pass
 };
 
-// How far a row's image is from the table's truth: 8-bit encoded, over the rain mask and the whole.
+// The error of a row's image against the table's truth: 8-bit encoded, over the rain mask and the
+// whole.
 struct rg_truth_error {
     enum rg_outcome outcome;
-    double flip_mask_mean, flip_mean; // 0 the same, 1 as different as can be
-    int max_codes;                    // largest difference, of 255
+    double flip_mask_mean, flip_mean; // 0 means equal, 1 as different as possible
+    int max_codes;                    // largest difference, in codes of 255
     char detail[RG_DETAIL_SIZE];      // why the outcome is not OK
 };
 
 struct rg_record {
-    // What it is of
+    // Identification
     char technique[RG_NAME_SIZE];
-    char variant[RG_NAME_SIZE]; // what is timed: "full"
-    char work[RG_NAME_SIZE];    // "paper", "ours" or "queries"; "" in tables that do not tell them
-                                // apart
-    char set[RG_SET_SIZE];      // the parameters that are set, as --set takes each
-    struct rg_device_info device; // a copy; read back, it has no limits
+    char variant[RG_NAME_SIZE];   // the measured variant: "full"
+    char work[RG_NAME_SIZE];      // "paper", "ours" or "queries"; "" in tables without works
+    char set[RG_SET_SIZE];        // assignments, each as for --set
+    struct rg_device_info device; // a copy; when read from a file, without limits
     int row_count;
-    struct rg_named row[RG_MAX_VALUES]; // what tells its row from others: names, then numbers
+    struct rg_named row[RG_MAX_VALUES]; // keys that identify its row: names, then numbers
     int published_count;
-    struct rg_named published[RG_MAX_VALUES]; // what the paper printed: "fps" and others
-    // How it ended
+    struct rg_named published[RG_MAX_VALUES]; // printed values: "fps" and others
+    // Outcome
     enum rg_outcome outcome;
     char detail[RG_DETAIL_SIZE];       // why the outcome is not OK
     struct rg_truth_error truth_error; // where the table has a truth; the same on every device
-    // What was measured
-    double create_ms;      // opening: buffers, inputs, and what the driver compiles then
-    double first_frame_ms; // the first step and drawing, with what the driver compiles then
+    // Measurements
+    double create_ms;      // opening: buffers, inputs, and compiling done then
+    double first_frame_ms; // first step and drawing, including compiling done then
     int frames_a_sample, sample_count;
-    int wanted_samples;                // so many are to be taken; until then the cell is not whole
-    double samples_ms[RG_MAX_SAMPLES]; // a frame, in the order in which they were taken
-    struct rg_interval frame_ms;       // of the samples
-    double api_over_wall; // the API's own clock by wall clock; trusted from 0.8 to 1.05
-    // What the calibration's load took when the samples were begun and ended; 0: unknown.
+    int wanted_samples;                // target number of samples; with fewer the cell is
+                                       // incomplete
+    double samples_ms[RG_MAX_SAMPLES]; // time of a frame, in the order of sampling
+    struct rg_interval frame_ms;       // from the samples
+    double api_over_wall; // ratio of the API's clock to the wall clock; trusted from 0.8 to 1.05
+    // Times of the calibration load when sampling began and ended; 0: unknown.
     double calibration_begin_ms, calibration_end_ms;
-    int pass_frames; // of the run in which passes are told apart
+    int pass_frames; // frames of the run that times passes
     int pass_count;
-    struct rg_pass_time passes[RG_MAX_PASS_TIMES]; // each name once, in the order of the frame
-    // What its instance told, after the frames before the image is compared
+    struct rg_pass_time passes[RG_MAX_PASS_TIMES]; // each name once, in the frame's order
+    // The instance's facts and counters, after the check frames
     int counter_count;
     struct rg_count counters[RG_MAX_COUNTERS];
     int fact_count;
     struct rg_named facts[RG_MAX_FACTS];
     bool has_tally;
-    struct rg_tally tally; // of one frame, the one behind those
+    struct rg_tally tally; // exact counts of the next frame
     int counted_count;
-    // What counters grew by in that frame: those that the table has columns for.
+    // Growth of counters in that frame, for counters with a column in the table.
     struct rg_count counted[RG_MAX_COUNTED];
 };
 
-// The counts of a tally, by the names that documents have for them.
+// The counts of a tally, with their names in documents.
 struct rg_tally_field {
     const char *name;
     size_t offset; // of an int64_t in struct rg_tally
 };
 enum { RG_TALLY_FIELDS = 10 };
 extern const struct rg_tally_field rg_tally_fields[RG_TALLY_FIELDS];
-// An object of them; what a device cannot count is null. The caller owns it.
+// A JSON object of the counts, null for unknown ones. The caller owns it.
 json_t *rg_tally_json(const struct rg_tally *tally);
 
-// Ends the record with an outcome other than OK, for the reason `detail`. Returns false, so that a
-// caller can end with it.
+// Ends the record with an outcome other than OK and its reason. Returns false, for use in a return
+// statement.
 bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char *detail);
 // The same with the failure that was just met (rg_failure_take).
 bool rg_record_end_by_error(struct rg_record *record);
 
-// Rounds the record's numbers to the digits that a document keeps, and makes frame_ms of its
-// samples. So a record prints the same before it is written as after it is read back.
+// Rounds the record's numbers to the digits of documents, and computes frame_ms from its samples,
+// so that a record prints the same before writing and after reading.
 void rg_record_settle(struct rg_record *record);
 
-// Whether nothing of it is left to measure: it ended, or all its samples are taken, and its passes
-// were told apart.
+// Whether the record is complete: it ended, or all samples were taken and the passes timed.
 bool rg_record_is_whole(const struct rg_record *record);
-// Frames a second: 1000 over the median of its frame_ms.
+// Frames a second: 1000 over the median of frame_ms.
 double rg_record_fps(const struct rg_record *record);
-// What the calibration's load took while it was measured, on average; 0: unknown.
+// The mean time of the calibration load during its measurement; 0: unknown.
 double rg_record_load_ms(const struct rg_record *record);
-// By how much the machine was slower, or faster, while one was measured than while the other was,
-// as their calibration tells: at least 1; 1 where that is unknown.
+// The ratio of the machine's speeds during the two measurements, from their calibration loads: at
+// least 1; 1 if unknown.
 double rg_record_drift(const struct rg_record *a, const struct rg_record *b);
-// What all its passes take together, in the run that syncs after every pass.
+// The sum of its passes' times, from the run that syncs after every pass.
 double rg_record_passes_ms(const struct rg_record *record);
-// The frame rate in print; NAN where none is.
+// The printed frame rate; NAN if there is none.
 double rg_record_published_fps(const struct rg_record *record);
-// The lowest and the highest frame rate in print, where that printed times from `ms_per_frame_min`
-// to `ms_per_frame_max`; else both are the one above.
+// The lowest and highest printed frame rate, where times from `ms_per_frame_min` to
+// `ms_per_frame_max` are printed; else both are the one above.
 void rg_record_published_range(const struct rg_record *record, double *low, double *high);
-// Whether it drew so many more or fewer particles than the paper printed, 1.2 times, that it is no
-// measure of what was printed; `*apart` (NULL: not wanted) gets the ratio, at least 1.
+// Whether it drew more or fewer particles than printed by more than a factor of 1.2, so that it is
+// no measure of the printed work; `*apart` (may be NULL) gets the ratio, at least 1.
 bool rg_record_is_other_work(const struct rg_record *record, double *apart);
-// What its row is called: "glass with bunny", "texture_px 128", "local_height_m 5, camera 1", "all,
-// merge on". A name comes first, and without the name of its column.
+// The name of its row: "glass with bunny", "texture_px 128", "local_height_m 5, camera 1", "all,
+// merge on". A name comes first, without its column's name.
 void rg_record_row_name(const struct rg_record *record, char *text, size_t size);
 
 #endif

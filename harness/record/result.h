@@ -1,5 +1,5 @@
-// A result: a table as it was measured, as plain data. What prints tables, and what compares them,
-// takes results: it opens no device, and need not know where one came from.
+// A result: a measured table, as plain data. Code that prints or compares tables works on results:
+// it opens no device, and does not depend on where a result came from.
 #ifndef RG_HARNESS_RECORD_RESULT_H
 #define RG_HARNESS_RECORD_RESULT_H
 
@@ -17,37 +17,36 @@ enum {
     RG_TITLE_SIZE = 256,
 };
 
-// What tells apart how much work a row's cells do.
+// A work: how much of the printed work a row's cells do.
 struct rg_result_work {
-    char name[RG_NAME_SIZE];     // "paper": what was printed; "reading"; "ours"; "queries"
-    char saves[RG_TITLE_SIZE];   // what saves work, one line; "": nothing
-    char reading[RG_TITLE_SIZE]; // how the paper is read, one line; "": there is one way
+    char name[RG_NAME_SIZE];     // "paper": all printed work; "reading"; "ours"; "queries"
+    char saves[RG_TITLE_SIZE];   // one line about what saves work; "": nothing
+    char reading[RG_TITLE_SIZE]; // one line about how the paper is read; "": unambiguous
 };
 
 struct rg_result {
     char table[RG_NAME_SIZE]; // "creus-5.4"
     char technique[RG_NAME_SIZE];
-    char hardware[RG_TITLE_SIZE]; // what the paper measured on; "": nothing is published
-    // The settings, over a row's own, of the image that a row's error is reckoned against; "": rows
-    // have no error.
+    char hardware[RG_TITLE_SIZE]; // the paper's hardware; "": nothing is published
+    // Settings, over a row's own, of the true image for a row's error; "": rows have no error.
     char truth[RG_TITLE_SIZE];
-    char quick[RG_TITLE_SIZE]; // what quick mode sets; "": nothing
-    // What the user sets over all that; "": nothing. Then no cell does what was printed.
+    char quick[RG_TITLE_SIZE]; // settings of quick mode; "": none
+    // The user's settings over all others; "": none. With any, no cell does the printed work.
     char changed[RG_SET_SIZE];
     char note[RG_NOTE_SIZE]; // what a reader of the table must know
     bool full;               // else quick
     bool is_of_textures;     // nothing is timed
     int width, height;       // of the image, in pixels
     int check_frames;        // simulated and drawn before images are compared
-    int first_row, last_row; // of the table, from 0
-    // What a budget of seconds chose (harness/tables/runs/plan.h); 0: there was none.
+    int first_row, last_row; // indices in the table, from 0
+    // Chosen by a budget of seconds (harness/tables/runs/plan.h); 0: none.
     double budget_s;
-    int size_divisor;     // width and height are those of the table by this; 0: as 1
-    double budget_end_ms; // by rg_now_ms, when no row is begun any more; 0: never; in no document
-    bool few_samples;     // the fewest
-    bool left_out[RG_RESULT_ROWS]; // of first_row and those behind it: not to be measured
-    int resumed_rows;              // not measured now but by an earlier run that was interrupted
-    int work_count;                // 0: the table does not tell works apart
+    int size_divisor;     // divides the table's width and height; 0: as 1
+    double budget_end_ms; // by rg_now_ms, after which no row is begun; 0: never; not in documents
+    bool few_samples;     // takes the fewest samples
+    bool left_out[RG_RESULT_ROWS]; // from first_row on: not to be measured
+    int resumed_rows;              // measured by an earlier, interrupted run
+    int work_count;                // 0: the table has no works
     struct rg_result_work works[RG_RESULT_WORKS];
     int variant_count;
     char variants[RG_RESULT_VARIANTS][RG_NAME_SIZE];
@@ -55,58 +54,57 @@ struct rg_result {
     struct rg_device_info devices[RG_MAX_DEVICES];
     json_t *passport; // docs/records.md; owned
     int missing_count;
-    // A sentence for each device that a reader may look for in vain.
+    // A sentence for each device that is missing although a reader may expect it.
     char missing[RG_RESULT_MISSING][256];
-    // Of first_row and those behind it, a record a cell; owned. NULL: the row was not measured.
+    // From first_row on, the records of a row's cells; owned. NULL: not measured.
     struct rg_record *rows[RG_RESULT_ROWS];
 };
 
-// Where a cell stands: indices of a row of the table, and among works, variants and devices.
+// The place of a cell: indices of a table's row, work, variant and device.
 struct rg_place {
     int row, work, variant, device;
 };
 
-// The record of a cell; nothing else indexes the rows. Its row must be there (rg_result_has).
+// The record of a cell; all access to rows goes through it. The row must exist (rg_result_has).
 struct rg_record *rg_result_at(const struct rg_result *result, struct rg_place place);
 
-// The cells of the rows that are there, row by row, work by work, variant by variant, device by
-// device:   for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
+// Iterates over the cells of existing rows, by row, work, variant and device:
+// for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
 struct rg_place rg_result_start(const struct rg_result *result);
 bool rg_result_next(const struct rg_result *result, struct rg_place *at);
-// The same of one row alone.
+// The same for one row.
 struct rg_place rg_result_start_row(int row);
 bool rg_result_next_in_row(const struct rg_result *result, struct rg_place *at);
 
-int rg_result_row_cells(const struct rg_result *result); // cells of a row
+int rg_result_row_cells(const struct rg_result *result); // number of cells in a row
 bool rg_result_has(const struct rg_result *result, int row);
-// Whether nothing of a row that is there is left to measure.
+// Whether an existing row is complete.
 bool rg_result_is_whole(const struct rg_result *result, int row);
-// Drops the rows of which something is left to measure.
+// Drops incomplete rows.
 void rg_result_drop_begun(struct rg_result *result);
-// Whether a row is to be there: a budget leaves some out, which are not missing.
+// Whether a row is wanted; rows left out by a budget are not missing.
 bool rg_result_wants(const struct rg_result *result, int row);
-// The first row that is missing; one behind the last where none is.
+// The first missing row; one past the last if there is none.
 int rg_result_first_missing(const struct rg_result *result);
 
-// Zeroed records for a row. False, with one logged line, without memory for them.
+// Adds zeroed records for a row. False, with one logged line, when memory runs out.
 bool rg_result_add_row(struct rg_result *result, int row);
 void rg_result_drop_row(struct rg_result *result, int row);
-// Leaves out the rows before `first` and behind `last`, or the cells of other works, or of other
-// variants. A table that does not tell works apart stays as it is. False where nothing is left.
+// Drop the rows before `first` and after `last`, or the cells of other works or variants. A table
+// without works is not changed. False where nothing is left.
 bool rg_result_keep_rows(struct rg_result *result, int first, int last);
 bool rg_result_keep_work(struct rg_result *result, const char *work);
 bool rg_result_keep_variant(struct rg_result *result, const char *variant);
-// Whether the cells of a work do what was printed, and may be held against it.
+// Whether a work's cells do the printed work, and may be compared with print.
 bool rg_result_is_of_print(const struct rg_result *result, int work);
-// The work that was printed, in the first of its readings; -1 where the result has it not.
+// The printed work, in the first of its readings; -1 where the result lacks it.
 int rg_result_printed_work(const struct rg_result *result);
 
-// How many samples its measured cells took, at least and at most; 0 where none was measured.
+// The least and most samples of its measured cells; 0 if there are none.
 void rg_result_samples(const struct rg_result *result, int *least, int *most);
 
-// By how much the machine's speed went up or down over the run, as a share of the fastest: by what
-// its calibration took at the beginnings and ends of what was measured together. 0 where none
-// tells.
+// How much the machine's speed varied over the run, as a share of the fastest, from the calibration
+// loads at the beginnings and ends of measurements. 0 if unknown.
 double rg_result_drift(const struct rg_result *result);
 
 // Frees what it owns.

@@ -6,9 +6,9 @@
 
 enum { PAIRS = RG_SHIFT_SAMPLES * RG_SHIFT_SAMPLES, HALF = PAIRS / 2 + 1 };
 
-// The probabilities that of all pairs of two samples alike, b is above a in exactly u, for each u
-// up to half of the pairs. The smallest value of all is one of a's, and all b's lie above it, or
-// one of b's, which lies above no a: so each follows from those of a sample less.
+// The probabilities that, for two samples from one distribution, exactly u of all pairs have b
+// above a, for each u up to half of the pairs. The smallest value is either an a, with all b's
+// above it, or a b, which is above no a: this gives a recursion over the samples' sizes.
 static const double *distribution(int a_count, int b_count)
 {
     static double of[RG_SHIFT_SAMPLES + 1][HALF]; // by the number of b's

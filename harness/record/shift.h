@@ -1,4 +1,4 @@
-// By how much one sample lies above another that was taken apart from it.
+// Estimates the shift between two independent samples.
 #ifndef RG_HARNESS_RECORD_SHIFT_H
 #define RG_HARNESS_RECORD_SHIFT_H
 
@@ -6,11 +6,11 @@
 
 enum { RG_SHIFT_SAMPLES = 64 };
 
-// Hodges' and Lehmann's estimate of b - a, the median of the differences of all pairs, and the
-// interval that the true shift is below, and above, with a probability of at most `tail` each, by
-// Mann's and Whitney's distribution: exact for independent samples of distributions that differ in
-// nothing but the shift, whatever they are. Both counts are 1 to RG_SHIFT_SAMPLES. The ends are NAN
-// where so few samples have no such interval.
+// Hodges and Lehmann's estimate of b - a, the median of the differences of all pairs, and its
+// confidence interval by Mann and Whitney's distribution: the true shift is below it, and above it,
+// with a probability of at most `tail` each. It is exact for independent samples of any
+// distributions that differ only in a shift. Both counts are 1 to RG_SHIFT_SAMPLES. The ends are
+// NAN where the samples are too few.
 struct rg_interval rg_shift(const double *a, int a_count, const double *b, int b_count,
                             double tail);
 

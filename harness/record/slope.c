@@ -6,7 +6,7 @@
 
 #include "kernels/dialect/rng.h"
 
-// So many lie outside the interval on either side: 2.5 %.
+// OUTSIDE: resampled slopes beyond either end of the interval, 2.5 %.
 enum { RESAMPLES = 2000, OUTSIDE = RESAMPLES / 40 };
 
 static double group_mean(const struct rg_slope_point *points, int count, int group)
@@ -46,7 +46,7 @@ static double median_of(const double *sorted, int count)
     return (sorted[(count - 1) / 2] + sorted[count / 2]) / 2;
 }
 
-// How often each of `count` samples is drawn, `count` times in all.
+// Draws `count` times with replacement; `times` gets how often each sample was drawn.
 static void draw(int count, int point, int round, int *times)
 {
     memset(times, 0, (size_t)count * sizeof(*times));
@@ -58,7 +58,7 @@ static void draw(int count, int point, int round, int *times)
     }
 }
 
-// The sample of a rank, from 0, among those drawn.
+// The value of rank `rank`, from 0, among the drawn samples.
 static double drawn_at(const double *sorted, const int *times, int rank)
 {
     int i = 0;
@@ -74,7 +74,7 @@ static double median_drawn(const double *sorted, int count, int point, int round
     return (drawn_at(sorted, times, (count - 1) / 2) + drawn_at(sorted, times, count / 2)) / 2;
 }
 
-// Adds what a point gives to the slope itself, and to each that is drawn.
+// Adds a point's contribution to the slope, and to each resampled slope.
 static void add_point(const struct rg_slope_point *point, int index, double weight, double *slope,
                       double drawn[RESAMPLES])
 {
@@ -86,7 +86,7 @@ static void add_point(const struct rg_slope_point *point, int index, double weig
         drawn[round] += weight * log(median_drawn(sorted, point->count, index, round));
 }
 
-// What a drift of the machine along the axis adds to the slope, or takes away.
+// The slope that drift of the machine along the axis may contribute.
 static double slope_of_loads(const struct rg_slope_point *points, int count, const double *weights)
 {
     double slope = 0;

@@ -11,8 +11,8 @@ enum { DIGITS = 16 };
 
 // --- what a checksum is of ---
 
-// A number as a document gives it back, without a point where it is whole: other programs write 28
-// for 28.0, and 1e-05 as 0.00001.
+// A number normalised for hashing, an integer if it is whole, because other programs write 28 for
+// 28.0, and 1e-05 as 0.00001.
 static json_t *settle_number(const json_t *real)
 {
     char text[32];
@@ -20,7 +20,7 @@ static json_t *settle_number(const json_t *real)
     return rg_number_json(strtod(text, NULL));
 }
 
-// A copy with all numbers settled. The caller owns it.
+// A copy with all numbers normalised. The caller owns it.
 static json_t *settle(const json_t *value)
 {
     json_t *copy, *inner;
@@ -40,7 +40,7 @@ static json_t *settle(const json_t *value)
     return copy;
 }
 
-// The hash of a value, which it releases. False without memory.
+// Hashes a value and releases it. False when memory runs out.
 static bool hash(json_t *value, uint64_t seed, uint64_t *found)
 {
     json_t *settled = settle(value);
@@ -54,7 +54,7 @@ static bool hash(json_t *value, uint64_t seed, uint64_t *found)
     return ok;
 }
 
-// What stands before the cells, but for what is made anew. The caller owns it.
+// The fields before the cells, except derived ones. The caller owns it.
 static json_t *head_of(const json_t *document)
 {
     static const char *const others[] = {"cells", "shapes", "interrupted", field};
@@ -64,7 +64,7 @@ static json_t *head_of(const json_t *document)
     return head;
 }
 
-// What was measured, but for what is made anew of samples, passes and facts. The caller owns it.
+// A cell's measurements, except values derived from samples, passes and facts. The caller owns it.
 static json_t *measured_of(const json_t *cell)
 {
     static const char *const made[] = {"fps", "ms", "ms_low", "ms_high", "passes_share"};
@@ -76,7 +76,7 @@ static json_t *measured_of(const json_t *cell)
     return measured;
 }
 
-// `head`: the hash of what stands before the cells.
+// `head` is the hash of the fields before the cells.
 static bool find_checksum(const json_t *cell, uint64_t head, char checksum[DIGITS + 1])
 {
     uint64_t found;
@@ -104,7 +104,7 @@ bool rg_cells_seal(json_t *document)
 
 // --- what is wrong ---
 
-// What was found of the cells, and the first that has no checksum, or another's.
+// The result of checking cells: counts, and the first cell whose checksum is missing or wrong.
 struct found {
     size_t count, absent, wrong, first;
 };
@@ -116,7 +116,7 @@ static bool look(const json_t *document, struct found *found)
     uint64_t head;
     bool ok = hash(head_of(document), 0, &head);
     *found = (struct found){.count = json_array_size(cells)};
-    // From the last on, so that the first is what stays.
+    // Goes backwards, so that the first faulty cell remains.
     for (size_t i = found->count; ok && i-- > 0;) {
         const json_t *cell = json_array_get(cells, i), *kept = json_object_get(cell, field);
         ok = find_checksum(cell, head, checksum);
@@ -146,7 +146,7 @@ static void name_cell(const json_t *cell, size_t i, char *text, size_t size)
         snprintf(text + used, size - used, ")");
 }
 
-// Of a document some of whose cells are not as they were written.
+// Reports a document with cells that are not as they were written.
 static void tell(const char *path, const json_t *document, const struct found *found,
                  char why[RG_WHY_SIZE])
 {

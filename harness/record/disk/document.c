@@ -8,10 +8,10 @@
 #include "core/base/files/file.h"
 #include "harness/record/disk/seal.h"
 
-// The largest result has some megabytes.
+// The largest results have some megabytes.
 #define MOST_BYTES ((size_t)256 << 20)
 
-// What is in an open file, with a zero behind it; NULL without memory or where it cannot be read.
+// The contents of an open file, followed by a zero; NULL when memory runs out or reading fails.
 static char *read_text(FILE *file, size_t *size)
 {
     char *text = NULL, piece[1 << 16];

@@ -12,7 +12,7 @@
 bool rg_hold_folder(const char *folder, struct rg_hold *hold)
 {
     *hold = (struct rg_hold){.folder = folder, .made = mkdir(folder, 0777) == 0};
-    // No program that is started inherits it: what outlives a harness that is killed holds nothing.
+    // Close-on-exec, so that programs that outlive a killed harness hold no lock.
     hold->fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (hold->fd < 0 || flock(hold->fd, LOCK_EX | LOCK_NB) == 0)
         return true;
@@ -25,7 +25,7 @@ bool rg_hold_folder(const char *folder, struct rg_hold *hold)
 void rg_hold_release(struct rg_hold *hold)
 {
     if (hold->made)
-        rmdir(hold->folder); // refused where something lies in it
+        rmdir(hold->folder); // fails if the folder is not empty
     if (hold->fd >= 0)
         close(hold->fd);
     *hold = (struct rg_hold){.fd = -1};
@@ -33,11 +33,11 @@ void rg_hold_release(struct rg_hold *hold)
 
 void rg_state_folder(char *folder, size_t size)
 {
-    char why[256]; // what fails here is told by the writing that follows
+    char why[256]; // the writing that follows reports this failure
     if (!rg_user_path(RG_USER_STATE, "", folder, size, why)) {
         *folder = 0;
         return;
     }
-    folder[strlen(folder) - 1] = 0; // its slash: who writes there makes the last one
+    folder[strlen(folder) - 1] = 0; // its slash, because the writer makes the last folder
     rg_user_make_folders(folder, why);
 }

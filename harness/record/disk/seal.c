@@ -11,7 +11,7 @@
 static const char field[] = "checksum";
 enum { DIGITS = 16 };
 
-// As text, with the order of names fixed: what a reader makes of the file has the same.
+// Hashes the text with names in a fixed order, which is the same after reading the file.
 static bool find_checksum(const json_t *document, char checksum[DIGITS + 1])
 {
     char *text = json_dumps(document, RG_JSON_FLAGS | JSON_COMPACT | JSON_SORT_KEYS);

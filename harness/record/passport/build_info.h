@@ -1,4 +1,4 @@
-// What this binary was built from and with; filled by the build.
+// The sources and tools of this binary; filled in by the build.
 #ifndef RG_HARNESS_RECORD_PASSPORT_BUILD_INFO_H
 #define RG_HARNESS_RECORD_PASSPORT_BUILD_INFO_H
 

@@ -7,7 +7,7 @@
 #include "core/base/text/plain.h"
 #include "harness/record/named.h"
 
-// A path as it is written from the current folder, where it lies there.
+// A path relative to the current folder, if it is in it.
 static const char *from_here(const char *path)
 {
     char here[PATH_MAX];
@@ -29,7 +29,7 @@ void rg_driver_line(const struct rg_device_info *info, char line[RG_DRIVER_LINE]
                                      info->libraries[i].build);
     rg_plain(line);
     for (char *c = strstr(line, "##["); c; c = strstr(c, "##["))
-        c[2] = '('; // which GitHub's logs take for a command, wherever it stands
+        c[2] = '('; // "##[" anywhere in a line is a command to GitHub's logs
 }
 
 void rg_drivers_print(const struct rg_device_info *const infos[], int count, FILE *out)
@@ -41,7 +41,7 @@ void rg_drivers_print(const struct rg_device_info *const infos[], int count, FIL
     }
 }
 
-// Of the program the file's name alone, which is kept and sent: its folder names a user.
+// The path to store and send: for the program its file name only, because its folder names a user.
 static const char *kept_path(const struct rg_device_info *info, const char *path)
 {
     const char *slash = strrchr(path, '/');

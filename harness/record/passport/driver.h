@@ -1,5 +1,5 @@
-// Which driver a device runs, as people and machines are told it: what it says of itself, and which
-// files its code was loaded from.
+// Describes a device's driver for people and machines: its own name and version, and the files from
+// which its code was loaded.
 #ifndef RG_HARNESS_RECORD_PASSPORT_DRIVER_H
 #define RG_HARNESS_RECORD_PASSPORT_DRIVER_H
 
@@ -11,15 +11,15 @@
 enum { RG_DRIVER_LINE = 2600 };
 
 // "vulkan: llvmpipe Mesa 22.3.6 (LLVM 15.0.6), /usr/lib/x86_64-linux-gnu/libvulkan_lvp.so, build id
-// 4c1f...": one line without its end. A file below the current folder is told from there. A short
-// name is told with what it stands for.
+// 4c1f...": one line without a newline. Files below the current folder have relative paths. A short
+// name is followed by what it stands for.
 void rg_driver_line(const struct rg_device_info *info, char line[RG_DRIVER_LINE]);
 
-// A line for each.
+// Prints a line for each device.
 void rg_drivers_print(const struct rg_device_info *const infos[], int count, FILE *out);
 
-// Adds "full", the name by which it can be opened again, where that is another, and "libraries", an
-// array of {"path", "build"}, to a device's object.
+// Adds to a device's object "full", the name by which it can be opened again, if that differs, and
+// "libraries", an array of {"path", "build"}.
 void rg_driver_put(json_t *device, const struct rg_device_info *info);
 
 #endif

@@ -29,7 +29,7 @@ __attribute__((format(printf, 3, 4))) static void set(json_t *parts, const char 
     json_object_set_new(parts, name, rg_json_text(text));
 }
 
-// Without the blanks that some kernels pad it with.
+// Adds the CPU's name without the padding of some kernels.
 static void set_cpu(json_t *parts, const char *cpu)
 {
     char text[256];
@@ -55,7 +55,7 @@ static void set_features(json_t *parts, const json_t *features)
     set(parts, "features", "%s", text);
 }
 
-// The passport's variables stand in one order, so that equal sets make equal texts.
+// The passport's variables have a fixed order, so that equal sets make equal texts.
 static void set_variables(json_t *parts, const json_t *environment)
 {
     char text[RG_KEY_TEXT] = "";

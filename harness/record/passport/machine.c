@@ -26,7 +26,7 @@ static void copy(char *target, size_t size, const char *text)
     snprintf(target, size, "%.*s", (int)size - 1, text);
 }
 
-// The value of the first line that begins with `key`, without what separates and quotes it.
+// The value of the first line that begins with `key`, without separators and quotes.
 static bool read_value(const char *root, const char *path, const char *key, char *value,
                        size_t size)
 {
@@ -49,7 +49,7 @@ static bool read_value(const char *root, const char *path, const char *key, char
 
 // --- CPU ---
 
-// Of hundreds of flags, those that raingauge, LLVM and glibc choose code by.
+// The flags, among hundreds, by which raingauge, LLVM and glibc choose code.
 static const char *const interesting[] = {
     "sse4_2",   "avx",      "f16c",     "fma",   "avx2",    "bmi2", "avx512f", "avx512bw",
     "avx512cd", "avx512dq", "avx512vl", "asimd", "asimdhp", "sve",  "sve2",    NULL};
@@ -92,7 +92,7 @@ int rg_cpu_list_count(const char *list)
 
 // --- the cgroup's share of CPU time ---
 
-// CPUs that a pair of files, or one file with a pair, grants; 0: no limit.
+// The CPUs granted by a group's file, or pair of files; 0: unlimited.
 static double quota_in(const char *folder, bool is_v2)
 {
     char path[MAX_PATH + 32];
@@ -112,7 +112,7 @@ static double quota_in(const char *folder, bool is_v2)
     return quota_us > 0 && period_us > 0 ? (double)quota_us / (double)period_us : 0;
 }
 
-// The tightest holds.
+// The lowest quota applies.
 static void take_quota(const char *folder, bool is_v2, void *user)
 {
     struct rg_machine *machine = user;
@@ -123,7 +123,7 @@ static void take_quota(const char *folder, bool is_v2, void *user)
 
 // --- clocks ---
 
-// What stands in the first line of a file; "" where it is not there.
+// The first line of a file; "" if it does not exist.
 static const char *read_line(const char *root, const char *path, char line[64])
 {
     *line = 0;

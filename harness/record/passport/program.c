@@ -6,7 +6,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-// The program is the first that is told of.
+// The program is the first object reported.
 static int read_program(struct dl_phdr_info *info, size_t size, void *id)
 {
     (void)size;
@@ -15,11 +15,11 @@ static int read_program(struct dl_phdr_info *info, size_t size, void *id)
 }
 
 struct libraries {
-    int count; // the program included
+    int count; // including the program
     uint64_t hash;
 };
 
-// A sum, for their order says nothing.
+// Adds hashes up, because their order is arbitrary.
 static int add_library(struct dl_phdr_info *info, size_t size, void *user)
 {
     (void)size;

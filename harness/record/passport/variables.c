@@ -17,7 +17,7 @@ const struct rg_variable rg_variables[] = {
     {"POCL_AFFINITY", true},
     {"POCL_CPU_MAX_CU_COUNT", true},
     {"POCL_MAX_PTHREAD_COUNT", true},
-    // which driver
+    // choice of the driver
     {"EGL_PLATFORM", false},
     {"GALLIUM_DRIVER", false},
     {"LIBGL_ALWAYS_SOFTWARE", false},
@@ -35,7 +35,7 @@ const struct rg_variable rg_variables[] = {
     {"__EGL_VENDOR_LIBRARY_DIRS", false},
     {"__EGL_VENDOR_LIBRARY_FILENAMES", false},
     {"__GLX_VENDOR_LIBRARY_NAME", false},
-    // what code it makes, and what stands between
+    // choice of its code, and layers in between
     {"GALLIVM_DEBUG", true},
     {"GALLIVM_PERF", true},
     {"LD_LIBRARY_PATH", false},
@@ -45,7 +45,7 @@ const struct rg_variable rg_variables[] = {
     {"MESA_SHADER_CACHE_DISABLE", false},
     {"POCL_KERNEL_CACHE", false},
     {"VK_INSTANCE_LAYERS", true},
-    // ours
+    // raingauge's own
     {"RG_CPU_LEVEL", true},
     {"RG_ENVIRONMENT_DIR", false},
     {"RG_KERNEL_DIR", false},

@@ -1,4 +1,5 @@
-// The variables that change what runs, where, or on how many threads. Only these are recorded.
+// The environment variables that change which code runs, where, or on how many threads; only these
+// are recorded.
 #ifndef RG_HARNESS_RECORD_PASSPORT_VARIABLES_H
 #define RG_HARNESS_RECORD_PASSPORT_VARIABLES_H
 
@@ -6,7 +7,7 @@
 
 struct rg_variable {
     const char *name;
-    bool is_of_speed; // it changes how fast the same driver is, and not which driver runs
+    bool is_of_speed; // it affects the speed of the same driver, not the choice of the driver
 };
 extern const struct rg_variable rg_variables[]; // the last has no name
 
