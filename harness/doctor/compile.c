@@ -11,7 +11,7 @@
 #include "harness/devices/workers/device.h"
 #include "harness/frames/digests.h"
 
-// What a slot holds: zeros, more than an item without parameters reads.
+// Slots hold zeros, more than one item without parameters reads.
 enum { BUFFER_ELEMENTS = 4096, IMAGE_PX = 16, IMAGE_LAYERS = 6 };
 
 struct pair {
@@ -70,7 +70,7 @@ static bool run_zeros(const struct rg_kernel *kernel, struct rg_device *device)
     return ok;
 }
 
-// Whether an item does no harm where every index is looked at.
+// Whether running an item is safe, tried on a device that checks every index.
 static bool is_harmless(const struct rg_kernel *kernel, struct rg_device *reference)
 {
     rg_log_hold(true);

@@ -1,4 +1,4 @@
-// Examining devices, each in a worker.
+// Examines devices, each in a worker.
 #include <stdio.h>
 #include <string.h>
 
@@ -44,7 +44,7 @@ static bool audit(struct rg_worker *worker, struct rg_timer_audit *timer)
     return ok;
 }
 
-// Each step begins only where those before it came to their end.
+// Each step begins only if the earlier ones succeeded.
 static bool examine(struct rg_examination *e, struct rg_worker *worker)
 {
     rg_probe_name(e->probe);
@@ -57,7 +57,7 @@ static bool examine(struct rg_examination *e, struct rg_worker *worker)
     return e->measured;
 }
 
-// What it computes and draws.
+// Judges the device's computations and drawings.
 static void judge(struct rg_examination *e)
 {
     const int failures = e->probed ? rg_examination_failures(e) : 0;

@@ -1,4 +1,4 @@
-// The report as JSON; docs/records.md describes it.
+// Prints the report as JSON; docs/records.md describes it.
 #include <limits.h>
 #include <stdio.h>
 

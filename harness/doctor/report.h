@@ -1,4 +1,4 @@
-// What `raingauge doctor` finds out, and the two forms that it is told in.
+// The findings of `raingauge doctor`, and their two printed forms.
 #ifndef RG_HARNESS_DOCTOR_REPORT_H
 #define RG_HARNESS_DOCTOR_REPORT_H
 
@@ -11,12 +11,12 @@
 #include "harness/measure/drawing.h"
 #include "harness/measure/timer_audit.h"
 
-// One device. Holds what was found until the driver failed, if it did.
+// The findings about one device, up to the driver's failure if it failed.
 struct rg_examination {
-    bool is_unknown;            // no such name: the rest says nothing but why
-    enum rg_outcome status;     // fail: an operation of the kernel dialect gives other bits than C,
-                                // or it draws what cpu:reference does not
-    char why[512];              // in one line; "" when all is well
+    bool is_unknown;            // there is no such name: only `why` is set
+    enum rg_outcome status;     // fail: an operation of the dialect differs from C in some bits, or
+                                // a drawing from cpu:reference
+    char why[512];              // in one line; "" if all is well
     struct rg_device_info info; // until `opened`, only info.name is certain
     bool opened, probed, drawn, audited, measured;
     struct rg_probe_result probe[RG_PROBE_COUNT]; // when probed
@@ -26,22 +26,21 @@ struct rg_examination {
 };
 
 struct rg_doctor_report {
-    struct rg_device_list list; // all devices, asked for or not, and what is missing
+    struct rg_device_list list; // all devices, asked for or not, and missing backends
     int count;
     struct rg_examination *examinations; // `count` of them
     json_t *passport;                    // harness/record/passport/passport.h
     json_t *warnings;                    // array of strings
 };
 
-// Opens the device that info.name names in a worker, probes its arithmetic, draws, and audits its
-// timer.
-// What fails has been logged; what was found before stays.
+// Opens the device in info.name in a worker, tests its arithmetic and drawing, and audits its
+// timer. Failures have been logged; earlier findings remain.
 void rg_doctor_examine(struct rg_examination *examination);
 
-// Traps that are visible from outside: one sentence each. The caller releases the array.
+// Traps visible from outside the drivers, a sentence each. The caller releases the array.
 json_t *rg_doctor_warnings(const struct rg_device_list *list);
 
-// Operations of the dialect that differ.
+// The number of differing operations of the dialect.
 int rg_examination_failures(const struct rg_examination *examination);
 
 void rg_doctor_print_text(const struct rg_doctor_report *report);

@@ -1,4 +1,4 @@
-// The report for people: aligned columns of plain text, at most 100 wide.
+// Prints the report for people: aligned columns of plain text, at most 100 wide.
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,7 +14,7 @@ static void print_label(const char *label)
     printf("  %-*s", LABEL - 2, label);
 }
 
-// Text beside a label, broken at spaces.
+// Prints text beside a label, broken at spaces.
 static void print_field(const char *label, const char *text)
 {
     const int room = WIDTH - LABEL;
@@ -26,7 +26,7 @@ static void print_field(const char *label, const char *text)
             for (cut = room; cut > 0 && text[cut] != ' ';)
                 cut--;
         if (cut == 0)
-            cut = (int)strcspn(text, " "); // one word wider than the page
+            cut = (int)strcspn(text, " "); // a single word wider than the page
         printf("%.*s\n", cut, text);
         text += cut;
         if (!*text)
@@ -180,7 +180,7 @@ static void print_drawing(const struct rg_examination *e)
         print_field("drawing", text);
 }
 
-// What times on the device are bound to.
+// Prints the parts that times on the device depend on.
 static void print_key(const json_t *passport, const struct rg_device_info *info)
 {
     char key[RG_KEY_SIZE], of[RG_KEY_TEXT], text[RG_KEY_SIZE + RG_KEY_TEXT + 8];
@@ -247,7 +247,7 @@ static void print_builtins(const struct rg_examination *const *probed, int count
     }
 }
 
-// The devices whose arithmetic was probed, as many beside each other as fit.
+// Prints the probed devices, as many side by side as fit.
 static void print_builtin_table(const struct rg_doctor_report *report)
 {
     const struct rg_examination *probed[RG_MAX_DEVICES];

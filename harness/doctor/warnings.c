@@ -1,4 +1,5 @@
-// What makes measurements or comparisons mislead, as far as it shows from outside the drivers.
+// Finds conditions that make measurements or comparisons misleading, as far as visible from outside
+// the drivers.
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -47,8 +48,8 @@ static void check_cores(json_t *warnings, const struct rg_machine *machine)
 // --- threads ---
 
 struct pool {
-    const char *backends[3];  // whose software devices run on these threads
-    const char *variables[3]; // the first that is set counts
+    const char *backends[3];  // backends whose software devices use these threads
+    const char *variables[3]; // the first one set counts
     const char *set;          // the variable that is set, or NULL
     int threads;
 };
@@ -72,11 +73,11 @@ static void read_pool(struct pool *pool, int cores)
             continue;
         pool->set = pool->variables[i];
         int threads = atoi(value);
-        pool->threads = threads > 0 ? threads : 1; // llvmpipe's 0: no threads of its own
+        pool->threads = threads > 0 ? threads : 1; // llvmpipe's 0 means no threads of its own
     }
 }
 
-// Where a variable makes one driver run on other threads than the rest, times do not compare.
+// If a variable gives one driver another number of threads than the rest, times are not comparable.
 static void check_threads(json_t *warnings, const struct rg_device_list *list,
                           const struct rg_machine *machine)
 {
@@ -151,7 +152,7 @@ static bool is_first(const struct rg_device_list *list, int i)
     return i == 0 || list->backends[i - 1] != list->backends[i];
 }
 
-// A backend's bare name picks its first device; say so when that is software and a GPU is near.
+// A backend's bare name means its first device; warns if that is software and there is a GPU.
 static void check_software(json_t *warnings, const struct rg_device_list *list,
                            const struct rg_machine *machine)
 {
