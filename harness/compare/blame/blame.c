@@ -18,7 +18,7 @@ int rg_blame_first(const struct rg_digests *a, const struct rg_digests *b)
     return a->count == b->count ? -1 : count;
 }
 
-// The last row before `row` of the same asset; -1: none.
+// The last row before `row` with the same asset; -1: none.
 static int row_before(const struct rg_digests *digests, int row)
 {
     int before = row - 1;
@@ -43,7 +43,7 @@ static void find_texel(const struct rg_image_desc *desc, int64_t byte, struct rg
     }
 }
 
-// What one run held there, and another; `before`, what both did before.
+// The contents on both devices, and `before`, those that both had earlier.
 struct three {
     struct rg_contents now, due, before;
     struct rg_state state, unused;
@@ -89,7 +89,7 @@ bool rg_blame_row(const struct rg_digest_run *run, struct rg_device *device,
     struct three c = {0};
     bool ok = true;
     if (!blame->is_alone) {
-        // What follows the frame is not needed: the row is there before.
+        // Frames after the row's are not needed.
         struct rg_digest_run until = *run;
         until.frames = d->frame + 1 < run->frames ? (int)d->frame + 1 : run->frames;
         blame->expected = expected->rows[row].hash;
@@ -119,7 +119,7 @@ bool rg_blame_find(const struct rg_digest_run *run, struct rg_device *device,
         struct rg_digests now = {0}, expected = {0};
         part.frames = part.frames < run->frames ? part.frames : run->frames;
         ok = rg_digests_take(&part, device, &now) && rg_digests_take(&part, truth, &expected) &&
-             !rg_interrupted() && // else one may lack frames that the other has
+             !rg_interrupted() && // an interrupted run may lack frames
              rg_blame_row(&part, device, truth, &now, &expected, blame);
         rg_digests_free(&now);
         rg_digests_free(&expected);

@@ -6,7 +6,7 @@
 
 #include "core/base/alloc.h"
 
-// How far floats may be apart, in steps of their last bit, to differ in the last bits alone.
+// The largest distance, in units in the last place, that counts as a difference in the last bits.
 enum { LAST_STEPS = 16, LAST_STEPS_HALF = 2, LAST_CODES = 1 };
 
 static const struct {
@@ -41,7 +41,7 @@ enum rg_difference rg_difference_find(const char *name)
     return RG_DIFFERENCE_NONE;
 }
 
-// Both, word by word.
+// Compares both word by word.
 struct pair {
     const struct rg_contents *now, *due, *before;
     int64_t words;
@@ -151,14 +151,14 @@ static bool all(const struct pair *p, bool (*holds)(const struct pair *p, int64_
 
 // --- order ---
 
-static int element_size; // for qsort, which takes no size
+static int element_size; // for qsort's callback, which gets no size
 
 static int by_bytes(const void *a, const void *b)
 {
     return memcmp(a, b, (size_t)element_size);
 }
 
-// Whether the elements that differ are the same ones, in another order.
+// Whether the differing elements are the same ones in another order.
 static bool is_another_order(const struct pair *p, int element_bytes)
 {
     const int64_t step = element_bytes / 4, elements = p->words / step;
@@ -185,7 +185,7 @@ static bool is_another_order(const struct pair *p, int element_bytes)
 
 // --- edges ---
 
-// Whether an image of one layer and level has a texel within a texel of (x, y).
+// Whether an image of one layer and level has this texel value within a texel of (x, y).
 static bool has_near(const struct rg_contents *c, const char *texel, int x, int y)
 {
     const size_t size = (size_t)rg_format_size(c->desc.format);

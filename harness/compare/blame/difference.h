@@ -1,31 +1,32 @@
-// What kind of difference lies between what two devices left in one asset: a clue to its cause.
+// Classifies the difference between two devices' contents of one asset, as a clue to its cause.
 #ifndef RG_HARNESS_COMPARE_BLAME_DIFFERENCE_H
 #define RG_HARNESS_COMPARE_BLAME_DIFFERENCE_H
 
 #include "core/techniques/stages/contents.h"
 
-// In the order in which they are tried: the first that fits names the difference.
+// In the order of the tests; the first that fits counts.
 enum rg_difference {
     RG_DIFFERENCE_NONE,
-    RG_DIFFERENCE_SIZE,      // one holds more than the other
-    RG_DIFFERENCE_NAN,       // a value is NaN or infinite in one of the two alone
-    RG_DIFFERENCE_MISSING,   // where they differ, the stage has left what was there before
-    RG_DIFFERENCE_SURPLUS,   // likewise, but the truth is what was there before
+    RG_DIFFERENCE_SIZE,      // their sizes differ
+    RG_DIFFERENCE_NAN,       // a value is NaN or infinite in only one of them
+    RG_DIFFERENCE_MISSING,   // at all differences, the stage has kept the earlier value
+    RG_DIFFERENCE_SURPLUS,   // likewise, but the truth is the earlier value
     RG_DIFFERENCE_ORDER,     // a buffer has the same elements in another order
-    RG_DIFFERENCE_LAST_BITS, // floats a few steps from each other, or codes of 8 bits one
-    RG_DIFFERENCE_EDGE,      // texels that the other image has within a texel of there
+    RG_DIFFERENCE_LAST_BITS, // floats differ by a few units in the last place, or 8-bit codes by
+                             // one
+    RG_DIFFERENCE_EDGE,      // each texel occurs in the other image within a texel of its place
     RG_DIFFERENCE_VALUES,    // none of these
     RG_DIFFERENCE_COUNT
 };
 
-// "last-bits", as texts of cases have it.
+// "last-bits": the name in texts of cases.
 const char *rg_difference_name(enum rg_difference difference);
-// "in the last bits": a few words for a sentence.
+// "in the last bits": words for a sentence.
 const char *rg_difference_words(enum rg_difference difference);
 // The difference of this name; RG_DIFFERENCE_NONE where there is none.
 enum rg_difference rg_difference_find(const char *name);
 
-// The first word in which two differ, and in how many they do; both are read as far as the shorter.
+// The first differing word, and the number of differing words, within the shorter of the two.
 struct rg_differing {
     int64_t first, count;
 };

@@ -28,7 +28,7 @@ bool rg_fall_is_same(const struct rg_fall *a, const struct rg_fall *b)
     return a->outcome == b->outcome && !strcmp(a->what, b->what);
 }
 
-// Whether a line has a kernel in quotes, or one of those that pack what it draws.
+// Whether a line names a kernel in quotes, or one of its packing kernels.
 static bool names(const char *line, const char *kernel)
 {
     static const char *const ends[] = {"'", "_count'", "_emit'"};

@@ -28,7 +28,7 @@ static void hear(void *user, const struct rg_extra *a, const struct rg_extra *b)
     copy(d->b, sizeof(d->b), b->value, b->value_length);
 }
 
-// Colours that are multiplied by alpha, and others, are not the same where both are written alike.
+// Equal texels mean different pictures if only one of the files is premultiplied.
 static void compare_alpha(const struct rg_picture *a, const struct rg_picture *b,
                           struct rg_beside *beside)
 {
@@ -87,7 +87,7 @@ void rg_beside_print(const struct rg_beside *beside)
                beside->items[i].b);
 }
 
-// JSON holds UTF-8 alone: of other text the bytes beyond ASCII become '?'.
+// JSON must be UTF-8; in other text non-ASCII bytes become '?'.
 static json_t *text_json(char *text)
 {
     json_t *json = json_string(text);

@@ -36,9 +36,9 @@ struct session {
     struct shot shots[RG_MAX_DEVICES];
     int shot_count;
     struct rg_picture background;
-    int failed;               // devices that gave no picture
+    int failed;               // devices without a picture
     int compared;             // pairs
-    int exit;                 // an enum rg_exit: what those that failed come to
+    int exit;                 // an enum rg_exit: the status of failed devices
     json_t *pairs, *failures; // with --json
     struct rg_accepts accepts;
 };
@@ -48,7 +48,7 @@ static float exposure_of(const struct session *s)
     return s->asked->exposure != 0 ? (float)s->asked->exposure : 1.0f;
 }
 
-// Draws the same frame without rain. The rain mask is where a picture differs from it.
+// Draws the same frame without rain; pixels of a picture that differ from it are its rain mask.
 static bool take_background(struct session *s)
 {
     const struct rg_diff_devices_request *r = s->asked;
@@ -57,7 +57,7 @@ static bool take_background(struct session *s)
     return rg_device_close(device) && ok;
 }
 
-// What became of a device that gave no picture. The error has been logged.
+// Notes a device without a picture. The error has been logged.
 static void note_failure(struct session *s, const char *device, enum rg_outcome outcome,
                          const char *why)
 {
@@ -72,7 +72,7 @@ static void note_failure(struct session *s, const char *device, enum rg_outcome 
     json_array_append_new(s->failures, row);
 }
 
-// Draws on a device. False where the first refuses the user's input, as every other would.
+// Draws on a device. False where the first device refuses the user's input, as every other would.
 static bool take_picture(struct session *s, struct rg_device *device)
 {
     const struct rg_diff_devices_request *r = s->asked;
@@ -142,7 +142,8 @@ static bool write_heatmaps(const struct session *s, const struct shot *a, const 
     return rg_pair_heatmaps(prefix, &a->picture, &b->picture, comparison);
 }
 
-// Whether the heat maps of no pair replace a file that settings name. False, and one logged line.
+// Whether no pair's heat map replaces a file that settings name. False, and one logged line, if one
+// does.
 static bool spare_files(const struct session *s, const struct rg_devices *devices)
 {
     char prefix[HEATMAP_PREFIX], value[RG_PATH_SIZE];
@@ -169,7 +170,7 @@ static void print_pair(const struct shot *a, const struct shot *b, const struct 
     char pair[2 * RG_DEVICE_NAME_SIZE + 2];
     snprintf(pair, sizeof(pair), "%s, %s", a->info->name, b->info->name);
     rg_plain(pair);
-    char psnr[32] = "none"; // of values that are no numbers
+    char psnr[32] = "none"; // for values that are NaN
     if (!isnan(c->metrics.psnr_db))
         snprintf(psnr, sizeof(psnr), "%.4g", c->metrics.psnr_db);
     printf("%-30s %-5s %-5s %10lld %6d/255 %8lld %9.6f %8s\n", pair, holds ? "ok" : "fail", c->tier,
@@ -177,8 +178,8 @@ static void print_pair(const struct shot *a, const struct shot *b, const struct 
            (long long)c->tiers.mask_pixels, c->flip.mean, psnr);
 }
 
-// Whether it is the reference, or nearer to it by the tier it owes or, among equals, by what cpu
-// is.
+// Whether `a` counts as the truth: it is the reference, or has the stricter tier, or, of equal
+// tiers, is cpu's.
 static bool is_truer(const struct rg_device_info *a, const struct rg_device_info *b)
 {
     if (a->tier != b->tier)
@@ -186,9 +187,9 @@ static bool is_truer(const struct rg_device_info *a, const struct rg_device_info
     return !strncmp(a->full, "cpu", 3) && strcmp(b->full, "cpu:reference") != 0;
 }
 
-// Where the two part, for a pair that does not hold what its devices owe each other; the one that
-// is nearer to cpu:reference is held for the truth. NULL where nothing is found, or where that
-// fails, which has been logged: that the pair fails is known already.
+// Finds where two devices part, for a pair that fails its tier; the device nearer to cpu:reference
+// counts as the truth. NULL where nothing is found, or on a failure, which has been logged: the
+// pair's own failure is known already.
 static json_t *blame_pair(struct session *s, const struct shot *a, const struct shot *b)
 {
     const struct rg_diff_devices_request *r = s->asked;
@@ -214,7 +215,7 @@ static json_t *pair_json(const struct shot *a, const struct shot *b, const struc
     return rg_pair_json(names[0], names[1], c);
 }
 
-// Why a pair fails, and what a looser tier would let pass.
+// Prints why a pair fails, and what a looser tier would accept.
 static void tell_failure(struct session *s, const struct shot *a, const struct shot *b,
                          const struct rg_comparison *c, json_t *pair)
 {
@@ -253,7 +254,7 @@ static int compare_pair(struct session *s, const struct shot *a, const struct sh
     return ok ? rg_exit_of(outcome) : rg_exit_of_error();
 }
 
-// No pair is no proof, and is said.
+// Prints the number of pairs; none is no proof.
 static void tell_count(const struct session *s)
 {
     printf("%d pairs of %d devices compared", s->compared, s->shot_count);
@@ -262,7 +263,7 @@ static void tell_count(const struct session *s)
     printf("\n");
 }
 
-// Why pairs of the devices' pictures may have nothing that could be compared.
+// Explains why pairs of pictures may show nothing to compare.
 static void tell_dry(const struct session *s)
 {
     const struct rg_diff_devices_request *r = s->asked;
@@ -271,7 +272,7 @@ static void tell_dry(const struct session *s)
     rg_error("diff %s: %s", r->subject.technique->name, why);
 }
 
-// The devices that gave pictures.
+// Lists the devices with pictures.
 static void list_infos(const struct session *s, const struct rg_device_info *infos[RG_MAX_DEVICES])
 {
     for (int i = 0; i < s->shot_count; i++)
@@ -298,7 +299,7 @@ static int compare_all(struct session *s)
     return exit;
 }
 
-// For the picture of each device and the one without rain, and for two heat maps a pair.
+// Memory for each device's picture, the one without rain, and two heat maps a pair.
 static bool has_room(const struct rg_diff_devices_request *request, int devices)
 {
     const int width = request->subject.width, height = request->subject.height;

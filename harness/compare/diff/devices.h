@@ -1,4 +1,4 @@
-// The comparison of one frame of a technique on several devices: `raingauge diff TECHNIQUE`.
+// Compares one frame of a technique on several devices: `raingauge diff TECHNIQUE`.
 #ifndef RG_HARNESS_COMPARE_DIFF_DEVICES_H
 #define RG_HARNESS_COMPARE_DIFF_DEVICES_H
 
@@ -14,12 +14,12 @@ struct rg_diff_devices_request {
     int frames;                 // simulated before the picture is drawn
     const char *heatmap_prefix; // NULL: none; else PREFIX-A-B-flip.png and -difference.png
     double exposure;
-    bool mutants; // of a pair that fails: which models, a little off, the tier that holds accepts
+    bool mutants; // for a failing pair: which mutants the tier that holds would accept
     bool json;    // instead of a table
 };
 
-// Renders on every device, compares every pair and prints it. Returns an enum rg_exit: pass when
-// every pair holds the tier that its devices owe each other (core/device/device.h).
+// Renders on every device, compares every pair and prints the results. Returns an enum rg_exit:
+// pass when every pair meets the tier required of its devices (core/device/device.h).
 int rg_diff_devices(const struct rg_diff_devices_request *request);
 
 #endif

@@ -1,4 +1,4 @@
-// The comparison of two picture files: what `raingauge diff A B` prints.
+// Compares two picture files: `raingauge diff A B`.
 #ifndef RG_HARNESS_COMPARE_DIFF_FILES_H
 #define RG_HARNESS_COMPARE_DIFF_FILES_H
 
@@ -14,9 +14,9 @@ struct rg_diff_request {
     struct rg_compare_options options;
 };
 
-// Prints the comparison of `b` with `a` to stdout. Returns an enum rg_exit: pass when they show
-// the same to the bit (T0) and hold nothing else that differs; usage, with one line logged, for bad
-// input or a heat map that cannot be written.
+// Prints the comparison of `b` with `a` to stdout. Returns an enum rg_exit: pass when they are
+// bitwise equal (T0) and have equal extras; usage, with one line logged, for bad input or a heat
+// map that cannot be written.
 int rg_diff_files(const struct rg_diff_request *request);
 
 #endif

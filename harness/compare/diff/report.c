@@ -32,7 +32,7 @@ static void print_psnr(const struct rg_metrics *m)
         printf("  PSNR                         %.4g dB\n", m->psnr_db);
 }
 
-// What linear figures are of depends on the files: integers were decoded.
+// The meaning of linear figures depends on the files: integers were decoded.
 static void print_codes(const struct rg_metrics *m)
 {
     printf("\ncodes, over the largest code\n");
@@ -120,7 +120,7 @@ void rg_pair_print(const char *a, const char *b, const struct rg_comparison *c)
     print_flip(&c->hdr_flip.flip);
 }
 
-// JSON has neither infinity nor NaN: null stands for them.
+// null stands for infinity and NaN, which JSON lacks.
 static json_t *number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
@@ -161,7 +161,7 @@ static json_t *metrics_json(const struct rg_metrics *m)
                      "nonfinite_mismatches", (json_int_t)m->nonfinite_mismatches, "above", above);
 }
 
-// null: nothing differs. Absent where a value is no number.
+// null: nothing differs. Absent if a value is NaN.
 static void set_psnr(json_t *json, const struct rg_metrics *m)
 {
     if (!isnan(m->psnr_db))
@@ -276,7 +276,7 @@ bool rg_pair_heatmaps_spare(const char *prefix, const char *read)
     return spared;
 }
 
-// Draws `values` and writes them as PREFIX-name.png.
+// Draws `values` as a heat map into PREFIX-name.png.
 static bool write_heatmap(const char *prefix, const char *name, const float *values,
                           const struct rg_comparison *c, float top)
 {

@@ -94,7 +94,7 @@ static void count_outcomes(const struct rg_checks *checks, int counts[RG_OUTCOME
         counts[checks->rows[i].status]++;
 }
 
-// No check is no proof, and is said.
+// Prints the number of checks; none is no proof.
 static void print_count(const struct rg_checks *checks)
 {
     int counts[RG_OUTCOME_COUNT];
@@ -118,7 +118,7 @@ void rg_checks_print(const struct rg_checks *checks, const struct rg_device_info
     print_count(checks);
 }
 
-// Of raingauge's own model, and of no device that is held against it.
+// Whether a check is of raingauge's own model, not of a device.
 static bool is_own(const struct rg_check *row)
 {
     return !strcmp(row->check, "mutants") || !strcmp(row->device, "cpu:reference");

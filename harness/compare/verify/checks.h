@@ -1,4 +1,4 @@
-// The results of checks: collected, printed as lines or JSON, and summed up in an exit status.
+// Results of checks: collected, printed as lines or JSON, and summed up in an exit status.
 #ifndef RG_HARNESS_COMPARE_VERIFY_CHECKS_H
 #define RG_HARNESS_COMPARE_VERIFY_CHECKS_H
 
@@ -18,12 +18,12 @@ struct rg_check {
 // Zeroed: none. The owner calls rg_checks_free.
 struct rg_checks {
     int count;
-    int64_t room; // of the rows, for rg_array_fit
+    int64_t room; // capacity of the rows, for rg_array_fit
     struct rg_check *rows;
-    int exit; // an enum rg_exit: what they come to at least, whatever the results say
+    int exit; // an enum rg_exit: the final status is at least as bad
 };
 
-// A result that is lost for want of memory is one logged line, and fails them all.
+// When memory for a result runs out, one line is logged and all checks count as failed.
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
                    const char *device, enum rg_outcome status, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
@@ -35,13 +35,13 @@ void rg_checks_add_failure(struct rg_checks *checks, const char *technique, cons
 void rg_checks_add_error(struct rg_checks *checks, const char *technique, const char *check,
                          const char *device);
 
-// To stdout: a line a device, which tells its driver, and a line a check, or one JSON object
-// {"format":1, "devices":[...], "checks":[...]}.
+// Prints to stdout: a line for each device, with its driver, and a line for each check, or one JSON
+// object {"format":1, "devices":[...], "checks":[...]}.
 void rg_checks_print(const struct rg_checks *checks, const struct rg_device_info *const devices[],
                      int device_count, bool json);
 
-// An enum rg_exit: `exit`, or what rg_exit_of_all makes of the results where that is worse, and of
-// those of devices alone, where there are some: a model that is well proves none of them.
+// An enum rg_exit: the worse of `exit` and rg_exit_of_all of the results. If some results are of
+// devices, only these count, because a good model proves no device.
 int rg_checks_exit(const struct rg_checks *checks);
 
 void rg_checks_free(struct rg_checks *checks);

@@ -1,4 +1,4 @@
-// State, image and laws of one technique on every device, compared with cpu:reference.
+// Compares state, image and laws of one technique on every device with cpu:reference.
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,35 +14,35 @@
 #include "harness/frames/frame.h"
 #include "harness/record/named.h"
 
-// One check on one device, over all cases.
+// The results of one check on one device, over all cases.
 struct tally {
     int runs, failed, errors;
     int least_steps, most_steps; // of the runs
-    int unlike;                  // not identical, where that is allowed
-    int dry;                     // showed no rain, so that nothing was compared
-    enum rg_outcome ended;       // what the errors come to
-    bool is_bad_input;           // one of them is the user's
-    char first[400];             // what went wrong first
+    int unlike;                  // not identical, but within the tier
+    int dry;                     // without rain, so that nothing was compared
+    enum rg_outcome ended;       // the outcome of errors
+    bool is_bad_input;           // one of the errors is an input error
+    char first[400];             // the first failure
 };
 
 enum { MAX_LAWS = 8, STATE = 0, IMAGE = 1, LAWS = 2 };
 
-// One device's tallies: state, image, and each law.
+// One device's results: state, image, and each law.
 struct row {
     struct rg_device *device;
-    enum rg_tier tier; // that it owes the reference
+    enum rg_tier tier; // required of it
     struct tally tallies[LAWS + MAX_LAWS];
-    struct rg_session *last; // open until the next one is: what instances share is made once
+    struct rg_session *last; // kept open until the next one is, so that shared data is made once
 };
 
-// One seed and one pose.
+// One case: a seed and a pose.
 struct one_case {
     char name[256];
     void *settings;
     int steps;
     struct rg_snapshot expected;
     struct rg_picture expected_picture;
-    bool with_dry; // whether `dry`, the background of the rain mask, is wanted
+    bool with_dry; // draw `dry`, the background for the rain mask
     struct rg_picture dry;
 };
 
@@ -61,7 +61,7 @@ static void blame(struct tally *tally, const struct one_case *c, const char *for
     va_end(args);
 }
 
-// Keeps the first error. An error takes the place of an "unsupported", which says less.
+// Keeps the first error, except that an error replaces an "unsupported", which says less.
 static void note_error(struct tally *tally)
 {
     const struct rg_failure failure = rg_failure_take();
@@ -126,7 +126,7 @@ struct rg_session *rg_verify_run(struct rg_verify *v, struct rg_device *device,
 
 // --- state ---
 
-// Runs both devices side by side and describes the first difference, with the step that made it.
+// Runs both devices side by side and describes the first difference, with the step that caused it.
 static void describe_first(struct rg_verify *v, struct rg_device *device, const struct one_case *c,
                            char *text, size_t size)
 {
@@ -160,7 +160,7 @@ static void check_state(struct rg_verify *v, struct row *row, const struct one_c
     if (rg_snapshot_same_state(now, &c->expected))
         return;
     if (row->tier != RG_T0) {
-        tally->unlike++; // the other tiers judge the image alone
+        tally->unlike++; // other tiers judge only the image
         return;
     }
     char text[256] = "";
@@ -238,7 +238,7 @@ static void note_errors(const struct rg_verify *v, struct row *row)
         note_error(&row->tallies[i]);
 }
 
-// Runs a case on a row's device up to its snapshot. The session is the row's. NULL on failure.
+// Runs a case on a row's device and takes the snapshot. The row owns the session. NULL on failure.
 static struct rg_session *run_case(struct rg_verify *v, struct row *row, struct one_case *c,
                                    struct rg_snapshot *now)
 {
@@ -265,8 +265,8 @@ static void check_device(struct rg_verify *v, struct row *row, struct one_case *
     rg_snapshot_free(&now);
 }
 
-// Takes the snapshots of cpu:reference that the others are compared with. False on failure, which
-// the reference's row tells.
+// Takes cpu:reference's snapshots, with which the others are compared. False on failure, which the
+// reference's row reports.
 static bool expect(struct rg_verify *v, struct row *reference, struct one_case *c)
 {
     struct rg_session *session = run_case(v, reference, c, &c->expected);
@@ -281,7 +281,7 @@ static bool expect(struct rg_verify *v, struct row *reference, struct one_case *
     return ok;
 }
 
-// Of an image without rain nothing can be said.
+// Counts an image without rain, which proves nothing.
 static void note_dry_image(const struct one_case *c, struct row *rows, int count)
 {
     const size_t bytes = (size_t)rg_picture_values(&c->dry) * sizeof(float);
@@ -310,8 +310,8 @@ static void run_one(struct rg_verify *v, struct row *rows, int count, struct one
     rg_picture_destroy(&c->dry);
 }
 
-// Tiers T1 and T2 are judged over the rain mask, and so always need `dry`. T0 needs it once a pose,
-// to see that there is rain at all.
+// Tiers T1 and T2 use the rain mask, so they always need `dry`. T0 needs it once a pose, to check
+// that there is rain at all.
 static bool wants_dry(const struct row *rows, int count, bool is_first)
 {
     bool wanted = is_first;
@@ -320,7 +320,7 @@ static bool wants_dry(const struct row *rows, int count, bool is_first)
     return wanted;
 }
 
-// The user's settings in a pose, with one of the seeds that follow the user's.
+// The user's settings in a pose, with one of the seeds after the user's.
 static bool set_case(const struct rg_verify *v, int seed, const struct rg_pose *pose,
                      struct one_case *c)
 {
@@ -343,8 +343,8 @@ static const char *check_name(const struct rg_verify *v, int check)
     return check < LAWS ? names[check] : v->technique->proof->laws[check - LAWS].name;
 }
 
-// The least exit status of the whole: where cpu:reference failed, nothing is proven, however many
-// other checks are ok.
+// The least bad exit status of all: if cpu:reference failed, nothing is proven, however many checks
+// are ok.
 static int least_exit(const struct tally *t, bool is_reference)
 {
     if (t->is_bad_input)
@@ -362,7 +362,7 @@ static void name_runs(const struct tally *t, char *text, size_t size)
         snprintf(text + used, size - (size_t)used, " steps");
 }
 
-// `reference` is the first row.
+// Adds a row's check to the results; `reference` is the first row.
 static void report(struct rg_verify *v, const struct row *reference, const struct row *row,
                    int check)
 {

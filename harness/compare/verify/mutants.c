@@ -1,10 +1,10 @@
-// Mutants: a comparison that accepts a model that is a little off proves nothing. Each is drawn on
-// one device and compared with the true model's image, at the loosest tier that verify accepts, T1,
-// or at one that is asked for.
-// They have a scene of their own, the proof's over the technique's defaults, whatever the user
-// sets: a mutant of a pane without drops would live. And they are young pictures: by step 1,000 a
-// drop that was missing at the start has run off the pane. Contrasts are mutants that bring their
-// scene along.
+// Mutants: a comparison that accepts a slightly wrong model proves nothing. Each mutant is drawn on
+// one device and compared with the true model's image, at T1, the loosest tier that verify accepts,
+// or at a requested tier.
+//  They have a scene of their own, the proof's over the technique's defaults, regardless of the
+//  user's settings, since on a pane without drops a mutant would survive. And their pictures are
+//  early ones: by step 1,000 a drop missing at the start would have run off the pane. Contrasts are
+//  mutants with their own scenes.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,7 +60,7 @@ static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, ch
     return is_one;
 }
 
-// The image of the scene, with `assignments` over it.
+// Draws the scene with `assignments` applied.
 static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture *picture)
 {
     void *settings = rg_settings_copy(v->technique, v->settings, assignments);
@@ -73,7 +73,7 @@ static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture
     return ok;
 }
 
-// Whether the tier notices the mutant: there is rain, and it is not the model's.
+// Whether the tier notices the mutant: there is rain, and it differs from the model's.
 static bool is_rejected(const struct rg_picture *truth, const struct rg_picture *other,
                         const struct rg_picture *dry, struct verdicts *verdicts)
 {
@@ -106,7 +106,7 @@ static void run_all(struct rg_verify *v, const struct rg_picture *truth,
         struct rg_picture mutated = {0};
         rg_progress_label(v->progress, "%s: mutant: %s", v->technique->name, m->about);
         if (!mutate(v, m, assignment, sizeof(assignment), verdicts))
-            continue; // the verdicts tell
+            continue; // the verdicts report it
         if (draw(v, assignment, &mutated))
             judge(m->about, truth, &mutated, dry, verdicts);
         else
@@ -161,7 +161,8 @@ static void report(struct rg_verify *v, const struct verdicts *verdicts)
                       *alive ? alive : "there are none");
 }
 
-// The proof's scene over the technique's defaults. NULL, and one logged line, on failure.
+// The settings of the proof's scene over the technique's defaults. NULL, and one logged line, on
+// failure.
 static void *scene_settings(const struct rg_technique *technique)
 {
     const char *scene = technique->proof->mutant_scene;
@@ -178,7 +179,7 @@ static void draw_all(const struct rg_verify *verify, struct verdicts *verdicts)
     scene.settings = settings;
     scene.width = scene.height = SCENE_PX;
     struct rg_picture truth = {0}, dry = {0};
-    // It stays open, so that what instances share on a device is made once.
+    // Stays open, so that data shared on a device is made once.
     struct rg_session *first =
         settings ? rg_verify_run(&scene, scene.mutant_device, settings, 0) : NULL;
     if (first && draw(&scene, "", &truth) && draw_dry(&scene, &dry))

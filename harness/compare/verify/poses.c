@@ -1,14 +1,15 @@
-// Which poses of a technique are run, and for how long.
+// Decides which poses of a technique run, and for how long.
 #include "harness/compare/verify/verify.h"
 
-// QUICK_STEPS and FULL_STEPS are those of poses that do not say. One in USUAL_PART of the full ones
-// is enough for drops to run down a pane and for storms to fill a scene, which later steps repeat.
+// QUICK_STEPS and FULL_STEPS are the defaults of poses. One in USUAL_PART of the full steps is
+// enough for drops to run down a pane and for storms to fill a scene; later steps repeat that.
 enum { QUICK_STEPS = 100, FULL_STEPS = 1000, USUAL_PART = 5 };
 
 static int usual_steps(int quick, int full)
 {
     const int part = (full + USUAL_PART - 1) / USUAL_PART;
-    const int steps = quick > part ? quick : part; // with fewer than the quick ones it may not rain
+    const int steps = quick > part ? quick : part; // with fewer than the quick steps there may be
+                                                   // no rain
     return full == RG_POSE_LEFT_OUT || steps > full ? full : steps;
 }
 

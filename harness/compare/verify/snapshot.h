@@ -1,4 +1,4 @@
-// What a session holds at one moment, on the host: its state, and the image it drew.
+// A snapshot of a session on the host: its state, and its image.
 #ifndef RG_HARNESS_COMPARE_VERIFY_SNAPSHOT_H
 #define RG_HARNESS_COMPARE_VERIFY_SNAPSHOT_H
 
@@ -9,14 +9,14 @@ struct rg_snapshot {
     struct rg_state layout[RG_MAX_STATE]; // names and rows; `asset` is NULL
     void *state[RG_MAX_STATE];
     size_t state_bytes[RG_MAX_STATE];
-    void *texels; // of the target, as the device holds them; NULL: not taken
+    void *texels; // the target's, in the device's format; NULL: not read
     size_t texels_bytes;
 };
 
-// Reads the state, and the image where `with_image`. False, with one logged line, on failure; the
-// snapshot is empty then. The caller calls rg_snapshot_free.
+// Reads the state, and the image if `with_image`. False, with one logged line and an empty
+// snapshot, on failure. The caller calls rg_snapshot_free.
 bool rg_snapshot_take(struct rg_session *session, bool with_image, struct rg_snapshot *snapshot);
-// A zeroed snapshot is accepted.
+// Also accepts a zeroed snapshot.
 void rg_snapshot_free(struct rg_snapshot *snapshot);
 
 bool rg_snapshot_same_state(const struct rg_snapshot *a, const struct rg_snapshot *b);

@@ -1,5 +1,5 @@
-// Stages: which stage is the first that leaves other bits in an asset than cpu:reference, where,
-// and by how much. It takes a few frames of each pose, since every asset is read after every stage.
+// Finds the first stage that leaves other bits in an asset than on cpu:reference, where, and by how
+// much. Runs a few frames of each pose, since every asset is read after every stage.
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -20,7 +20,7 @@ static void blame(struct rg_verify *v, const struct rg_digest_run *run, struct r
 {
     const bool is_exact = rg_tier_owed(&device->info, &v->reference->info) == RG_T0;
     struct rg_blame blame;
-    rg_blame_row(run, device, v->reference, now, expected, &blame); // the text tells of a failure
+    rg_blame_row(run, device, v->reference, now, expected, &blame); // the text reports a failure
     rg_checks_add(v->checks, run->subject.technique->name, "stages", device->info.name,
                   is_exact ? RG_FAIL : RG_OK, "%s%s%s", pose, *pose ? ": " : "", blame.text);
 }
