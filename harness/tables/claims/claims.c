@@ -7,7 +7,8 @@
 #define SAID(table, variant, where, words)    table, variant, NULL, RG_CLAIM_SAID, where, words
 #define PRINTED(table, variant, where, words) table, variant, NULL, RG_CLAIM_PRINTED, where, words
 
-// What "notably", "much" and "greatly" ask for at least, since no paper gives a number with them.
+// The factor that "notably", "much" and "greatly" require, because no paper gives a number with
+// them.
 #define NOTABLY 1.2
 
 // clang-format off
@@ -15,7 +16,7 @@ const struct rg_claim rg_claims[] = {
     // Chin, "Animating Raindrops on a Surface" (2016)
     {SAID("chin-timing", "full", "5", "The simulation runs well at 30fps"),
      .test = RG_CLAIM_RATE, .first = 1, .last = 1, .least = 30},
-    // Of more cells, as quick mode has them.
+    // More cells, as in quick mode.
     {SAID("chin-grid", "full", "5.1", "increases ... the computational expense"),
      .test = RG_CLAIM_FALLS, .first = 1, .last = 3},
 
@@ -35,13 +36,13 @@ const struct rg_claim rg_claims[] = {
      .test = RG_CLAIM_FLATTENS, .first = 1, .knee = 4, .last = 8, .least = 3},
     {SAID("creus-5.5", "full", "5.2.3", "the first row ... has worse performance"),
      .test = RG_CLAIM_SLOWEST, .first = 1, .knee = 1, .last = 6},
-    // Row 6 is the last of packets below 200,000 that draws the printed number of particles, and row 9
-    // the first beyond (docs/city.md).
+    // Row 6 is the last with packets below 200,000 that draws the printed number of particles, row
+    // 9 the first above (docs/city.md).
     {SAID("creus-5.5", "full", "5.2.3", "decrease notably ... beyond the 200000"),
      .test = RG_CLAIM_RATIO, .first = 6, .last = 9, .least = NOTABLY},
     {SAID("creus-5.5", "full", "5.2.3", "has a subtle effect"),
      .test = RG_CLAIM_ALIKE, .first = 2, .last = 6, .most = 1.3, .part = "1,000 to 100,000"},
-    // Rows behind 9 draw other numbers of particles.
+    // Rows after 9 draw other numbers of particles.
     {PRINTED("creus-5.5", "full", "5.2.3", "packets of 1,000 are the fastest"),
      .test = RG_CLAIM_OPTIMUM, .first = 1, .knee = 2, .last = 9},
     {SAID("creus-5.6", "full", "5.2.4", "lights rapidly decrease performance"),
@@ -82,7 +83,7 @@ const struct rg_claim rg_claims[] = {
     {PRINTED("stuppacher-2", "full", "6", "larger texture more than halves the rate"),
      .test = RG_CLAIM_RATIO, .first = 2, .last = 3, .least = 2},
 
-    // With a power of 0.03, 400 times as many drops take a sixth of the rate.
+    // With an exponent of 0.03, 400 times as many drops cost a sixth of the rate.
     {SAID("stuppacher-drops", "full", "6", "number of drops ... does not influence"),
      .test = RG_CLAIM_EXPONENT, .first = 1, .last = 4, .least = -0.03, .most = 0.03},
 
@@ -112,7 +113,7 @@ void rg_claim_title(const struct rg_claim *claim, char title[RG_CLAIM_TITLE])
              claim->part ? ", " : "", claim->part ? claim->part : "");
 }
 
-// Whatever is no letter and no digit parts words, but for commas, which part digits of a number.
+// Characters other than letters and digits separate words, except commas within numbers.
 void rg_claim_id(const struct rg_claim *claim, char id[RG_CLAIM_ID])
 {
     char title[RG_CLAIM_TITLE];

@@ -31,7 +31,7 @@ const struct rg_record *rg_hearing_row(const struct hearing *h, int row)
 
 // --- what must be there ---
 
-enum { ERROR_ROWS = 3 }; // of a knee: the first, itself, and the last
+enum { ERROR_ROWS = 3 }; // rows of a knee: the first, itself, and the last
 
 static int variant_of(const struct rg_result *result, const char *name)
 {
@@ -61,7 +61,7 @@ static bool has_number(const struct hearing *h, int row, int variant)
                            : r->outcome == RG_OK && r->sample_count > 0;
 }
 
-// Of both variants.
+// The least samples of both variants in a row.
 static int fewest_samples(const struct hearing *h, int row)
 {
     const int count = rg_hearing_row(h, row)->sample_count;
@@ -69,7 +69,7 @@ static int fewest_samples(const struct hearing *h, int row)
     return count < other ? count : other;
 }
 
-// The record of a row that was measured and failed, of either variant; NULL where there is none.
+// The failed record of a measured row, of either variant; NULL where there is none.
 static const struct rg_record *failed(const struct hearing *h, int row)
 {
     const struct rg_record *r = has_row(h, row) ? rg_hearing_row(h, row) : NULL;
@@ -78,7 +78,7 @@ static const struct rg_record *failed(const struct hearing *h, int row)
     return r && r->outcome != RG_OK ? r : NULL;
 }
 
-// Ends with why a row has no number. Returns false.
+// Ends with the reason why a row has no number. Returns false.
 static bool end_without_number(struct hearing *h, int row)
 {
     const struct rg_record *r = failed(h, row);
@@ -92,7 +92,7 @@ static bool end_without_number(struct hearing *h, int row)
     return false;
 }
 
-// Whether a claim can do without a row: those between the first and the last, but for a knee.
+// Whether a claim can be judged without a row: those between the first and the last, except a knee.
 static bool can_miss(const struct rg_claim *c, int row)
 {
     return rg_claim_is_of_each_row(c) || (row != c->first && row != c->last && row != c->knee);
@@ -103,8 +103,8 @@ int rg_hearing_step(const struct rg_claim *c)
     return c->test == RG_CLAIM_RATIO ? c->last - c->first : 1;
 }
 
-// Takes the claim's rows. Those that are other work take no part. Ends the hearing where some that
-// it needs are missing, or are other work; true if it goes on.
+// Collects the claim's rows, without those that did other work. Ends where required ones are
+// missing or did other work; true if the claim can be judged.
 static bool hear_rows(struct hearing *h)
 {
     const struct rg_claim *c = h->claim;

@@ -5,7 +5,7 @@
 
 static const char *const sources[] = {[RG_CLAIM_SAID] = "said", [RG_CLAIM_PRINTED] = "printed"};
 
-// What a test is called, and which bounds it has (docs/claims.md).
+// Tests by name, with their bounds (docs/claims.md).
 static const struct test {
     const char *name;
     bool has_least, has_most;
@@ -18,7 +18,7 @@ static const struct test {
     [RG_CLAIM_CROSSES] = {"crosses", false, false}, [RG_CLAIM_FLATTENS] = {"flattens", true, false},
 };
 
-// The key of the paper that a table is of.
+// The paper's key, from its table's id.
 static const char *paper_of(const struct rg_claim *claim)
 {
     const struct rg_table *table = rg_table_find(claim->table);
@@ -37,7 +37,7 @@ static json_t *knee_json(const struct rg_claim *claim)
     return claim->knee ? json_pack("[ii]", claim->knee, until) : json_null();
 }
 
-// What is claimed, and how that is put to the test, without a verdict.
+// A claim and its test, without a verdict.
 static json_t *claim_json(const struct rg_claim *claim)
 {
     const struct test *test = &tests[claim->test];

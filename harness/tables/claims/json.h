@@ -1,10 +1,10 @@
-// Verdicts on the claims of all papers, for programs.
+// Verdicts on the claims of all papers, as JSON.
 #ifndef RG_HARNESS_TABLES_CLAIMS_JSON_H
 #define RG_HARNESS_TABLES_CLAIMS_JSON_H
 
 #include "harness/tables/claims/sheet.h"
 
-// The document of docs/records.md; the caller owns it. NULL without memory.
+// The document described in docs/records.md; the caller owns it. NULL when memory runs out.
 json_t *rg_claims_json(const struct rg_claim_outcomes *outcomes);
 
 #endif

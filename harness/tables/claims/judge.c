@@ -6,7 +6,7 @@
 #include "harness/tables/claims/margin.h"
 #include "harness/tables/claims/order.h"
 
-// Half of the 5 % is for either side.
+// The 5 % are divided between both sides.
 #define ERROR_SHARE 0.025
 
 enum { ROW_SIZE = 160, ABOUT_SIZE = 448 };
@@ -25,12 +25,12 @@ double rg_claim_probability(const struct rg_judgement *j)
 
 // --- pairs of cells ---
 
-// Probabilities gathered over what a claim needs: that all of it holds is as sure as the least sure
-// part; that some part fails is corrected for the number of parts.
+// P values over the parts of a claim. The whole is as sure as its least sure part; that some part
+// fails is corrected for the number of parts.
 struct parts {
     int count;
     double against, in_favour;
-    char least_sure[ABOUT_SIZE], most_wrong[ABOUT_SIZE]; // what they are about
+    char least_sure[ABOUT_SIZE], most_wrong[ABOUT_SIZE]; // names of these parts
 };
 
 static const struct parts no_parts = {.in_favour = 1};
@@ -49,15 +49,15 @@ static void add_probabilities(struct parts *parts, double against, double in_fav
     parts->count++;
 }
 
-// How many times as fast one cell is to be as another: surely, so that it counts for the claim, and
-// so that less counts against it. They differ by what print does not tell (claims/margin.h).
+// The required ratio of two cells: enough to count for the claim (`holds`), and little enough to
+// count against it (`fails`). They differ by the rounding of print (claims/margin.h).
 struct bound {
     double holds, fails;
 };
 
 static const struct bound faster_at_all = {1, 1};
 
-// Frames a second in so many digits, or more: not as a power of ten.
+// A frame rate with at least so many digits, without an exponent.
 static const char *fps_text(double fps, int digits, char text[24])
 {
     if (fps < 999)
@@ -67,7 +67,7 @@ static const char *fps_text(double fps, int digits, char text[24])
     return text;
 }
 
-// `faster` is to be so many times as fast as `slower`.
+// Adds the part "`faster` is at least so many times as fast as `slower`".
 static void add_part(struct parts *parts, const struct rg_record *faster,
                      const struct rg_record *slower, struct bound bound)
 {
@@ -76,7 +76,7 @@ static void add_part(struct parts *parts, const struct rg_record *faster,
     rg_record_row_name(slower, name[1], sizeof(name[1]));
     fps_text(rg_record_fps(faster), 4, fps[0]);
     fps_text(rg_record_fps(slower), 4, fps[1]);
-    if (!strcmp(name[0], name[1])) // of two variants
+    if (!strcmp(name[0], name[1])) // two variants of a row
         snprintf(about, sizeof(about), "%s, %s against %s: %s to %s fps", name[0], faster->variant,
                  slower->variant, fps[0], fps[1]);
     else
@@ -152,7 +152,7 @@ static struct rg_judgement judge_alike(struct hearing *h, double apart)
     return judge_parts(h, &parts);
 }
 
-// The opposite of alike.
+// The opposite of ALIKE.
 static struct rg_judgement judge_apart(struct hearing *h)
 {
     judge_alike(h, h->claim->least);
@@ -176,8 +176,8 @@ static struct rg_judgement judge_faster(struct hearing *h)
     return judge_parts(h, &parts);
 }
 
-// Before the crossing the second variant is faster, and from there the first. Where print has both
-// alike, it says neither.
+// Before the crossing the second variant is faster, and from there on the first. Equal printed
+// rates say neither.
 static struct rg_judgement judge_crosses(struct hearing *h)
 {
     struct parts parts = no_parts;
@@ -207,7 +207,7 @@ static bool is_within(const struct rg_claim *c, int row)
     return row >= c->knee && row <= (c->until ? c->until : c->knee);
 }
 
-// Whether the row is faster than each that is not within.
+// Whether a row is faster than each row outside the range.
 static struct parts beats_others(const struct hearing *h, int row)
 {
     struct parts parts = no_parts;
@@ -217,8 +217,8 @@ static struct parts beats_others(const struct hearing *h, int row)
     return parts;
 }
 
-// One of the rows within is faster than all others: whichever is surest, chosen out of so many. It
-// is not so where, of each of them, some other is faster.
+// Some row in the range is faster than all others; the surest is chosen, with a correction for the
+// choice. The claim fails if every row in the range is beaten by a row outside it.
 static struct rg_judgement judge_optimum(struct hearing *h)
 {
     struct parts best = no_parts;
@@ -237,7 +237,7 @@ static struct rg_judgement judge_optimum(struct hearing *h)
     return judge_parts(h, &best);
 }
 
-// Of frame rates themselves, the samples on either side of what is due decide.
+// Counts samples on either side of the required frame rate.
 static struct rg_judgement judge_rate(struct hearing *h)
 {
     struct parts parts = no_parts;
@@ -285,7 +285,7 @@ static struct rg_judgement judge_exponent(struct hearing *h)
                           high);
 }
 
-// Errors of images are the same at each run.
+// Errors of images are the same in every run.
 static struct rg_judgement judge_flattens(struct hearing *h)
 {
     const double first = rg_hearing_row(h, h->claim->first)->truth_error.flip_mask_mean;
@@ -327,8 +327,8 @@ static struct rg_judgement judge(struct hearing *h)
     return h->judgement;
 }
 
-// What each row must bear out no part of the rows bears out, and that no two are apart no part of
-// them says: others may be missing that say otherwise.
+// Some rows cannot confirm a claim about every row, nor that no two rows differ, because missing
+// rows may refute it.
 static struct rg_judgement hold_back(struct hearing *h)
 {
     const enum rg_claim_test test = h->claim->test;

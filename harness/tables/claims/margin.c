@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Of a normal distribution: what half of it is within, and what 95 % are within, in standard
-// deviations.
+// Quantiles of the normal distribution: half of it is within the first, 95 % within the second, in
+// standard deviations.
 #define HALF_WITHIN 0.6745
 #define MOST_WITHIN 1.96
 
@@ -30,8 +30,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// By how much a row's logarithm is off the line between its neighbours, as if it were alone in
-// being off by one standard deviation; false where it is no row between two of its group.
+// How far a row's logarithm is from the line between its neighbours, scaled as if only that row had
+// an error of one standard deviation; false unless it is between two rows of its group.
 static bool is_off(const struct rg_slope_point *p, const double *printed, int count, int i,
                    double *off)
 {
@@ -43,8 +43,8 @@ static bool is_off(const struct rg_slope_point *p, const double *printed, int co
     return isfinite(*off);
 }
 
-// The standard deviation of printed rows about their neighbours, by the middle of what they are
-// off, which one bend of the curve does not change; 0 of fewer than three rows.
+// The standard deviation of printed rows from their neighbours, from the median deviation, which a
+// single bend of the curve does not affect; 0 for fewer than three rows.
 static double scatter(const struct rg_slope_point *points, const double *printed, int count)
 {
     double offs[RG_SLOPE_POINTS];
@@ -63,7 +63,8 @@ double rg_margin_slope(const struct rg_slope_point *points, const double *weight
     const double sigma = scatter(points, printed, count);
     double variance = 0;
     for (int i = 0; i < count; i++) {
-        const double half = rg_margin_rounding(printed[i]); // evenly spread: a third of its square
+        const double half = rg_margin_rounding(printed[i]); // uniformly distributed, so that the
+                                                            // variance is a third of its square
         variance += weights[i] * weights[i] * (sigma * sigma + half * half / 3);
     }
     return MOST_WITHIN * sqrt(variance);

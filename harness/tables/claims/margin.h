@@ -1,4 +1,4 @@
-// How far printed numbers can be from what was measured for them.
+// The errors of printed numbers.
 #ifndef RG_HARNESS_TABLES_CLAIMS_MARGIN_H
 #define RG_HARNESS_TABLES_CLAIMS_MARGIN_H
 
@@ -6,16 +6,15 @@
 
 #include "harness/record/slope.h"
 
-// Half of the last digit that a number has in print, as a share of it: 22.5 is anything from 22.45
-// to 22.55, and 0.05 / 22.5. NAN, where nothing is printed, has none.
+// The relative rounding error of a printed number: 22.5 stands for 22.45 to 22.55, so 0.05 / 22.5.
+// NAN for NAN.
 double rg_margin_rounding(double printed);
-// Whether the first is larger than the second by more than rounding hides.
+// Whether the first is larger than the second despite rounding.
 bool rg_margin_orders(double larger, double smaller);
 
-// How far the slope of printed frame rates along the axis can be from that of the rows' own rates,
-// with 95 %: by rounding, and by how much each row is off the line between its neighbours, as a
-// standard deviation of what all rows scatter. Points are in the order of the axis, by group, and
-// have weights.
+// The 95 % error of the slope of printed frame rates along the axis: from rounding, and from the
+// rows' deviations from the line between their neighbours as a standard deviation. Points are
+// sorted by group and axis, and have weights.
 double rg_margin_slope(const struct rg_slope_point *points, const double *weights,
                        const double *printed, int count);
 

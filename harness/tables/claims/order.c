@@ -5,7 +5,7 @@
 
 enum { EXACT = 20 };
 
-// Of how many pairs the first is below the second; a tie counts half.
+// The number of pairs in which the first is below the second; a tie counts half.
 static double pairs_below(const double *low, int low_count, double factor, const double *high,
                           int high_count)
 {
@@ -18,15 +18,15 @@ static double pairs_below(const double *low, int low_count, double factor, const
     return below;
 }
 
-// The probability of each count of m n pairs. The largest of all samples is of the first set with
-// probability m / (m + n), and then below none of the other; else it is above all m. So the
+// The probability of each count of the m n pairs. The largest sample is from the first set with
+// probability m / (m + n), and then below none of the other; otherwise it is above all m. So the
 // distribution of (m, n) follows from those of (m - 1, n) and (m, n - 1).
 static void make_distribution(int m, int n, double p[EXACT + 1][EXACT * EXACT + 1])
 {
     for (int i = 0; i <= m; i++) {
         for (int j = 0; j <= n; j++) {
             double *now = p[j];
-            const double *fewer = j ? p[j - 1] : NULL; // of i and j - 1, made before
+            const double *fewer = j ? p[j - 1] : NULL; // the distribution of i and j - 1
             double next[EXACT * EXACT + 1];
             for (int u = 0; u <= i * j; u++) {
                 // `now` still holds i - 1 and j.
@@ -40,8 +40,8 @@ static void make_distribution(int m, int n, double p[EXACT + 1][EXACT * EXACT + 
     }
 }
 
-// The probability of at least `pairs` of m n pairs. Most questions are about as many samples as the
-// one before, so that its distribution is kept.
+// The probability of at least `pairs` of m n pairs. Keeps the last distribution, because the next
+// question is mostly about the same numbers of samples.
 static double exact(int m, int n, int pairs)
 {
     static _Thread_local double p[EXACT + 1][EXACT * EXACT + 1];
@@ -77,7 +77,7 @@ double rg_sign_probability(const double *samples, int count, double bound, int s
     }
     double probability = pow(0.5, apart), sum = 0;
     for (int k = apart; k >= on_side; k--) {
-        sum += probability; // of k coins, or as many on the other side
+        sum += probability; // of k heads, or as many tails
         probability *= (double)k / (apart - k + 1);
     }
     return sum;

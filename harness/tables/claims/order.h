@@ -1,17 +1,17 @@
-// Whether one cell is faster than another, from their samples.
+// Tests whether one cell is faster than another, from their samples.
 #ifndef RG_HARNESS_TABLES_CLAIMS_ORDER_H
 #define RG_HARNESS_TABLES_CLAIMS_ORDER_H
 
-// The probability that, of two sets of independent samples of one distribution, the first lies as
-// far below the second as `low` lies below `high`, or farther (Mann and Whitney, 1947): small where
-// `low` is truly lower. Each value of `low` is multiplied by `factor` first. Exact for up to 20
-// samples each, else by the normal distribution.
+// The p value of Mann and Whitney's test (1947): the probability that of two sets of independent
+// samples from one distribution, the first is at least as far below the second as `low` is below
+// `high`. It is small where `low` is truly lower. Each value of `low` is multiplied by `factor`
+// first. Exact for up to 20 samples each, otherwise by the normal distribution.
 double rg_order_probability(const double *low, int low_count, double factor, const double *high,
                             int high_count);
 
-// The probability that, of independent samples whose median is `bound`, as many lie below it as of
-// these do, or more (the sign test): small where their median is truly lower. With `side` -1
-// instead of 1, above it. Samples that are equal to it count neither way.
+// The p value of the sign test: the probability that of independent samples with median `bound`, at
+// least as many are below it as of these. It is small where their median is truly lower. With
+// `side` -1 instead of 1: above it. Samples equal to it are ignored.
 double rg_sign_probability(const double *samples, int count, double bound, int side);
 
 #endif

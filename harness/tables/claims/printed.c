@@ -1,4 +1,4 @@
-// Whether a paper's own table bears out what it claims.
+// Tests whether a paper's own table supports its claims.
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "harness/tables/claims/margin.h"
 #include "harness/tables/papers/papers.h"
 
-// Of the table, where there is one: rows that are not measured are printed all the same.
+// From the table, if there is one, since unmeasured rows are printed all the same.
 static double printed_fps(const struct hearing *h, int row, int variant)
 {
     const struct rg_table *table = rg_table_find(h->claim->table);
@@ -82,7 +82,7 @@ static bool print_has_optimum(const struct hearing *h)
     return within >= others;
 }
 
-// Takes all rows that print has. False where a variant is missing, or nothing is printed.
+// Takes all printed rows. False where a variant is missing, or nothing is printed.
 static bool take_rows(struct hearing *h)
 {
     const struct rg_claim *c = h->claim;
@@ -126,11 +126,11 @@ bool rg_hearing_print_contradicts(const struct hearing *h)
 {
     struct hearing printed = *h;
     if (printed.at.work < 0)
-        printed.at.work = 0; // each work has the same beside it in print
+        printed.at.work = 0; // all works have the same printed numbers
     return take_rows(&printed) && contradicts(&printed);
 }
 
-// Of what differs most in print, where a claim is about all its rows.
+// The largest rounding error, where a claim is about all its rows.
 static double most_rounding(const struct hearing *h)
 {
     double most = 0;

@@ -9,7 +9,7 @@
 #include "core/base/log.h"
 #include "harness/console/colour.h"
 
-// How the page says a verdict, and what its notes say that this is.
+// The marks of verdicts on the page; its notes explain them.
 static const char *const marks[RG_CLAIM_VERDICTS] = {"yes", "no", "open", "other"};
 
 void rg_claims_length(const struct rg_result *result, char *text, size_t size)
@@ -22,7 +22,7 @@ void rg_claims_length(const struct rg_result *result, char *text, size_t size)
                  result->size_divisor);
 }
 
-// What its document says of that (docs/records.md), and on what it was measured.
+// Adds the result's own JSON description (docs/records.md), and its devices.
 static bool add_table(struct rg_claim_outcomes *o, const struct rg_result *result)
 {
     if (!o->tables && !(o->tables = json_array()))
@@ -60,13 +60,13 @@ void rg_claims_free(struct rg_claim_outcomes *outcomes)
     *outcomes = (struct rg_claim_outcomes){0};
 }
 
-// "reference" for "cpu:reference", where a page is to be no wider than a screen.
+// "reference" for "cpu:reference", because a page must fit a screen.
 static const char *short_name(const char *device)
 {
     return strcmp(device, "cpu:reference") ? device : "reference";
 }
 
-// The column of a device, which is added where there is none.
+// The column of a device, which is added if it is missing.
 static int column_of(struct rg_sheet *sheet, const char *device)
 {
     for (int i = 0; i < sheet->column_count; i++)
@@ -113,7 +113,7 @@ static void add_rows(const struct rg_claim_outcomes *o, bool wide, struct rg_she
     }
 }
 
-// What the marks mean, and where the reasons are.
+// Adds an explanation of the marks, and where to find the reasons.
 static void add_legend(struct rg_sheet *sheet)
 {
     rg_sheet_note(sheet, "%s: %s; %s: %s; %s: %s; %s: %s.", marks[RG_CLAIM_REPRODUCED],
@@ -126,7 +126,7 @@ static void add_legend(struct rg_sheet *sheet)
                   "probability behind it.");
 }
 
-// ", p 0.004": the probability behind a verdict; "" where none is.
+// ", p 0.004": the p value behind a verdict; "" without one.
 static void print_probability(const struct rg_judgement *j, char *text, size_t size)
 {
     const double p = rg_claim_probability(j);
@@ -143,8 +143,8 @@ static bool end_alike(const struct rg_claim_outcome *a, const struct rg_claim_ou
            !strcmp(a->judgement.why, b->judgement.why);
 }
 
-// The devices of which the same is to be said, from one on: "gl, vulkan"; "" when it was said
-// before.
+// The devices with the same verdict and reason, from one on: "gl, vulkan"; "" if an earlier one had
+// it.
 static void name_alike(const struct rg_claim_outcomes *o, int from, char *text, size_t size)
 {
     size_t used = 0;
@@ -160,8 +160,8 @@ static void name_alike(const struct rg_claim_outcomes *o, int from, char *text, 
     }
 }
 
-// The tables of which a length was judged, from an outcome on: "feng-1, feng-2"; "" when it was
-// told before.
+// The tables judged at one length, from an outcome on: "feng-1, feng-2"; "" if that length was
+// listed before.
 static void name_tables(const struct rg_claim_outcomes *o, int from, char *text, size_t size)
 {
     size_t used = 0;
@@ -189,7 +189,7 @@ static void add_lengths(const struct rg_claim_outcomes *o, struct rg_sheet *shee
     }
 }
 
-// Claims that were judged by fewer rows than they are about.
+// Lists claims that were judged by only some of their rows.
 static void add_fewer_rows(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
 {
     const struct rg_claim *told = NULL;
@@ -245,7 +245,7 @@ static void add_reasons(const struct rg_claim_outcomes *o, struct rg_sheet *shee
     }
 }
 
-// What a verdict is painted with on a terminal.
+// The terminal's colour of a verdict.
 static const char *paint(const char *cell)
 {
     static const char *const colours[RG_CLAIM_VERDICTS] = {RG_GREEN, RG_RED, RG_YELLOW, RG_YELLOW};

@@ -1,21 +1,21 @@
 // Chin, "Animating Raindrops on a Surface" (2016). The numbers are those of
-// results/published/chin-timing.csv, which a test compares. The paper has one time; how it comes
-// about is told by tables of our own.
+// results/published/chin-timing.csv, which a test compares. The paper has one time; tables of our
+// own show what it consists of.
 #include "harness/tables/papers/published.h"
 
 enum { OFF, ON };
 
-// What the paper's program draws.
+// The paper's program draws particles.
 #define VIEW "view=particles"
-// Rows let it rain so hard that the drops that there may be are there after so many steps, and that
-// waters meet in every step: by the paper's rules drops at rest stay, and a pane that is full of
-// them does nothing more. Water gathers, so that they are timed in the 20 steps behind these.
+// Rain is so heavy that after `steps` the number of drops reaches its limit, and that water merges
+// in every step: by the paper's rules drops at rest stay, and on a pane full of them nothing
+// happens. Since water gathers, the 20 steps after these are timed.
 #define PANE(picture_width, picture_height, steps)                                                 \
     .technique = "drops", .width = (picture_width), .height = (picture_height),                    \
     .check_frames = (steps), .window_frames = 20,                                                  \
     .counted = {"drops_stepped", "cells_stepped", "merging_steps"}
 
-// Section 5: what a frame takes with the parameters of table 3.
+// Section 5: the time of a frame with the parameters of table 3.
 static const struct rg_table_row timing[] = {
     {"drops_s=1500", {1000, 600, 0.5, 700, ON, ON, ON, ON, 14.8, 31.8}, NULL},
 };
@@ -44,7 +44,7 @@ const struct rg_table rg_table_chin_timing = {
         "a second on one thread; OMP_NUM_THREADS=1 measures cpu so.",
 };
 
-// The drops, on a pane with room for all of them.
+// The number of drops, on a pane with room for all.
 #define SMALL_DROPS "columns=4000 rows=2400 critical_mass_mg=5 max_mass_mg=5 "
 static const struct rg_table_row drops[] = {
     {SMALL_DROPS "max_drops=100 drops_s=600", {100}, NULL},
@@ -72,7 +72,7 @@ const struct rg_table rg_table_chin_drops = {
             "rows.",
 };
 
-// The cells, with as many drops an area as in the paper.
+// The number of cells, with the paper's number of drops for each area.
 static const struct rg_table_row grid[] = {
     {"columns=250 rows=150 max_drops=44 drops_s=188", {37500, 250, 150, 44}, NULL},
     {"columns=500 rows=300 max_drops=175 drops_s=750", {150000, 500, 300, 175}, NULL},

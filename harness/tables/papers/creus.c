@@ -2,7 +2,8 @@
 // results/published/creus-*.csv, which a test compares.
 #include "harness/tables/papers/published.h"
 
-// The thesis draws thin streaks where they cover a pixel's middle, and one splash for all surfaces.
+// The thesis draws thin streaks if they cover a pixel's middle, and has one splash for all
+// surfaces.
 #define POINTS                                                                                     \
     "thin_streaks=points splash_materials=off splash_up=vertical splash_s=0.15 "                   \
     "splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 splash_fade=0 far_layers=0"
@@ -16,7 +17,7 @@
     RAIN, .variants = {{"full", POINTS, "fps"},                                                    \
                        {"no_geometry", POINTS " geometry=off", "fps_no_geometry"}}
 
-// The thesis draws whole packets. How many textures a light it reads is said twice, and not alike.
+// The thesis draws whole packets. It gives two different numbers of textures for a light.
 #define WORKS                                                                                      \
     .works = {                                                                                     \
         {"paper", "blocks=all taps=2", "", .reading = "two textures a light (section 4.4.2)"},     \
@@ -24,7 +25,7 @@
         {"ours", "blocks=seen taps=2",                                                             \
          "of the packets, only those blocks of 32 particles are drawn that the view sees"}}
 
-// What the limits leave out is seen where they cut: packets that are drawn whole reach beyond them.
+// Errors of the limits show where they cut, and whole packets would reach beyond them.
 #define LIMITED "sparse=1 cull=exact"
 
 // Table 5.1: sizes of the atlases' levels.
@@ -76,7 +77,7 @@ const struct rg_table rg_table_creus_5_2 = {
     .note = "The animation is an image of 21 layers, one a frame.",
 };
 
-// Table 5.3: the local space's height, seen by two cameras. The last row of each is the whole rain
+// Table 5.3: the local space's height, for two cameras. The last row of each has the whole rain
 // space.
 #define FIRST  "camera=first local_height_m="
 #define SECOND "camera=second local_height_m="
@@ -109,7 +110,7 @@ const struct rg_table rg_table_creus_5_3 = {
     .columns = {"local_height_m", "camera", "total_particles", "particles", "fps",
                 "fps_no_geometry"},
     .key_count = 2,
-    // Blocks change no picture: both works share the truth.
+    // Blocks do not change the picture, so both works share the truth.
     .truth = "limits=off blocks=seen",
     .shown = LIMITED,
     .row_count = 18,
@@ -137,8 +138,8 @@ const struct rg_table rg_table_creus_5_4 = {
     .about = "frame rate by the culling radius (Creus, table 5.4)",
     .columns = {"culling_radius_m", "particles", "fps", "fps_no_geometry"},
     .key_count = 1,
-    // Without limits the radius means nothing, and blocks change no picture: rows and works share
-    // the truth.
+    // Without limits the radius has no effect, and blocks do not change the picture, so all rows
+    // and works share the truth.
     .truth = "limits=off culling_radius_m=20 blocks=seen",
     .shown = LIMITED,
     .row_count = 8,
@@ -147,7 +148,7 @@ const struct rg_table rg_table_creus_5_4 = {
             "the first camera (the thesis does not say which).",
 };
 
-// Table 5.5: particles a packet.
+// Table 5.5: particles in a packet.
 static const struct rg_table_row rows_5_5[] = {
     {"camera=second packet_size=100", {100, 895322, 22.5, 32}, NULL},
     {"camera=second packet_size=1000", {1000, 938875, 28, 36}, NULL},

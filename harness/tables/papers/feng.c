@@ -2,7 +2,7 @@
 // results/published/feng-*.csv, which a test compares.
 #include "harness/tables/papers/published.h"
 
-// After so many steps as much rain has reached the ground as is released.
+// After so many steps, as much rain reaches the ground as is released.
 #define RAIN                                                                                       \
     .technique = "cartoon",                                                                        \
     .hardware = "AMD Athlon XP 2500+ 1.83 GHz with NVIDIA GeForce 6800 LE", .names = "model",      \
@@ -57,7 +57,7 @@ const struct rg_table rg_table_feng_1 = {
         "rows 1, 4 and 7.",
 };
 
-// Table 2: drops that are released.
+// Table 2: the number of drops released.
 #define RATES(scene, at_6000, at_8000, at_10000, at_15000, at_20000)                               \
     {PAPER "style=cartoon scene=" scene " drops_s=6000", {6000, at_6000}, scene},                  \
         {PAPER "style=cartoon scene=" scene " drops_s=8000", {8000, at_8000}, scene},              \

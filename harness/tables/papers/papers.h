@@ -1,10 +1,10 @@
-// All published tables, by the papers that have them.
+// All tables of papers.
 #ifndef RG_HARNESS_TABLES_PAPERS_PAPERS_H
 #define RG_HARNESS_TABLES_PAPERS_PAPERS_H
 
 #include "harness/tables/papers/published.h"
 
-// All tables, NULL-terminated, made by the build from the list in meson.build beside this.
+// All tables, NULL-terminated; the build generates the list from meson.build in this folder.
 extern const struct rg_table *const rg_tables[];
 
 // The table of this id, or NULL.

@@ -33,7 +33,7 @@ double rg_table_value(const struct rg_table *table, int row, const char *column)
     return NAN;
 }
 
-// The parameter whose choices a column has; NULL where it has numbers.
+// The parameter with choices that a column has; NULL for a column of numbers.
 static const struct rg_param *choice_of(const struct rg_table *table, int column)
 {
     const struct rg_technique *technique = rg_technique_find(table->technique);

@@ -1,4 +1,4 @@
-// Drawing itself. No paper: its rows compare devices with each other.
+// Tables of drawing itself. There is no paper: rows compare devices with each other.
 #include "harness/tables/papers/published.h"
 
 static const struct rg_table_row rows_1[] = {

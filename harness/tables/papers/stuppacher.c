@@ -2,8 +2,8 @@
 // results/published/stuppacher-*.csv, which a test compares.
 #include "harness/tables/papers/published.h"
 
-// The box has six panes, each with a height map of its own that water moves on. The paper does not
-// say how many maps it moved.
+// The box has six panes, each with a height map on which water moves. The paper does not say how
+// many of them it simulated.
 #define SIX_MAPS "six height maps are moved, one for each pane of the box"
 #define OURS                                                                                       \
     {                                                                                              \
@@ -41,7 +41,7 @@ const struct rg_table rg_table_stuppacher_1 = {
             "stuppacher-2 has it, shows no model, and is left out.",
 };
 
-// Table 2: frame rates with different texture resolutions, a mirror.
+// Table 2: frame rates with several texture resolutions, for a mirror.
 static const struct rg_table_row rows_2[] = {
     {"move=paper panes=mirror resolution_px=128", {128, 480}, NULL},
     {"move=paper panes=mirror resolution_px=512", {512, 160}, NULL},
@@ -68,7 +68,7 @@ const struct rg_table rg_table_stuppacher_2 = {
             "512x512 view (the paper does not say), the same seeded drops at every resolution.",
 };
 
-// The number of drops, of which the paper says that it does not matter (section 6).
+// The number of drops, which the paper says does not matter (section 6).
 #define MIRROR "move=paper panes=mirror resolution_px=512 "
 static const struct rg_table_row drops[] = {
     {MIRROR "drops=10", {10}, NULL},

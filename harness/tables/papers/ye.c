@@ -1,5 +1,5 @@
 // Ye, "Raining Simulation based on Improved Particle Systems algorithms". The paper prints no
-// numbers: the table is ours, and holds its claims against what is measured.
+// numbers: the table is ours, and tests its claims by measurement.
 #include "harness/tables/papers/published.h"
 
 #define RAIN        "geometry=off "

@@ -12,7 +12,7 @@
 #include "harness/tables/sheet/digits.h"
 #include "harness/tables/sheet/trend.h"
 
-// Of the notes.
+// Limit of the notes' lines.
 enum { LINES = 5 };
 
 // --- claims ---
@@ -39,7 +39,7 @@ static void print_verdicts(const struct rg_claim *claim, const struct rg_result 
     }
 }
 
-// How long the verdicts are, unpainted.
+// The length of the verdicts, without colours.
 static int verdicts_length(const struct rg_claim *claim, const struct rg_result *result)
 {
     char *text = NULL;
@@ -53,7 +53,7 @@ static int verdicts_length(const struct rg_claim *claim, const struct rg_result 
     return (int)size;
 }
 
-// ", by 2 of 5 rows" of a claim that some device has decided so.
+// ", by 2 of 5 rows", if some device decided a claim so.
 static void name_fewer_rows(const struct rg_claim *claim, const struct rg_result *result,
                             char *text, size_t size)
 {
@@ -87,11 +87,11 @@ static void print_claims(const struct rg_result *result, FILE *out)
 
 // --- notes ---
 
-// Text that is broken into lines, of which no more than some are printed.
+// Prints text broken into lines, up to a limit.
 struct notes {
     FILE *out;
     int lines;
-    bool more; // something was left out
+    bool more; // something did not fit
 };
 
 static void print_line(struct notes *notes, const char *text, int length, bool is_first)
@@ -157,7 +157,7 @@ static void add_other_work(struct notes *notes, const struct rg_result *result)
             *result->hardware ? ": not what was printed" : "");
 }
 
-// What a budget of time chose, so that nobody takes it for the table.
+// Notes what a budget of time reduced, so that the result is not taken for the full table.
 static void add_budget(struct notes *notes, const struct rg_result *result)
 {
     int rows = 0;
@@ -194,8 +194,8 @@ static void add_method(struct notes *notes, const struct rg_result *result)
         result->full ? "" : result->quick, drift);
 }
 
-// "The time of a frame of work paper goes with drops to the power: cpu 0.98 (0.95 to 1.01), gl
-// 1.02", of tables of no paper; of their first work, where they have several.
+// For tables of no paper, of their first work: "The time of a frame of work paper goes with drops
+// to the power: cpu 0.98 (0.95 to 1.01), gl 1.02".
 static void add_growth(struct notes *notes, const struct rg_result *result)
 {
     char text[512] = "", power[32], low[32], high[32];

@@ -1,4 +1,4 @@
-// What stands below a brief table: what the paper claims, and notes.
+// The text below a brief table: the paper's claims, and notes.
 #ifndef RG_HARNESS_TABLES_SHEET_BELOW_H
 #define RG_HARNESS_TABLES_SHEET_BELOW_H
 
@@ -6,7 +6,7 @@
 
 #include "harness/record/result.h"
 
-// Prints the claims, and notes of five lines at most.
+// Prints the claims, and up to five lines of notes.
 void rg_brief_below(const struct rg_result *result, FILE *out);
 
 #endif

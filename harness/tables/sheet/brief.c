@@ -11,10 +11,10 @@
 #include "harness/tables/sheet/curve.h"
 #include "harness/tables/sheet/digits.h"
 
-// Columns that are left out, the last first, where lines get too wide.
+// Optional columns; the last are dropped first when lines get too wide.
 enum { DRAWN, ERROR, PACKED, SHADED, OPTIONAL };
 
-// The column of each thing; -1: it is not in this table.
+// The index of each column; -1: not in this table.
 struct columns {
     int row[RG_MAX_VALUES];
     int number, print, optional[OPTIONAL], device[RG_MAX_DEVICES];
@@ -35,7 +35,7 @@ static bool is_same_number(const struct rg_named *a, const struct rg_named *b)
     return *a->text || *b->text ? !strcmp(a->text, b->text) : a->number == b->number;
 }
 
-// Whether no two rows have the same first value, as where it is their name.
+// Whether the first value is unique in each row, as a name is.
 static bool first_value_tells_all(const struct rg_result *result, struct rg_place of)
 {
     struct rg_place other = of;
@@ -48,8 +48,8 @@ static bool first_value_tells_all(const struct rg_result *result, struct rg_plac
     return true;
 }
 
-// Whether a value tells a row from others. Choices beside the name of a paper's row say again what
-// that says; a sweep's rows have other choices under one name.
+// Whether a value identifies rows. In a paper's table, choices repeat what the row's name says; in
+// a sweep, rows of one name have different choices.
 static bool tells_rows_apart(const struct rg_result *result, struct rg_place of, int value)
 {
     const struct rg_record *first = first_of(result, of);
@@ -64,7 +64,7 @@ static bool tells_rows_apart(const struct rg_result *result, struct rg_place of,
     return differs || (!value && (*first->row[0].text || result->first_row == result->last_row));
 }
 
-// The unit of a parameter; NULL: it is none.
+// The unit of a parameter; NULL: it is not a parameter.
 static const char *unit_of(const struct rg_result *result, const char *name)
 {
     const struct rg_technique *technique = rg_technique_find(result->technique);
@@ -170,8 +170,8 @@ static void fill_optional(const struct columns *at, char (*cells)[RG_SHEET_CELL]
                        RG_SHEET_CELL);
 }
 
-// How many times print a cell is, or of work that saves something how many times the printed work;
-// "" where that is not known.
+// The ratio of a cell's rate to print, or, for a work that saves something, to the printed work; ""
+// if unknown.
 static void print_times(const struct rg_result *result, struct rg_place at, char *text, size_t size)
 {
     const struct rg_record *record = rg_result_at(result, at);
@@ -184,7 +184,7 @@ static void print_times(const struct rg_result *result, struct rg_place at, char
     }
     if (rg_result_is_of_print(result, at.work)) {
         rg_record_published_range(record, &low, &high);
-        low = sqrt(low * high); // of a range, its middle
+        low = sqrt(low * high); // the middle of a range
     } else if (*result->works[at.work].saves && printed >= 0) {
         struct rg_place other = at;
         other.work = printed;
@@ -212,7 +212,7 @@ static void fill_device(const struct rg_result *result, struct rg_place at,
     snprintf(text, RG_SHEET_CELL, *times ? "%s %5s" : "%s%s", rate, times);
 }
 
-// The width and the height of a texture: "32 x 3606".
+// The width and height of a texture: "32 x 3606".
 static void fill_size(char text[RG_SHEET_CELL], const struct rg_named *named, int count)
 {
     const double *width = rg_named_number(named, count, "width_px");
@@ -251,7 +251,7 @@ static void add_row(const struct rg_result *result, struct rg_place of, const st
 
 // --- a table ---
 
-// What failed or is other work.
+// Colours failures and other work.
 static const char *paint_amiss(const char *cell)
 {
     enum rg_outcome outcome;
@@ -262,7 +262,7 @@ static const char *paint_amiss(const char *cell)
     return outcome == RG_UNSUPPORTED ? RG_YELLOW : RG_RED;
 }
 
-// The same, and what reaches print: cells say how many times that they are.
+// The same, and cells that reach print.
 static const char *paint_of_print(const char *cell)
 {
     const char *times = strchr(cell, ' ');
@@ -284,7 +284,7 @@ static void make_sheet(const struct rg_result *result, struct rg_place of, int o
             add_row(result, of, &at, sheet);
 }
 
-// What its cells are: "paper, no_geometry: two textures a light (section 4.4.2)".
+// The kind of a table's cells: "paper, no_geometry: two textures a light (section 4.4.2)".
 static void name_table(const struct rg_result *result, struct rg_place of, char *text, size_t size)
 {
     const struct rg_result_work *work = &result->works[of.work];
@@ -319,8 +319,8 @@ static bool print_table(const struct rg_result *result, struct rg_place of, FILE
     return !sheet.incomplete;
 }
 
-// Whether two of its devices are sides of one API, or one has settings of its own: then it must be
-// seen which drivers they run.
+// Whether two devices are of one API, or one has settings of its own, so that the page must show
+// their drivers.
 static bool has_sides(const struct rg_result *result)
 {
     bool any = false;

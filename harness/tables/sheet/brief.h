@@ -1,4 +1,4 @@
-// A result for who wants to know how it stands: one line a row, each device beside print.
+// A brief result: one line for each row, each device beside print.
 #ifndef RG_HARNESS_TABLES_SHEET_BRIEF_H
 #define RG_HARNESS_TABLES_SHEET_BRIEF_H
 
@@ -6,9 +6,9 @@
 
 #include "harness/record/result.h"
 
-// Prints it as Markdown: a table for each work and variant, with the rows' curves; then what the
-// paper claims of it, and notes of five lines at most. Painted where the output is a terminal that
-// shows colours. False, and one logged line, without memory.
+// Prints it as Markdown: a table for each work and variant, with curves of the rows; then the
+// paper's claims, and up to five lines of notes. Coloured on terminals with colours. False, and one
+// logged line, when memory runs out.
 bool rg_brief_print(const struct rg_result *result, FILE *out);
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-// Whether the rows of a work, variant and device are all there and can be told.
+// Whether all rows of a work, variant and device are present and have numbers.
 static bool can_be_told(const struct rg_result *result, struct rg_place at)
 {
     if (!*result->truth || result->last_row == result->first_row)

@@ -7,7 +7,7 @@
 
 enum { LEVELS = 8 };
 
-// The curves of a line, so many characters wide; the next begins a line of its own.
+// The width of a line of curves; the next line begins after it.
 enum { WIDTH = 100 };
 
 static double measured(const struct rg_record *record)

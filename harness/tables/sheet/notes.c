@@ -1,4 +1,4 @@
-// What is said below a table.
+// The notes below a table.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,8 +7,7 @@
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/sheet/trend.h"
 
-// ", no_geometry", ", ours, full": what tells a row's cells on one device apart, where there are
-// several.
+// ", no_geometry", ", ours, full": names the variant and work of a cell, where there are several.
 static void name_kind(const struct rg_result *result, struct rg_place at, char *text, size_t size)
 {
     size_t used = 0;
@@ -35,8 +34,8 @@ static bool ended_alike(const struct rg_record *a, const struct rg_record *b)
     return a->outcome == b->outcome && !strcmp(a->detail, b->detail);
 }
 
-// The devices of a row that were left out for the same reason as this one, from it on: "gl,
-// vulkan"; "" when one before it was.
+// The devices of a row left out for the same reason, from this one on: "gl, vulkan"; "" if an
+// earlier one has it.
 static void name_alike(const struct rg_result *result, struct rg_place at, char *text, size_t size)
 {
     const struct rg_record *record = rg_result_at(result, at);
@@ -66,7 +65,7 @@ static void note_outcome(const struct rg_result *result, struct rg_sheet *sheet,
 
 // --- the trend ---
 
-// Times grow where frame rates fall: the exponent has the slope's opposite sign.
+// Frame times grow where rates fall, so the exponent is the negative slope.
 static void note_growth(const struct rg_result *result, struct rg_sheet *sheet, struct rg_place of,
                         const struct rg_trend *s)
 {
@@ -110,7 +109,7 @@ static void note_trend(const struct rg_result *result, struct rg_sheet *sheet, s
                   s.pairs, unsettled, slopes);
 }
 
-// "12.8 to 30.4, by 58 %": the share of the most by which the least is below it.
+// "12.8 to 30.4, by 58 %": the relative difference between the largest and the smallest.
 static void name_spread(const struct rg_result *result, const struct rg_spread *s, const char *what,
                         int decimals, char *text, size_t size)
 {
@@ -121,8 +120,8 @@ static void name_spread(const struct rg_result *result, const struct rg_spread *
                  100 * s->of_a_variant);
 }
 
-// What is claimed of rows that have names, such as that frame rates vary with the scene. A work
-// that saves something is not held against print.
+// Notes the spread over rows with names, for claims such as that frame rates vary with the scene. A
+// work that saves something is not compared with print.
 static void note_spread(const struct rg_result *result, struct rg_sheet *sheet, struct rg_place of)
 {
     struct rg_spread found, due;
@@ -140,8 +139,7 @@ static void note_spread(const struct rg_result *result, struct rg_sheet *sheet, 
 
 // --- the inputs ---
 
-// Whether all measured cells tell the same; `text` gets it. Of rows that are missing nobody knows
-// what they would tell.
+// Whether all measured cells have the same facts, which `text` gets. Missing rows may have others.
 static bool is_same_everywhere(const struct rg_result *result, const char *const *shown,
                                char text[RG_FACTS_TEXT])
 {
@@ -161,7 +159,7 @@ static bool is_same_everywhere(const struct rg_result *result, const char *const
     return any;
 }
 
-// Each text once: for the table, or for a row's cells that follow each other and tell it.
+// Notes each text once: for the table, or for consecutive cells of a row with the same text.
 static void note_facts(const struct rg_result *result, const char *const *shown,
                        struct rg_sheet *sheet)
 {
@@ -187,7 +185,7 @@ static void note_facts(const struct rg_result *result, const char *const *shown,
 
 // --- the method ---
 
-// How the numbers were measured.
+// Notes how the numbers were measured.
 static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
 {
     char published[RG_TITLE_SIZE + 32] = "", samples[48];
@@ -217,7 +215,7 @@ static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
                       result->quick);
 }
 
-// The last of the missing rows that follow this one without a gap.
+// The last of the consecutive missing rows from this one on.
 static int end_of_gap(const struct rg_result *result, int row)
 {
     const bool wanted = rg_result_wants(result, row);
@@ -227,7 +225,7 @@ static int end_of_gap(const struct rg_result *result, int row)
     return row;
 }
 
-// Rows that an earlier run measured, and rows that are missing.
+// Notes rows from an earlier run, and missing rows.
 static void note_interruption(const struct rg_result *result, struct rg_sheet *sheet)
 {
     if (result->resumed_rows)

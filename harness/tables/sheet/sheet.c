@@ -8,7 +8,7 @@
 
 #include "harness/measure/timer_audit.h"
 
-// Of a frame's work: what runs went over, what of it was packed to be drawn, and what was shaded.
+// A frame's work: items of runs, packed primitives, and shaded fragments.
 enum { TALLIED = 3 };
 static const struct {
     const char *name;
@@ -17,11 +17,11 @@ static const struct {
                       {"records", offsetof(struct rg_tally, records)},
                       {"fragments", offsetof(struct rg_tally, fragments)}};
 
-// The column of each thing; -1: it is not in this table.
+// The index of each column; -1: not in this table.
 struct columns {
-    int row[RG_MAX_VALUES];       // what tells rows apart
-    int published[RG_MAX_VALUES]; // what was printed
-    int told[RG_MAX_VALUES];      // measured beside what was printed, of the same index
+    int row[RG_MAX_VALUES];       // keys that identify rows
+    int published[RG_MAX_VALUES]; // printed values
+    int told[RG_MAX_VALUES];      // the measured value for the printed one of the same index
     int counted[RG_MAX_COUNTED];
     int tallied[TALLIED];
     int work, variant, device, fps, ms, ms_range, ratio, times, first, api, error, passes;
@@ -32,14 +32,14 @@ bool rg_is_frame_rate(const struct rg_named *published)
     return !strcmp(published->name, "fps");
 }
 
-// The first record, whose names are those of all; NULL where no row is there.
+// The first record, which has the names of all; NULL where there are no rows.
 static const struct rg_record *first_of(const struct rg_result *result)
 {
     struct rg_place at = rg_result_start(result);
     return rg_result_next(result, &at) ? rg_result_at(result, at) : NULL;
 }
 
-// The first record of a cell whose counters were looked at; NULL where there is none.
+// The first record of a cell with counts; NULL where there is none.
 static const struct rg_record *first_counted(const struct rg_result *result)
 {
     for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
@@ -56,7 +56,7 @@ static bool any_tallied(const struct rg_result *result)
     return any;
 }
 
-// The record of cpu:reference in this row, or NULL.
+// The record of cpu:reference in a row, or NULL.
 static const struct rg_record *reference_of(const struct rg_result *result, struct rg_place at)
 {
     for (at.device = 0; at.device < result->device_count; at.device++)
@@ -88,7 +88,7 @@ static void add_times(struct rg_sheet *sheet, struct columns *at, bool is_publis
     at->api = rg_sheet_column(sheet, "API / wall clock");
 }
 
-// What tells rows apart, then what was printed: the frame rate last.
+// Adds columns for keys, then for printed values: the frame rate last.
 static void add_row_columns(const struct rg_record *first, struct rg_sheet *sheet,
                             struct columns *at)
 {
@@ -131,8 +131,7 @@ static void add_columns(const struct rg_result *result, const struct rg_record *
 
 // --- the cells ---
 
-// The pass that takes longest among those that are not done; NULL when only those below half a
-// percent are left.
+// The slowest pass that is not done; NULL when only passes below half a percent are left.
 static const struct rg_pass_time *next_pass(const struct rg_record *record, bool *done)
 {
     const struct rg_pass_time *largest = NULL;
@@ -145,7 +144,7 @@ static const struct rg_pass_time *next_pass(const struct rg_record *record, bool
     return largest;
 }
 
-// A kernel's name without the technique's, which begins it.
+// A kernel's name without its prefix, the technique's name.
 static const char *pass_name(const struct rg_record *record, const char *name)
 {
     const size_t length = strlen(record->technique);
@@ -193,7 +192,7 @@ static void fill_times(const struct columns *at, char (*cells)[RG_SHEET_CELL],
     print_passes(record, cells[at->passes]);
 }
 
-// How far the row is from the truth, or why that is unknown.
+// The row's error against the truth, or why it is unknown.
 static void fill_error(const struct rg_truth_error *error, char text[RG_SHEET_CELL])
 {
     if (error->outcome == RG_OK)
@@ -210,8 +209,8 @@ static void fill_named(char text[RG_SHEET_CELL], const struct rg_named *named)
         snprintf(text, RG_SHEET_CELL, "%.10g", named->number);
 }
 
-// Fills in what a cell is of, and what the paper printed of it. The columns are those of the first
-// record: no cell has more.
+// Fills in a cell's identification and printed values. Columns are those of the first record; no
+// cell has more.
 static void fill_names(const struct rg_result *result, const struct rg_record *first,
                        const struct columns *at, char (*cells)[RG_SHEET_CELL],
                        const struct rg_record *record)
@@ -241,7 +240,7 @@ static void fill_told(const struct rg_record *first, const struct columns *at,
     }
 }
 
-// By what was printed: one number, or a range.
+// Fills in the ratio to print: to one number, or a range.
 static void fill_ratio(const struct rg_record *record, char text[RG_SHEET_CELL])
 {
     double low, high;
@@ -272,7 +271,7 @@ static void add_row(const struct rg_result *result, const struct rg_record *firs
     for (int i = 0; i < TALLIED && at->tallied[i] >= 0 && record->has_tally; i++)
         snprintf(cells[at->tallied[i]], RG_SHEET_CELL, "%" PRId64,
                  *(const int64_t *)((const char *)&record->tally + tallied[i].offset));
-    // Only the work that was printed is compared with print; "ours" has no number there.
+    // Only the printed work is compared with print; for "ours" nothing is printed.
     if (at->ratio >= 0 && rg_result_is_of_print(result, place.work))
         fill_ratio(record, cells[at->ratio]);
 }

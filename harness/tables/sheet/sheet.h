@@ -5,14 +5,14 @@
 #include "harness/console/sheet.h"
 #include "harness/record/result.h"
 
-// Makes the sheet, which is zeroed before, and which the caller frees.
+// Makes the sheet, which must be zeroed before; the caller frees it.
 void rg_result_sheet(const struct rg_result *result, struct rg_sheet *sheet);
 
-// Adds the notes below it. `shown`: names of facts that have a column, NULL-terminated.
+// Adds the notes. `shown`: names of facts with a column, NULL-terminated.
 void rg_result_notes(const struct rg_result *result, const char *const *shown,
                      struct rg_sheet *sheet);
 
-// What a reader calls the printed number that is compared, among those of a record.
+// Whether a printed value of a record is the frame rate that is compared.
 bool rg_is_frame_rate(const struct rg_named *published);
 
 #endif

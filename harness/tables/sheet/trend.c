@@ -6,7 +6,7 @@
 #include "harness/tables/claims/margin.h"
 #include "harness/tables/claims/order.h"
 
-// Half of the 5 % is for either side.
+// The 5 % are divided between both sides.
 #define ERROR_SHARE 0.025
 
 const char *rg_trend_text(enum rg_trend_verdict verdict)
@@ -25,13 +25,13 @@ const struct rg_named *rg_trend_axis(const struct rg_record *record)
     return NULL;
 }
 
-// Whether a table has a trend: all its rows are there, and timed.
+// Whether all rows are present and timed, as a trend requires.
 static bool is_whole(const struct rg_result *result)
 {
     return !result->is_of_textures && rg_result_first_missing(result) > result->last_row;
 }
 
-// What the rows of a trend have, logarithms but for what is printed.
+// A trend's rows, as logarithms, except printed values.
 struct rows {
     int count;
     const struct rg_record *records[RG_RESULT_ROWS];
@@ -44,7 +44,7 @@ static bool is_same(const struct rg_named *a, const struct rg_named *b)
     return *a->text ? !strcmp(a->text, b->text) : a->number == b->number;
 }
 
-// Whether two rows differ in the axis alone. Rows that have names alone differ in nothing.
+// Whether two rows differ only in the axis. Rows with only a name do not differ.
 static bool is_same_group(const struct rg_record *a, const struct rg_record *b)
 {
     const struct rg_named *axis = rg_trend_axis(a);
@@ -70,7 +70,8 @@ static void add_row(struct rows *rows, const struct rg_record *record)
                                                 .load_ms = rg_record_load_ms(record)};
 }
 
-// Where each row differs from all others in more than the axis, what goes with it tells none apart.
+// If every row differs from all others in more than the axis, these values vary with the axis and
+// form no groups.
 static void join_single_rows(struct rows *rows)
 {
     bool all_single = true;
@@ -80,7 +81,7 @@ static void join_single_rows(struct rows *rows)
         rows->points[i].group = 0;
 }
 
-// Rows that are other work take no part. False where a row has no time.
+// Collects rows, without those that did other work. False where a row has no time.
 static bool collect(const struct rg_result *result, struct rg_place of, struct rows *rows)
 {
     for (of.row = result->first_row; of.row <= result->last_row; of.row++) {
@@ -99,10 +100,10 @@ static bool collect(const struct rg_result *result, struct rg_place of, struct r
 // --- the order ---
 
 struct orders {
-    double surest_against; // the probability of the pair that is most surely the other way round
+    double surest_against; // p value of the pair most surely in the opposite order
 };
 
-// Adds a pair whose first row is the faster one in print.
+// Adds a pair of rows; the first is the faster one in print.
 static void add_pair(struct rg_trend *trend, struct orders *orders, const struct rg_record *fast,
                      const struct rg_record *slow)
 {
@@ -144,7 +145,7 @@ static void find_slopes(struct rg_trend *trend, const struct rows *rows)
     trend->published_slope = 0;
     for (int i = 0; i < rows->count; i++)
         trend->published_slope += weights[i] * log(rows->printed[i]);
-    // Times grow where frame rates fall.
+    // Frame times grow where rates fall.
     trend->slope = -s.median;
     trend->slope_low = -s.high;
     trend->slope_high = -s.low;
@@ -154,8 +155,8 @@ static void find_slopes(struct rg_trend *trend, const struct rows *rows)
     trend->has_slope = isfinite(trend->slope);
 }
 
-// Each pair must be settled for the order to be; one that is settled the other way is found by
-// chance the sooner the more pairs there are.
+// The order is reproduced if every pair is decided; that some pair is decided the other way is
+// corrected for the number of pairs.
 static enum rg_trend_verdict judge(const struct rg_trend *t, const struct orders *orders)
 {
     if (orders->surest_against * t->pairs <= ERROR_SHARE)
