@@ -1,5 +1,5 @@
-// raingauge atlas: makes the streak atlas, or packs the original database; or makes the textures of
-// a technique. Describes and exports them.
+// raingauge atlas: makes the streak atlas, packs the original database, or makes a technique's
+// textures; describes and exports them.
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,11 +49,11 @@ static const struct rg_option options[] = {
     {RG_OPTION_END},
 };
 
-// What the files take at least: 14 MB of the small atlas, 89 of the full one and 0.9 of cartoon's
-// textures were written.
+// Lower bounds of the files' sizes: 14 MB of the small atlas, 89 of the full one and 0.9 of
+// cartoon's textures were written.
 enum { SMALL_BYTES = 4 << 20, FULL_BYTES = 40 << 20, TEXTURES_BYTES = 1 << 18 };
 
-// Asked before the work, which takes minutes where an atlas is to be traced.
+// Whether the files can be written; asked before tracing an atlas, which takes minutes.
 static bool can_be_kept(const struct atlas_options *o, int64_t bytes)
 {
     return !o->output || rg_output_can_be_written(o->output, bytes);
@@ -61,11 +61,11 @@ static bool can_be_kept(const struct atlas_options *o, int64_t bytes)
 
 static const char *const size_names[RG_ATLAS_SIZE_COUNT] = {"full", "small", "cave", "cave-small"};
 
-// An atlas, where it came from and where it is kept.
+// An atlas and its origin.
 struct found {
     struct rg_atlas *atlas;
     const char *from; // "cache", "made" or "database"
-    double seconds;   // that this took
+    double seconds;   // time that this took
     char path[RG_ATLAS_PATH_SIZE];
     bool kept;
 };
@@ -77,8 +77,8 @@ static void tell(void *user, int done, int total)
     rg_progress_add(progress, done - progress->done);
 }
 
-// Packs the database and keeps the pack in the cache. A pack that cannot be kept is an error, since
-// to be kept is all that it is made for.
+// Packs the database and stores the pack in the cache. A pack that cannot be stored is an error,
+// because it is made for nothing else.
 static struct rg_atlas *pack(const char *folder, enum rg_atlas_size size,
                              const struct rg_atlas_progress *tells)
 {
@@ -162,7 +162,7 @@ static void print_text(const struct found *found)
     }
 }
 
-// docs/records.md
+// The JSON of docs/records.md.
 static void print_json(const struct found *found)
 {
     const struct rg_atlas *atlas = found->atlas;
@@ -200,7 +200,7 @@ static void print_rows_text(const struct rg_texture_rows *rows)
         printf("%-24s%8d%8d\n", rows->items[i].name, rows->items[i].side_px, rows->items[i].levels);
 }
 
-// docs/records.md
+// The JSON of docs/records.md.
 static void print_rows_json(const struct rg_technique *technique,
                             const struct rg_texture_rows *rows)
 {
@@ -238,7 +238,7 @@ static int make_textures(const struct atlas_options *o, const char *name)
     return RG_EXIT_PASS;
 }
 
-// Lays pictures of the database beside those of the atlas.
+// Compares pictures of the database with the atlas's.
 static bool compare(const struct atlas_options *o, const struct rg_atlas *atlas)
 {
     struct rg_cave_comparison comparison;

@@ -4,10 +4,10 @@
 
 #include "harness/cli/command.h"
 
-// NULL-terminated, made by the build from the list in harness/commands/meson.build.
+// NULL-terminated; the build generates it from the list in harness/commands/meson.build.
 extern const struct rg_command *const rg_commands[];
 
-// What the program does, one line.
+// The program's description, in one line.
 extern const char rg_program_about[];
 
 // The command of this name, or NULL.

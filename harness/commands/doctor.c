@@ -1,4 +1,4 @@
-// raingauge doctor: what this machine and its drivers can be trusted with.
+// raingauge doctor: reports what this machine and its drivers can be trusted with.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@
 
 struct doctor_options {
     char *devices; // their names
-    char *kernels; // that are compiled; NULL: devices are examined
+    char *kernels; // to compile; NULL: devices are examined
     int timeout_s;
     int64_t memory_bytes;
     bool json;
@@ -45,7 +45,7 @@ static void add_name(struct rg_doctor_report *report, const char *name)
     snprintf(info->name, sizeof(info->name), "%s", name);
 }
 
-// Fills the report with the names that --device gives; false: bad usage.
+// Puts the names in --device into the report; false: bad usage.
 static bool take_names(struct rg_doctor_report *report, const char *names)
 {
     struct rg_device_name name;
@@ -61,8 +61,8 @@ static bool take_names(struct rg_doctor_report *report, const char *names)
     return true;
 }
 
-// One line on stderr for each backend whose driver fails while it lists its devices, of which none
-// can be examined then. Returns an enum rg_exit.
+// Logs a line for each backend whose driver fails while listing its devices, so that none can be
+// examined. Returns an enum rg_exit.
 static int complain_of_listing(const struct rg_device_list *list)
 {
     int exit = RG_EXIT_PASS;
@@ -74,7 +74,7 @@ static int complain_of_listing(const struct rg_device_list *list)
     return exit;
 }
 
-// A failure outweighs an absence: it is never hidden by one.
+// A failure outweighs missing devices, which never hide it.
 static int verdict(const struct rg_doctor_report *report)
 {
     int exit = report->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
@@ -94,7 +94,7 @@ static void describe(struct rg_doctor_report *report)
     report->warnings = rg_doctor_warnings(&report->list);
 }
 
-// Whether a name is that of a device which was listed a moment ago.
+// Whether a device of this name was just listed.
 static bool was_listed(const struct rg_device_list *list, const char *name)
 {
     bool found = false;
@@ -103,8 +103,8 @@ static bool was_listed(const struct rg_device_list *list, const char *name)
     return found;
 }
 
-// A device that was listed and is gone once it is opened, as one whose driver is just being
-// replaced, or that a GPU's reset took, fails; the others are examined all the same.
+// Reports as failed a device that was listed but cannot be opened any more, because its driver is
+// being replaced or the GPU was reset; the others are examined all the same.
 static void tell_gone(struct rg_examination *examination)
 {
     char why[sizeof(examination->why)];
@@ -113,7 +113,7 @@ static void tell_gone(struct rg_examination *examination)
     examination->is_unknown = false;
 }
 
-// Examines; false when a name is unknown.
+// Examines the devices; false when a name is unknown.
 static bool examine(struct rg_doctor_report *report)
 {
     for (int i = 0; i < report->count; i++) {
@@ -127,7 +127,7 @@ static bool examine(struct rg_doctor_report *report)
     return true;
 }
 
-// One line on stderr for each device that computes amiss; other failures have been logged.
+// Logs a line for each device that computes wrongly; other failures have been logged.
 static void complain(const struct rg_doctor_report *report)
 {
     for (int i = 0; i < report->count; i++)

@@ -8,7 +8,7 @@
 #include "harness/record/named.h"
 #include "harness/record/passport/passport.h"
 
-// Every parameter with its value, as --set takes it.
+// Every parameter with its value, as for --set.
 static json_t *settings_json(const struct rg_technique *technique, const void *settings)
 {
     json_t *json = json_object();

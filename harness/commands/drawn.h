@@ -1,4 +1,4 @@
-// What render tells of what it drew.
+// Reports what render drew.
 #ifndef RG_HARNESS_COMMANDS_DRAWN_H
 #define RG_HARNESS_COMMANDS_DRAWN_H
 
@@ -8,14 +8,14 @@
 struct rg_drawn {
     struct rg_subject subject;
     const struct rg_device_info *on;
-    const char *path;                   // of the file, or of all with the place of their number
+    const char *path;                   // of the file, or the pattern of all files
     const struct rg_sequence *sequence; // NULL: one frame
     struct rg_account account;          // after the last frame
 };
 
-// One line to stdout.
+// Prints one line to stdout.
 void rg_drawn_print_text(const struct rg_drawn *drawn);
-// docs/records.md
+// Prints the JSON of docs/records.md.
 void rg_drawn_print_json(const struct rg_drawn *drawn);
 
 #endif

@@ -1,4 +1,4 @@
-// raingauge figures: draws figures of the papers anew, into a folder.
+// raingauge figures: redraws figures of the papers into a folder.
 #include <stdio.h>
 
 #include "core/base/log.h"

@@ -1,5 +1,5 @@
-// raingauge list: techniques, tables, figures, devices and parameters, by the names that the
-// command line takes.
+// raingauge list: lists techniques, tables, figures, devices and parameters, by the names used on
+// the command line.
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,7 +43,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_END},
 };
 
-// Prints a text, which may be a driver's, and nothing that steers a terminal.
+// Prints a text, which may be a driver's, without control characters.
 static void print_plain(int width, const char *text, const char *end)
 {
     char plain[1024];
@@ -51,7 +51,7 @@ static void print_plain(int width, const char *text, const char *end)
     printf("%-*s%s", width, plain, end);
 }
 
-// Every listing is an array of objects; without --json, its fields are printed as columns.
+// Every listing is an array of objects, whose fields are columns unless --json is given.
 static void print_text(const json_t *rows, const char *const *fields)
 {
     int widths[8] = {0};

@@ -1,5 +1,5 @@
-// raingauge render: one frame of a technique as an image file, or several as a clip or as numbered
-// image files.
+// raingauge render: writes one frame of a technique as an image file, or several as a clip or
+// numbered image files.
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -84,7 +84,7 @@ static bool has_frames(const struct render_options *o)
     return o->frames.first >= 0;
 }
 
-// Whether what is named can hold the frames that are asked for.
+// Whether the output file's kind fits the requested frames.
 static bool check_output(const struct render_options *o)
 {
     const char *path = o->output;
@@ -107,7 +107,8 @@ static bool check_output(const struct render_options *o)
     return true;
 }
 
-// Whether no picture or clip replaces a file that settings name. False, and one logged line.
+// Whether no picture or clip replaces a file that settings name. False, and one logged line, if one
+// would.
 static bool spares_files(const struct rg_drawn *drawn)
 {
     char path[PATH_MAX], value[RG_PATH_SIZE];
@@ -122,7 +123,7 @@ static bool spares_files(const struct rg_drawn *drawn)
     return spared;
 }
 
-// Draws what is asked for and writes it: the session, or NULL where it failed.
+// Draws and writes the requested frames; returns the session, or NULL on failure.
 static struct rg_session *draw(struct rg_device *device, const struct rg_drawn *drawn, int frame,
                                double exposure)
 {
@@ -134,7 +135,7 @@ static struct rg_session *draw(struct rg_device *device, const struct rg_drawn *
     if (!rg_picture_can_be_written(drawn->path, (int64_t)subject->width * subject->height))
         return NULL;
     const int64_t picture_bytes = rg_pictures_bytes(subject->width, subject->height, 1);
-    rg_memory_take(picture_bytes); // so that nothing else takes it meanwhile
+    rg_memory_take(picture_bytes); // reserves memory for the picture
     struct rg_session *session = rg_frame_run(device, subject, frame);
     rg_memory_give(picture_bytes);
     if (session && rg_frame_write(session, drawn->path, exposure))

@@ -1,4 +1,4 @@
-// raingauge baseline: what a gate's cells do on devices, kept for later gates.
+// raingauge baseline: stores what a gate's cells do on devices, for later gates.
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -52,14 +52,14 @@ static const struct rg_option options[] = {
 
 // --- before and after ---
 
-// FILE as it was before any work.
+// The file before any work.
 struct before {
     bool is_there;
-    struct stat st; // where it is
+    struct stat st; // its identity and time
     struct rg_baseline baseline;
 };
 
-// Whether FILE can be written, and what stands there is a baseline.
+// Whether the file can be written, and any existing one is a baseline.
 static bool look_before(const char *path, struct before *before)
 {
     enum { BYTES = 1 << 20 };
@@ -68,7 +68,7 @@ static bool look_before(const char *path, struct before *before)
            (!before->is_there || rg_baseline_read(&before->baseline, path));
 }
 
-// What another has written meanwhile was never shown, and must not be lost.
+// A file changed by others meanwhile must not be overwritten.
 static bool is_as_before(const char *path, const struct before *before)
 {
     struct stat now;
@@ -84,8 +84,8 @@ static bool is_as_before(const char *path, const struct before *before)
                             path);
 }
 
-// By how much launches of a device scatter, in median of its cells: of a machine that does other
-// work too, a baseline tells little.
+// Prints how much launches on a device scatter, as the median over its cells: a baseline from a
+// busy machine says little.
 static void print_scatter(const struct rg_baseline *made, const char *device)
 {
     double scatters[RG_GATE_CELLS];
@@ -110,7 +110,7 @@ static void print_keys(const struct rg_baseline *made)
     }
 }
 
-// What went wrong while it was made, a line a cell: the baseline has that too.
+// Prints the failures while it was made, a line for each cell; the baseline includes them.
 static int print_failures(const struct rg_baseline *made)
 {
     int counts[RG_OUTCOME_COUNT] = {0};
@@ -143,7 +143,8 @@ static int write_it(const struct baseline_options *o, const struct rg_baseline *
     return RG_EXIT_PASS;
 }
 
-// `left_out`: an enum rg_exit, of devices that fell while they were opened, and have no row.
+// Writes the baseline. `left_out` is the enum rg_exit of devices that failed to open, and have no
+// row.
 static int keep(const struct baseline_options *o, const struct before *before,
                 const struct rg_baseline *made, int left_out)
 {

@@ -1,5 +1,5 @@
-// raingauge bisect: the first of several things in order that is bad, as a command judges them; and
-// the command's verdict in git's words.
+// raingauge bisect: finds the first bad one in an ordered list of candidates, as judged by a
+// command; or gives the command's verdict to git.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@
 
 struct bisect_options {
     char *good, *bad; // candidates; NULL: git has its own
-    char *line;       // for the shell
+    char *line;       // a shell command
     char *list;       // a file
     char *budget;     // "2m"
     int tries, crash;
@@ -103,7 +103,7 @@ static int print_lines(const struct rg_candidates *candidates, const struct rg_j
     return RG_EXIT_PASS;
 }
 
-// Whether all of it was printed. False, and one logged line.
+// Whether all output was written. False, and one logged line, if not.
 static bool is_printed(void)
 {
     return (!fflush(stdout) && !ferror(stdout)) || rg_stdout_error();

@@ -1,4 +1,4 @@
-// raingauge diff: two files, or one frame of a technique on every pair of devices.
+// raingauge diff: compares two files, or one frame of a technique on every pair of devices.
 #include <stdlib.h>
 #include <sys/stat.h>
 
@@ -37,7 +37,8 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_GROUP_OF(2, "What to compare: two files"),
-    // The operand has no last place, so that a wrong number of arguments comes to the line below.
+    // The operand is unlimited in number, so that a wrong number of arguments reaches the check
+    // below.
     {RG_OPTION_OPERAND, .argument = "A B", .about = "picture files of one size; A is the true one",
      .names = RG_NAMES_FILE, .first = 1},
     {RG_OPTION_TEXT, "background", .argument = "FILE",

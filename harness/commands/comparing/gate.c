@@ -1,5 +1,5 @@
-// raingauge gate: whether one device is worse than another, or than a baseline: other pictures,
-// states or counters, or slower by a margin.
+// raingauge gate: tells whether one device is worse than another, or than a baseline: other
+// pictures, states or counters, or slower by a margin.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,16 +21,16 @@
 #include "harness/record/disk/hold.h"
 
 struct gate_options {
-    char *against;                   // another build; NULL: two devices are named, or a baseline
-    char *baseline;                  // a file; NULL: two sides run
-    struct rg_devices_asked devices; // of both builds, or of the baseline
-    char *cells;                     // a file; NULL: those that are built in
+    char *against;                   // another build; NULL: two devices, or a baseline
+    char *baseline;                  // a file; NULL: both sides run
+    struct rg_devices_asked devices; // of both builds, or compared with the baseline
+    char *cells;                     // a file; NULL: the built-in ones
     double margin_percent;           // 0: not given
     char *budget;                    // "2m"; NULL: none
     struct rg_words known[3];        // files of expectations, of Mesa's fails, of Mesa's flakes
     struct rg_words skips;           // of Mesa's skips
     char *junit, *bmf;               // files; NULL: none
-    char *pictures; // a folder for those that differ; NULL: beside the file of JUnit
+    char *pictures;                  // a folder for differing pictures; NULL: beside the JUnit file
     struct rg_gtest_asked gtest;
     int64_t memory_bytes;
     bool pictures_only, fresh, github, json;
@@ -104,7 +104,7 @@ static const struct rg_option options[] = {
 
 // --- what is read ---
 
-// The files of expectations of a form.
+// The expectation files of a format.
 static const struct rg_words *files_of(const struct gate_options *o, int form)
 {
     return form == RG_FORM_SKIPS ? &o->skips : &o->known[form];
@@ -128,7 +128,7 @@ static int today(void)
 
 // --- what is printed ---
 
-// What takes part: two sides by two, or a baseline.
+// The inputs: pairs of sides, or a baseline.
 struct gate_input {
     struct rg_gate_pairs pairs;
     struct rg_baseline baseline;
@@ -164,7 +164,7 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
     return ok ? RG_EXIT_PASS : rg_exit_of_error();
 }
 
-// Whether no report replaces a file that the gate reads.
+// Whether no report replaces an input file of the gate.
 static bool spares_inputs(const struct gate_options *o, const struct rg_gate_outputs *outputs)
 {
     bool ok =
@@ -189,7 +189,7 @@ static int run_either(const struct gate_options *o, const struct gate_input *in,
                        : rg_gate_run(request, gate);
 }
 
-// The same in a folder that no other raingauge writes into meanwhile.
+// The same with a lock on the folder, against another raingauge.
 static int run_held(const struct gate_options *o, const struct gate_input *in,
                     struct rg_gate_request *request, struct rg_gate *gate)
 {
@@ -207,7 +207,7 @@ static int run_held(const struct gate_options *o, const struct gate_input *in,
     return exit;
 }
 
-// What one device alone ran may be expected of others too.
+// The devices that this gate leaves out, whose expectations may remain unused.
 static struct rg_gate_left left_of(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate_left left = {0};
@@ -250,8 +250,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
     return exit;
 }
 
-// What is held against what. Returns an enum rg_exit, one logged line with it where that is not
-// pass.
+// Finds the pairs to compare. Returns an enum rg_exit, with one logged line unless it is pass.
 static int find_pairs(const struct gate_options *o, const struct rg_words *sides,
                       struct rg_gate_pairs *pairs)
 {
@@ -276,7 +275,7 @@ static int find_pairs(const struct gate_options *o, const struct rg_words *sides
     return rg_exit_of_error();
 }
 
-// A gate that is to compare times must not pass for want of them.
+// A gate that must compare times fails if the baseline has none.
 static bool has_times(const struct gate_options *o, const struct rg_baseline *baseline)
 {
     bool any = o->pictures_only || o->gtest.list;

@@ -56,8 +56,8 @@ void rg_gtest_inherit(struct rg_gtest_asked *asked)
     inherit("GTEST_OUTPUT", &asked->output);
 }
 
-// Makes the folders of a path that ends in a slash. Where one cannot be made, the report that is
-// written there says why.
+// Makes the folders of a path that ends in a slash. Failures are reported by writing the report
+// there.
 static void make_folders(const char *path)
 {
     char part[PATH_MAX];

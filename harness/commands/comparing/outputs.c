@@ -41,7 +41,7 @@ static bool spares(const char *report, const char *file)
                     report, file);
 }
 
-// What the gate keeps in its folder.
+// Whether a file is not among those that the gate stores in its folder.
 static bool spares_kept(const char *folder, const char *file)
 {
     static const char *const names[] = {RG_GATE_JOURNAL, RG_GATE_LAUNCHES};
@@ -54,14 +54,14 @@ static bool spares_kept(const char *folder, const char *file)
     return ok;
 }
 
-// The file of GitHub's summary, NULL without one.
+// The file of GitHub's summary, NULL if there is none.
 static const char *summary_path(const struct rg_gate_outputs *outputs)
 {
     const char *path = outputs->github ? getenv("GITHUB_STEP_SUMMARY") : NULL;
     return path && *path ? path : NULL;
 }
 
-// The summary is appended to, which harms a file that is read or written as much.
+// The summary is appended to, which damages an input or output file just as much.
 bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *file)
 {
     return spares(outputs->junit, file) && spares(outputs->bmf, file) &&
@@ -82,7 +82,8 @@ bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs)
 
 // --- printing ---
 
-// What would make the files of expected failures true; the first gets failures that are new.
+// Prints the changes that would bring the expectation files up to date; the first file gets new
+// failures.
 static bool print_patches(const struct rg_known *known, const struct rg_gate *gate, int today)
 {
     bool ok = true, adds_new = true;

@@ -1,4 +1,4 @@
-// The reports of a gate: where they go, and in which form they are printed.
+// The reports of a gate: their files and formats.
 #ifndef RG_HARNESS_COMMANDS_COMPARING_OUTPUTS_H
 #define RG_HARNESS_COMMANDS_COMPARING_OUTPUTS_H
 
@@ -8,26 +8,27 @@
 struct rg_gate_outputs {
     char junit[PATH_MAX], pictures[PATH_MAX]; // a file and a folder; "": none
     const char *bmf;                          // a file; NULL: none
-    bool prints_gtest;                        // results, in googletest's words
-    bool github, json;                        // annotations; results in machine form
+    bool prints_gtest;                        // prints results in googletest's format
+    bool github, json;                        // prints annotations; prints results as JSON
     int today;                                // harness/compare/gate/text/date.h
 };
 
-// By --junit and --output, which may be NULL, and googletest's flags. Pictures go where they are
-// asked for, or beside the file of JUnit: FILE.xml has the folder FILE-pictures. False, and one
-// logged line, where a path is too long or a form is not had.
+// Sets the paths from --junit and --output, which may be NULL, and googletest's flags. Pictures go
+// to their own folder, or beside the JUnit file: FILE.xml has the folder FILE-pictures. False, and
+// one logged line, where a path is too long or a format is unknown.
 bool rg_gate_outputs_settle(const char *junit, const char *pictures,
                             const struct rg_gtest_asked *gtest, struct rg_gate_outputs *outputs);
 
-// Whether no report would replace this file, which is read; NULL: none. False, and one logged line.
+// Whether no report would replace the file, which is an input; NULL: none. False, and one logged
+// line, if one would.
 bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *file);
 
-// Whether all can be written, each into a file of its own, as is found out before any work. False,
-// and one logged line.
+// Whether all reports can be written, each into its own file, to be asked before any work. False,
+// and one logged line, if not.
 bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs);
 
-// Writes and prints what a gate found, and for people the patches that would make the files of
-// `known` true. False, and one logged line, where something cannot be written.
+// Writes and prints a gate's findings, and for people the changes that would bring the files of
+// `known` up to date. False, and one logged line, on failure.
 bool rg_gate_outputs_print(const struct rg_gate_outputs *outputs, const struct rg_known *known,
                            const struct rg_gate *gate);
 

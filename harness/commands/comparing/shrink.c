@@ -1,4 +1,5 @@
-// raingauge shrink: the least with which two devices still differ in the same way, as a file.
+// raingauge shrink: writes a minimal reproducer with which two devices still differ in the same
+// way.
 #define _GNU_SOURCE // getdents64
 #include <dirent.h>
 #include <errno.h>
@@ -59,7 +60,7 @@ static const struct rg_option options[] = {
 
 enum { KERNEL_SECONDS = 20 }; // for which the items of a kernel, and its inputs, are made fewer
 
-// Finds the kernel behind it, and writes what there is, the case last.
+// Finds the kernel that causes the difference, and writes all files, the case last.
 static bool write_found(const struct rg_case *found, const struct rg_blame *blame,
                         const struct rg_devices *devices, const char *path)
 {
@@ -88,10 +89,10 @@ static bool write_found(const struct rg_case *found, const struct rg_blame *blam
     return ok;
 }
 
-// The folder for files that are tried; "": there is none.
+// The folder for temporary files; "": none.
 static char folder[512];
 
-// Removes it with all that is in it. It does only what a signal's handler may: no readdir.
+// Removes the folder with its files. It may run in a signal handler, so it uses no readdir.
 static void remove_folder(void)
 {
     char entries[2048];
@@ -100,7 +101,7 @@ static void remove_folder(void)
     while (fd >= 0 && (bytes = getdents64(fd, entries, sizeof(entries))) > 0)
         for (ssize_t at = 0; at < bytes;) {
             const struct dirent64 *entry = (const void *)(entries + at);
-            unlinkat(fd, entry->d_name, 0); // fails of "." and ".."
+            unlinkat(fd, entry->d_name, 0); // fails for "." and ".."
             at += entry->d_reclen;
         }
     if (fd >= 0)

@@ -1,5 +1,4 @@
-// raingauge verify: whether all devices compute the same rain, and whether that rain obeys its
-// laws.
+// raingauge verify: checks that all devices compute the same rain, and that it obeys its laws.
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +14,7 @@ enum { STAGE_FRAMES = 3, MAX_TECHNIQUES = 16 };
 struct verify_options {
     struct rg_words sets;
     struct rg_size size;
-    int steps; // -1: as poses and the length say
+    int steps; // -1: by poses and length
     struct rg_length length;
     bool stages;
     struct rg_devices_asked devices;
@@ -66,7 +65,7 @@ static bool choose(const struct rg_words *sets, const struct rg_technique *techn
     return (subjects[(*count)++].settings = rg_subject_settings(technique, sets)) != NULL;
 }
 
-// The techniques that the arguments name, or all; with the user's settings.
+// Chooses the techniques among the arguments, or all, with the user's settings.
 static bool choose_all(const struct rg_words *names, const struct rg_words *sets,
                        struct subject *subjects, int *count)
 {
@@ -80,7 +79,7 @@ static bool choose_all(const struct rg_words *names, const struct rg_words *sets
     return ok;
 }
 
-// The device of this name among `devices`, or opened beside them into *extra.
+// The device of this name in `devices`, or opened in addition into *extra.
 static struct rg_device *find_or_open(const struct rg_devices *devices, const char *name,
                                       struct rg_device **extra)
 {
@@ -90,7 +89,7 @@ static struct rg_device *find_or_open(const struct rg_devices *devices, const ch
     return *extra = rg_devices_open_one(name);
 }
 
-// What the machine lacks, and what fails there, is said, not passed over.
+// Reports devices that are missing or failed.
 static void note_absent(const struct rg_devices *devices, const struct subject *subjects, int count,
                         struct rg_checks *checks)
 {
@@ -168,7 +167,7 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
     return exit;
 }
 
-// Stages run in frames: without one there is nothing to compare, and that would pass.
+// Stages run in frames: with none, nothing would be compared, which would pass.
 static bool check_frames(const struct verify_options *o)
 {
     return !o->stages || o->steps != 0 ||

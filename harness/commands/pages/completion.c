@@ -17,7 +17,7 @@
 #include "harness/frames/figures/figures.h"
 #include "harness/tables/papers/papers.h"
 
-// The name of the list that holds what a value can name.
+// The name of the list with the possible values.
 static const char *const lists[] = {
     [RG_NAMES_TECHNIQUE] = "@techniques", [RG_NAMES_TABLE] = "@tables",
     [RG_NAMES_DEVICE] = "@device",        [RG_NAMES_DEVICES] = "@devices",
@@ -27,7 +27,7 @@ static const char *const lists[] = {
 
 // --- entries ---
 
-// Begins an entry, which print_word fills and end_entry ends. `what` may be "".
+// Begins an entry; print_word fills and end_entry ends it. `what` may be "".
 static void begin_entry(const char *subject, const char *what)
 {
     printf("  ['%s%s%s']='", subject, *what ? " " : "", what);
@@ -73,7 +73,7 @@ static bool may_stand_at(const struct rg_option *row, int place)
            (!row->last || place <= row->last);
 }
 
-// What can stand at each place that has a last one, and after those.
+// Prints the words for each numbered place, and for those after the last.
 static void print_places(const char *command, const struct rg_option *rows, int count)
 {
     int places = 0;

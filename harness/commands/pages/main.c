@@ -1,5 +1,5 @@
-// raingauge_pages: prints what the build makes of the tables of commands, options, techniques and
-// papers: the manual page, and bash's completion.
+// raingauge_pages: prints pages that the build generates from the tables of commands, options,
+// techniques and papers: the manual page, and bash's completion.
 #include <stdio.h>
 #include <string.h>
 

@@ -8,8 +8,7 @@
 #include "harness/record/passport/build_info.h"
 #include "harness/tables/papers/papers.h"
 
-// Text as roff wants it: what stands between backquotes is bold, and a dash is one that can be
-// copied into a shell.
+// Text for roff: words in backquotes become bold, and dashes ones that can be copied into a shell.
 static void print_text(const char *text)
 {
     bool is_bold = false;
@@ -27,7 +26,7 @@ static void print_text(const char *text)
     }
 }
 
-// One line: roff around a text.
+// One line: a text between roff commands.
 static void print_line(const char *before, const char *text, const char *after)
 {
     printf("%s", before);
@@ -35,7 +34,7 @@ static void print_line(const char *before, const char *text, const char *after)
     printf("%s\n", after);
 }
 
-// The name in bold, and what stands for the value in italics.
+// The name in bold, and the value's placeholder in italics.
 static void print_row(const struct rg_option *row)
 {
     char argument[RG_ARGUMENT_SIZE], about[RG_ABOUT_SIZE];

@@ -16,8 +16,8 @@ static bool spares(const struct rg_table *table, const void *settings, const cha
     return spared;
 }
 
-// The settings of a row with a set over them, which the caller frees. NULL, and one logged line,
-// where one is refused.
+// The settings of a row with assignments applied, which the caller frees. NULL, and one logged
+// line, where one is refused.
 static void *settings_of(const struct rg_technique *technique, const char *row, const char *set)
 {
     void *defaults = rg_settings_create(technique);

@@ -1,12 +1,12 @@
-// Files of the user's own that cells of a table read, against those that its results replace.
+// Protects the user's own files that a table's cells read from being replaced by its results.
 #ifndef RG_HARNESS_COMMANDS_TABLES_INPUTS_H
 #define RG_HARNESS_COMMANDS_TABLES_INPUTS_H
 
 #include "harness/tables/table.h"
 
-// Whether neither results nor journals of these tables in a folder (NULL: none) replace a file that
-// the settings of a row name, with `set`, "key=value key=value" (NULL: nothing), over them. False,
-// and one logged line.
+// Whether neither results nor journals of these tables in `folder` (NULL: none) replace a file
+// named by a row's settings with `set`, "key=value key=value" (NULL: nothing), applied. False, and
+// one logged line, if one would.
 bool rg_inputs_are_spared(const struct rg_table *const tables[], int count, const char *set,
                           const char *folder);
 

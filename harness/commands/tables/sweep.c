@@ -1,4 +1,4 @@
-// raingauge sweep: a table of one's own, from axes.
+// raingauge sweep: measures a table of the user's own, from axes.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,11 +75,11 @@ static int print(const struct rg_result *result, const void *user)
     return rg_result_finish(result, form, o->output);
 }
 
-// Names of devices are no values of a parameter: they may hold commas and dots.
+// Names of devices may contain commas and dots, so they are not read as a parameter's values.
 #define DEVICE_AXIS "device="
 
-// Reads the axes; that of the devices is not among the grid's, and *devices gets their names, which
-// the caller frees. False, and one logged line, where one is refused.
+// Reads the axes. The axis of devices is not part of the grid; *devices gets its names, which the
+// caller frees. False, and one logged line, where one is refused.
 static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char **devices)
 {
     for (int i = 0; i < words->count; i++) {
@@ -102,7 +102,7 @@ static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char *
            rg_error("--axis: none is of a parameter; name one, as in --axis seed=1,2..5");
 }
 
-// Measures the table, or tells what that would take.
+// Measures the table, or prints how long that would take.
 static int run_on(struct rg_grid *grid, const struct rg_devices *devices,
                   const struct sweep_options *o, const char *set)
 {
@@ -124,7 +124,7 @@ static int run_on(struct rg_grid *grid, const struct rg_devices *devices,
     return rg_tables_regenerate(tables, 1, devices, &wanted);
 }
 
-// The axis of the devices, where there is one, stands for --device.
+// An axis of devices replaces --device.
 static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, char *names,
                         const char *set)
 {

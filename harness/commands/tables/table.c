@@ -1,4 +1,4 @@
-// raingauge table: regenerates the papers' tables, or prints results that lie on disk.
+// raingauge table: regenerates the papers' tables, or prints stored results.
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,16 +30,16 @@ struct table_options {
     struct rg_devices_asked devices;
     char *output;         // a folder
     char *from;           // a file or folder; NULL: the tables are measured
-    int format;           // of rg_result_formats
-    int work;             // of `works`
+    int format;           // index into rg_result_formats
+    int work;             // index into `works`
     char *variant;        // NULL: all
     struct rg_words sets; // of --set
-    char *set;            // the same as one text; NULL: none
+    char *set;            // the same joined; NULL: none
     char *budget;         // "4m"; NULL: none
     bool fresh, claims, wide, json, compile;
     int64_t memory_bytes;
-    struct rg_claim_outcomes *outcomes; // what --claims prints in the end
-    int *printed;                       // tables so far, between which an empty line stands
+    struct rg_claim_outcomes *outcomes; // collected for --claims
+    int *printed;                       // number of tables so far; an empty line separates them
 };
 
 #define AT(field) offsetof(struct table_options, field)
@@ -113,8 +113,7 @@ static int form_of(const struct table_options *o)
     return o->json ? RG_RESULT_JSON : o->wide ? RG_RESULT_WIDE : o->format;
 }
 
-// Prints what there is of a table, and writes it where it is whole; with --claims it is judged
-// alone.
+// Prints a table, and writes it when it is complete; with --claims only judges it.
 static int print(const struct rg_result *result, const void *user)
 {
     const struct table_options *o = user;
@@ -130,7 +129,7 @@ static int print(const struct rg_result *result, const void *user)
     return exit;
 }
 
-// False without memory.
+// False when memory runs out.
 static bool print_claims_sheet(const struct rg_claim_outcomes *outcomes, int form)
 {
     struct rg_sheet sheet = {0};
@@ -145,7 +144,7 @@ static bool print_claims_sheet(const struct rg_claim_outcomes *outcomes, int for
     return !sheet.incomplete;
 }
 
-// False, and one logged line, without memory.
+// False, and one logged line, when memory runs out.
 static bool print_claims_json(const struct rg_claim_outcomes *outcomes)
 {
     json_t *json = rg_claims_json(outcomes);
@@ -157,7 +156,7 @@ static bool print_claims_json(const struct rg_claim_outcomes *outcomes)
     return true;
 }
 
-// The verdicts, in the form that is asked for. An enum rg_exit.
+// Prints the verdicts in the chosen format. Returns an enum rg_exit.
 static int print_claims(const void *user)
 {
     const struct table_options *o = user;
@@ -190,8 +189,8 @@ static bool has_work(const struct rg_table *table, const char *wanted)
     return has;
 }
 
-// Whether the technique of each table takes what is set. False, and one logged line, where one does
-// not.
+// Whether each table's technique accepts the assignments. False, and one logged line, where one
+// does not.
 static bool take_sets(const struct rg_words *sets, const struct rg_table *const chosen[], int count)
 {
     bool ok = true;
@@ -237,7 +236,7 @@ static bool choose(const struct rg_words *ids, const struct table_options *o,
     return *count || rg_error("--variant %s: no table times such a thing", o->variant);
 }
 
-// Whether a table has all the rows that are asked for; the others then give those that they have.
+// Whether some table has all requested rows; the others then give the rows that they have.
 static bool have_rows(struct rg_range rows, const struct rg_table *const chosen[], int count)
 {
     const struct rg_table *longest = chosen[0];
@@ -256,7 +255,7 @@ static bool refuse_claims(const char *table)
                     table);
 }
 
-// With --claims nothing is measured of which there are none.
+// With --claims, only tables with claims are measured.
 static bool have_claims(const struct table_options *o, const struct rg_table *const chosen[],
                         int count)
 {
@@ -314,8 +313,8 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
 
 // --- results that lie on disk ---
 
-// Whether -o leaves what --from reads as it is: in its place a part would be all that is left of
-// it. False, and one logged line.
+// Whether -o does not overwrite the input of --from, of which only a part would be left. False, and
+// one logged line, if it would.
 static bool spares_stored(const struct table_options *o)
 {
     return !o->output || !rg_file_is_in(o->from, o->output) ||
@@ -332,7 +331,7 @@ static bool is_named(const struct rg_words *ids, const char *table)
     return found;
 }
 
-// Leaves out of a result what is not asked for. False where nothing is left.
+// Drops the parts of a result that were not requested. False where nothing is left.
 static bool keep(struct rg_result *result, const struct table_options *o)
 {
     return (!o->rows.first || rg_result_keep_rows(result, o->rows.first - 1, o->rows.last - 1)) &&
@@ -340,7 +339,8 @@ static bool keep(struct rg_result *result, const struct table_options *o)
            (!o->variant || rg_result_keep_variant(result, o->variant));
 }
 
-// Verdicts on a table are of one measurement. False, and one logged line, where there are two.
+// Verdicts on a table must be from one measurement. False, and one logged line, where there are
+// two.
 static bool have_one_length(const struct rg_stored *stored, const struct table_options *o,
                             const struct rg_words *ids)
 {
