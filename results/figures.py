@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Makes a page's figures from the tables that the repository keeps.
+"""Makes the figures of pages from the repository's stored tables.
 
     figures.py [--check] [TABLES [PAGE...]]
 
 In a page the lines between `<!-- figures: TABLE[:ROW,...] ... -->` and `<!-- end of figures -->` are a table of
-milliseconds a frame: a line a row and variant, a column a device, of what was printed alone. ROW counts from 1; without
-any all rows stand there. With `printed` behind the names there is a column of what the paper printed. `passes: TABLE:ROW,...`
-has a line a pass and a column a row, of whole frames on cpu. --check writes nothing, and exits 1 if a page says anything
-else than its tables.
+milliseconds a frame for the printed work: a line for each row and variant, a column for each device. ROW counts from 1;
+without ROW all rows are shown. `printed` after the names adds a column with the paper's numbers. `passes: TABLE:ROW,...`
+has a line for each pass and a column for each row, of whole frames on cpu. --check writes nothing, and exits 1 if a page
+differs from its tables.
 """
 import os
 import re
@@ -24,7 +24,7 @@ DEVICES = ["cpu", "opencl", "gl", "vulkan", "cpu:reference"]
 
 
 def digits(ms):
-    """Three significant digits, and no power of ten."""
+    """Three significant digits, without an exponent."""
     return f"{ms:.3g}" if ms < 999.5 else f"{ms:.0f}"
 
 
@@ -35,7 +35,7 @@ def line_name(table, cell):
 
 
 def lines_of(folder, table, rows):
-    """Each line's name, what was printed, and milliseconds by device; cells that were not timed have none."""
+    """Each line's name, its printed number, and milliseconds by device; cells that were not timed have none."""
     result = script.read_record(os.path.join(folder, table + ".json"))
     lines = {}
     for cell in result["cells"]:
@@ -68,7 +68,7 @@ def markdown(folder, asked):
 
 
 def passes(folder, asked):
-    """Milliseconds of each pass in the run that waits for each, in the order in which they run."""
+    """Milliseconds of each pass, in their order, from the run that waits for each pass."""
     table, _, rows = asked.partition(":")
     record = script.read_record(os.path.join(folder, table + ".json"))
     cells = [cell for cell in record["cells"] if cell["device"] == "cpu" and cell["variant"] == "full" and

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Moves the tables that `raingauge table -o FROM` wrote into the folder that the repository keeps.
+"""Moves the tables that `raingauge table -o FROM` wrote into the repository's folder of stored tables.
 
     keep.py FROM TO
 
-Of each table TO gets ID.md, ID.csv and ID.json, a record with a line a cell. What `raingauge table --from` makes anew
-is left out of it, so that it prints the other two from it byte for byte (docs/records.md). LaTeX is not kept: it is
-printed from the record too.
+For each table TO gets ID.md, ID.csv and ID.json, a record with a line for each cell. The record omits values that
+`raingauge table --from` derives; from it, raingauge prints the other two files byte for byte (docs/records.md). LaTeX is
+not stored, since it is printed from the record, too.
 """
 import json
 import os
@@ -15,12 +15,12 @@ sys.dont_write_bytecode = True  # the folder stays as it is
 
 import script
 
-# Follow from the samples and the passes. Numbers beside published ones follow from the facts, by the same names.
+# Derived from samples and passes. Numbers beside published ones are derived from the facts of the same names.
 DERIVED = ("fps", "ms", "ms_low", "ms_high", "passes_share")
 
 
 def compact(record):
-    """The text of a record: its head a line a field, then a line a cell."""
+    """The text of a record: a line for each field of its head, then a line for each cell."""
     for cell in record["cells"]:
         if "measured" in cell:
             derived = {*DERIVED, *cell["facts"]}

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Says whether tables that were measured anew count what the tables that are kept do: times differ, and nothing else may.
+"""Tells whether newly measured tables have the stored tables' counts and errors: only times may differ.
 
     same.py FROM TO
 
-FROM holds records that `raingauge table -o FROM` wrote, of all rows or of some, and TO those that are kept. Of each cell of
-FROM all is compared but its times: what was set, its outcome, what was counted, and the error of its picture, where its table
-has errors; what else a picture shows is in no record. Prints a line a table; the exit status is 1 where one differs or has a
-cell that TO has not.
+FROM holds records written by `raingauge table -o FROM`, of all rows or of some, and TO the stored ones. Everything in a cell
+of FROM is compared except times: its settings, its outcome, its counts, and its picture's error, where the table has errors;
+records say nothing else about pictures. Prints a line for each table; the exit status is 1 where one differs or has a cell
+that TO lacks.
 """
 import json
 import os
@@ -20,7 +20,7 @@ TIMES = ("measured", "checksum")
 
 
 def cells_of(path):
-    """Cells by what they are of, without their times."""
+    """Cells by their identification, without their times."""
     cells = {}
     for cell in script.read_record(path)["cells"]:
         name = ", ".join(["row %d" % cell["row_number"], *(cell[key] for key in ("variant", "work", "device") if key in cell)])
@@ -29,7 +29,7 @@ def cells_of(path):
 
 
 def values_of(cell):
-    """A cell's values, each by the whole of its name."""
+    """A cell's values by their full names."""
     values = {}
     for key, value in cell.items():
         values.update({f"{key}.{name}": one for name, one in value.items()} if isinstance(value, dict) else {key: value})

@@ -1,4 +1,4 @@
-"""What the scripts of this folder share: their arguments, and one line and exit status 2 where a file cannot be read or written."""
+"""Shared by the scripts of this folder: parsing arguments, and one line and exit status 2 where a file cannot be read or written."""
 import argparse
 import json
 import os
@@ -7,7 +7,7 @@ import sys
 
 
 def arguments(text, *names, checks=False):
-    """What the command line has for these names, each NAME, [NAME] or [NAME...]; help is the script's own text, whose third
+    """The command line's arguments for these names, each NAME, [NAME] or [NAME...]; help is the script's docstring, whose third
     line is its usage."""
     about, _, usage, rest = text.split("\n", 3)
     parser = argparse.ArgumentParser(usage=usage.strip(), description=about + "\n" + rest,
@@ -21,7 +21,7 @@ def arguments(text, *names, checks=False):
 
 
 def read_record(path):
-    """What raingauge wrote of a table."""
+    """The record that raingauge wrote of a table."""
     with open(path, encoding="utf-8") as file:
         try:
             record = json.load(file)
@@ -34,7 +34,7 @@ def read_record(path):
 
 
 def write(path, text):
-    """Whole or not at all."""
+    """Writes a file completely or not at all."""
     with open(path + ".part", "w", encoding="utf-8") as file:
         file.write(text)
     os.replace(path + ".part", path)

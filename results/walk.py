@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Keeps what the README and docs/tables.md show of the tables that the repository keeps: it is what the program prints.
+"""Keeps the printed tables in the README and docs/tables.md equal to what the program prints from the stored tables.
 
     walk.py [--check] PROGRAM [PAGE...]
 
-In a page an indented line `$ raingauge table ... --from results/tables` is followed by what that prints, up to a line
-that is not indented; it is printed anew. --check writes nothing, and exits 1 if a page shows anything else.
+In a page an indented line `$ raingauge table ... --from results/tables` is followed by that command's output, up to a
+line that is not indented; the output is replaced. --check writes nothing, and exits 1 if a page shows another output.
 """
 import os
 import re

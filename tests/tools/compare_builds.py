@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs the same commands with two builds of raingauge and compares, byte for byte, what they print and write.
+"""Runs the same commands with two builds of raingauge and compares their outputs and files byte for byte.
 
     compare_builds.py OLD_BINARY NEW_BINARY [--only PATTERN] [--keep FOLDER]
     compare_builds.py --list [--only PATTERN]
 
-For changes that are to change nothing: standard output and error, exit statuses and files must be the same, but for
-what the masks below name. Prints a line a case, and a sum. Exits with 0 if all are the same, 1 if any differs, 2 on bad
+For changes without effect: standard output and error, exit statuses and files must be the same, except where the masks
+below allow differences. Prints a line for each case, and a sum. Exits with 0 if all are the same, 1 if any differs, 2 on bad
 usage. PATTERN is a regular expression that finds cases by name. With --keep, OLD's outputs are kept in FOLDER and read
 from there the next time, so that only NEW runs. Some minutes a build; a cold driver's cache or streak atlas adds more.
 """
@@ -21,9 +21,9 @@ import sys
 import tempfile
 import time
 
-# --- masks: what differs between two runs of one build, and between any two builds. All else is compared. ---
+# --- masks: values that differ between two runs of one build, or between any two builds. All others are compared. ---
 
-# Lines of JSON that a build may have had too early for: they are left out.
+# Lines of JSON that older builds lack: they are ignored.
 ADDED = (
     (r'(?m)^ *"program": "[0-9a-f]{40}",\n', "the passport names the program by its content since records can be read"),
     (r'(?ms)^ "technique": [^\n]*\n "size_px": .*?^ "note": [^\n]*\n', "a table tells what it is since results can be read"),
@@ -31,8 +31,8 @@ ADDED = (
     (r'(?m)^ *"tally": (?:null|\{[^}]*\}),\n', "cells tell the exact work of a frame since devices can be asked to count"),
 )
 
-# In JSON, by the end of the path of keys: numbers, strings and truth values become "#", also in an object below the key,
-# whose own keys stay. An array becomes one "#". null stays null: what has no time must go on having none.
+# In JSON, by the end of the path of keys: numbers, strings and booleans become "#", also in an object below the key,
+# whose own keys stay. An array becomes one "#". null stays null, because a missing time must stay missing.
 JSON_MASKS = {
     "passport.raingauge.commit": "the commit",
     "seconds": "a time (atlas)",
@@ -55,8 +55,8 @@ JSON_MASKS = {
     "shapes.pairs_in_order": "of the order of times",
     "shapes.slope": "of times",
 }
-# In tables as CSV, Markdown and LaTeX, by the column's name: a cell with a digit becomes "#". One without, such as a
-# status in the place of a time, stays.
+# In tables as CSV, Markdown and LaTeX, by the column's name: a cell with a digit becomes "#". A cell without one, such as
+# a status instead of a time, stays.
 COLUMN_MASKS = {
     "fps": "from a time",
     "ms": "a time",
@@ -67,7 +67,7 @@ COLUMN_MASKS = {
     "API / wall clock": "a ratio of times",
     "passes, synced": "shares of a time, and in their order",
 }
-# In all other text, by regular expression: what it finds, what stands for it, why.
+# In all other text: a regular expression, its replacement, the reason.
 TEXT_MASKS = (
     (r"medians of \d+( to \d+)? samples", "medians of # samples", "as many as fit into a time"),
     (r"(Shape on .*?): (reproduced|trend only|same order|not reproduced)\. fps (keeps|does not keep) the published order "
@@ -76,14 +76,14 @@ TEXT_MASKS = (
     (r"atlas, (\w+) in [\d.]+ s;", r"atlas, \1 in # s;", "a time (atlas)"),
     (r"raingauge: the streak atlas is made, .*\n", "", "only who comes first makes the atlas; the next find it in the cache"),
 )
-# In TIFF files the date of writing. (The folder that a case runs in and the binary's are replaced by names, see capture.
-# Cells of Markdown lose their padding, which is as wide as the widest number.)
+# In TIFF files the date of writing. (The case's folder and the binary's are replaced by names, see capture. Cells of
+# Markdown lose their padding, which depends on the widest number.)
 TIFF_DATE = re.compile(rb"\d{4}:\d\d:\d\d \d\d:\d\d:\d\d\0")
 
 # --- cases ---
 
-# commands: run one after the other in an empty folder that they share, where `inputs` (name: text) lie. exit: what the
-# last is to exit with; any other status is said, for it may mean that the case proves nothing.
+# commands: run one after the other in one folder, which is empty except for `inputs` (name: text). exit: the last one's
+# expected exit status; any other is reported, because the case may then prove nothing.
 Case = collections.namedtuple("Case", "name commands exit env inputs", defaults=(0, {}, {}))
 
 DEVICES = ("cpu", "cpu:reference", "gl", "vulkan", "opencl")
@@ -124,7 +124,7 @@ RENDERS = (
      "depth_map_period=3 walk_m_s=20 taps=8 view_below=absolute streak_gain=30 streak_opacity=15", "128x72", 10, "a.exr"),
     ("streaks", "overlay", TOWN + "overlay=on lights=4 time=night local_height_m=8 culling_radius_m=12 shadows=off",
      "160x90", 4, "a.png"),
-    # a mesh stands as large as the city would, so the camera stands off
+    # a mesh is as large as the city, so the camera is moved away
     ("streaks", "mesh", TOWN + "scene=bunny lights_file=lights.json limits=off packets=world blocks=all drops_m2_s=3 "
      "camera=free eye_x_m=10 eye_y_m=12 eye_z_m=-130 target_y_m=20 streak_gain=50 streak_opacity=20 splash_gain=2 "
      "environment_light=off", "128x72", 6, "a.exr"),
@@ -158,7 +158,7 @@ RAIN = "render streaks --size 32x18 --frame 1 " + sets(TOWN)
 FIT = sets("fit=on rain_width_m=60 rain_depth_m=60 rain_height_m=40 camera=free drops_m2_s=60 streak_gain=20")
 
 OTHERS = (
-    # render: what it writes, says, and finds out
+    # render: its files, its report, its errors
     Case("render formats", (TINY + "-o a.png", TINY + "-o a.exr", TINY + "-o a.hdr", TINY + "-o a.tif")),
     Case("render exposure", (TINY + "--exposure 2.5 --device cpu -o a.png",)),
     Case("render density map", (TINY + "-o map.png", "render streaks " + sets(TOWN + "density_map=map.png packets=quad "
@@ -175,7 +175,7 @@ OTHERS = (
       ("techniques", "tables", "devices", "params flow", "params raster", "params streaks")),
     Case("list devices, no drivers", ("list devices", "list devices --json"), env=NO_DRIVERS),
 
-    # atlas: made anew, in a cache of its own
+    # atlas: made again, in a cache of its own
     Case("atlas", ("atlas --quick --json", "atlas --quick -o out"), env={"XDG_CACHE_HOME": "{tmp}/cache"}),
 
     # diff
@@ -189,7 +189,7 @@ OTHERS = (
     # verify
     Case("verify flow", ("verify flow --frame 3 --json " + FLOW,)),
     Case("verify raster", ("verify raster --frame 2 --size 96x54 --json",)),
-    # after so few steps the third pose shows no rain, which verify calls a failure; all else is compared and holds
+    # after so few steps the third pose shows no rain, which verify calls a failure; the other poses pass
     Case("verify streaks", ("verify streaks --frame 10 --size 96x54 --device cpu --json",), 1),
 
     # table
@@ -202,12 +202,12 @@ OTHERS = (
     # doctor
     Case("doctor", ("doctor --json",)),
 
-    # what is not there
+    # missing things
     *(Case("absent " + device, (TINY + "--device %s -o a.png" % device,), 77, NO_DRIVERS) for device in DEVICES[2:]),
     Case("absent original database", (RAIN + "--set atlas=cave -o a.png",), 2, {"XDG_CACHE_HOME": "/proc/none"}),
 )
 
-# what is refused, with one line and exit status 2
+# refused input, with one line and exit status 2
 REFUSALS = (
     "", "nonsense", "list", "list nonsense", "list params nonsense", "list devices twice", "render", "render flow flow",
     TINY + "--device nonsense -o a.png", TINY + "--device cpu:nonsense -o a.png", TINY + "--device cpu,gl -o a.png",
@@ -233,14 +233,14 @@ def all_cases():
 
 # --- running ---
 
-# Variables that change what raingauge or a driver does; cases set what they mean to.
+# Variables that change the behaviour of raingauge or drivers; cases set those that they need.
 CHANGES = re.compile(r"^(RG_|LP_|OMP_|GOMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_)")
 LIMIT_S = 600
 TEXT_FORMS = (".txt", ".json", ".csv", ".md", ".tex", ".status")
 
 
 def form_of(command):
-    """What a command prints, as the ending that a file of it would have."""
+    """The format of a command's output, as a file's ending."""
     named = re.search(r"--format (\w+)", command)
     if "--json" in command:
         return "json"
@@ -255,7 +255,7 @@ def variables(case, tmp):
 
 
 def files_below(folder):
-    """What the folder's files hold, by their paths in it."""
+    """The contents of the folder's files, by path."""
     found = {}
     for place, _, names in os.walk(folder):
         for name in names:
@@ -266,7 +266,7 @@ def files_below(folder):
 
 
 def capture(binary, case):
-    """All that the case prints and writes, by name; None if it takes too long. Names stand for the two folders."""
+    """Everything that the case prints and writes, by name; None if it takes too long. The two folders are replaced by names."""
     outputs = {"commands.txt": describe(case).encode()}
     with tempfile.TemporaryDirectory(prefix="compare_builds.") as tmp:
         here = os.path.join(tmp, "here")
@@ -304,7 +304,7 @@ def folder_of(keep, case):
 
 
 def keep_is_of(keep, binary):
-    """Whether the folder, which is made if need be, is this binary's: another's outputs would be compared unnoticed."""
+    """Makes the folder, or checks that its outputs are this binary's, since another's would be compared unnoticed."""
     with open(binary, "rb") as file:
         digest = hashlib.sha256(file.read()).hexdigest() + "\n"
     path = os.path.join(keep, "binary.sha256")
@@ -317,13 +317,13 @@ def keep_is_of(keep, binary):
 
 
 def read_kept(keep, case):
-    """OLD's outputs, if they are kept and the case is still the same."""
+    """OLD's stored outputs, if the case has not changed since."""
     outputs = files_below(folder_of(keep, case))
     return outputs if outputs.get("commands.txt") == describe(case).encode() else None
 
 
 def write_kept(keep, case, outputs):
-    """Under another name until all is written, so that what an interrupted run leaves is never read."""
+    """Writes under another name and renames, so that an incomplete folder of an interrupted run is never read."""
     whole = folder_of(keep, case)
     part = whole + ".part"
     shutil.rmtree(part, ignore_errors=True)
@@ -362,7 +362,7 @@ def mask_json(text):
 
 
 def mask_tokens(text):
-    """Token by token, so that spaces and the digits of what is not masked stay as they were printed."""
+    """Masks token by token, so that spaces and unmasked digits stay as printed."""
     out, brackets, path, key, expects_key = [], [], [], "", False
     for token in JSON_TOKEN.findall(text):
         if brackets[-1:] == ["["] and is_masked(path) and token != "]":
@@ -394,14 +394,14 @@ def mask_text(text):
 
 
 def mask_cells(header, cells):
-    """A row under its header; as it was where it has other columns."""
+    """Masks a row by its header; returns it unchanged if it has another number of columns."""
     if len(header) != len(cells):
         return cells
     return ["#" if name in COLUMN_MASKS and re.search(r"\d", cell) else cell for name, cell in zip(header, cells)]
 
 
 def mask_table(text, split, join, name_of):
-    """Lines that `split` makes cells of are masked by the first of them, up to an empty line; others are text."""
+    """Masks each table, lines that `split` into cells, by its first line, up to an empty line; other lines are text."""
     out, header = [], None
     for line in text.split("\n"):
         cells = split(line)
@@ -417,12 +417,12 @@ def mask_table(text, split, join, name_of):
 
 
 def split_csv(line):
-    """At the commas that an even number of quotes follows, which are those outside of quotes."""
+    """Splits at commas outside quotes, which are followed by an even number of quotes."""
     return re.split(r',(?=(?:[^"]*"[^"]*")*[^"]*$)', line) if line else None
 
 
 def split_md(line):
-    """Without the padding, of spaces or, under the header, of dashes."""
+    """Splits and removes the padding: spaces, or dashes under the header."""
     if not line.startswith("|"):
         return None
     return [re.sub("-+", "-", cell) if set(cell) <= set("-:") else cell.strip() for cell in line.split("|")]
@@ -456,7 +456,7 @@ def first_unlike(old, new):
 
 
 def show_lines(*pair):
-    """Two lines, or None behind the last, shortened to what is around the first difference."""
+    """Shortens two lines (None: after the last one) to the text around their first difference."""
     start = max(first_unlike(*(line or b"" for line in pair)) - 60, 0)
     for line in pair:
         text = (line or b"").decode("utf-8", "replace").strip() if start == 0 else line[start:].decode("utf-8", "replace")
@@ -464,7 +464,7 @@ def show_lines(*pair):
 
 
 def first_difference(name, old, new):
-    """Where two contents begin to differ: by line in text, by byte in anything else."""
+    """The place of the first difference between two contents: a line of text, or a byte of anything else."""
     if name.endswith(TEXT_FORMS):
         pairs = enumerate(itertools.zip_longest(old.split(b"\n"), new.split(b"\n")), 1)
         line, pair = next((k, pair) for k, pair in pairs if pair[0] != pair[1])

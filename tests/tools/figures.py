@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests results/figures.py: the repository's page says what its tables say, and a table that is known makes known lines."""
+"""Tests results/figures.py: the repository's page agrees with its tables, and a known table makes known lines."""
 import json
 import os
 import subprocess

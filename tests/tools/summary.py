@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Adds up meson's test logs: summary.py LOG... prints the slowest tests, what failed with what it said, and one line of sums.
+"""Sums up meson's test logs: summary.py LOG... prints the slowest tests, the failed ones with their messages, and one line of sums.
 
-A test that was skipped has not passed: set-up installs every driver, so nothing may be missing. Exits
+A skipped test counts as not passed: set-up installs every driver, so nothing may be missing. Exits
 1 if anything failed or nothing ran.
 """
 import json
@@ -13,7 +13,7 @@ SLOWEST, SAID_LINES, SAID_COLUMNS = 10, 20, 1000
 
 
 def read(path):
-    """The results of a log, each with the build it is of: what a sanitizer watches has the same name."""
+    """The results of a log, each with its build, because tests under sanitizers have the same names."""
     try:
         with open(path, encoding="utf-8") as log:
             tests = [json.loads(line) for line in log]
@@ -24,8 +24,8 @@ def read(path):
 
 
 def said(test):
-    """What a test printed of its failures, as TAP or cmocka have it, or else its last lines: who reads the end of a
-    log has nothing else of it."""
+    """A test's messages about failures, in the format of TAP or cmocka, or else its last lines: they are all that the
+    end of a log shows of it."""
     output = test.get("stdout", "") + test.get("stderr", "")
     failures = re.findall(r"^(?:not ok.*\n(?:#.*\n)*|\[ +(?:ERROR|LINE|FAILED) +\].*\n)", output, re.M)
     lines = ("".join(failures) or output).splitlines()
