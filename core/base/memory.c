@@ -21,7 +21,7 @@ static struct {
     int64_t limit_bytes, taken_bytes;
 } memory;
 
-// --- what the machine has ---
+// --- the machine's memory ---
 
 static FILE *open_in(const char *place, const char *name)
 {
@@ -93,7 +93,7 @@ static int64_t less_a_tenth(int64_t bytes)
     return bytes - bytes / 10;
 }
 
-// --- what is allowed ---
+// --- the limit ---
 
 // The bytes that the environment variable names; 0 if it is unset or malformed, which is logged.
 static int64_t chosen_bytes(void)
@@ -193,7 +193,7 @@ int64_t rg_memory_taken(void)
     return memory.taken_bytes;
 }
 
-// --- what is said of it ---
+// --- messages ---
 
 const char *rg_memory_text(int64_t bytes, char text[RG_MEMORY_TEXT])
 {

@@ -65,7 +65,7 @@ void rg_sheet_free(struct rg_sheet *sheet)
     free(sheet->notes);
 }
 
-// --- Markdown, with columns aligned for those who read it as text ---
+// --- Markdown, aligned for readers of plain text ---
 
 // Column widths are multiples of this, so that a digit more or less in a new measurement does not
 // shift the columns beside it.

@@ -21,7 +21,7 @@ struct pair {
     json_t *failures; // {kernel, status, why} each
 };
 
-// --- which ---
+// --- choosing ---
 
 static bool is_among(const char *names, const char *name)
 {

@@ -123,7 +123,7 @@ static bool tell_code(struct rg_session *session, const void *request, void *rep
     return true;
 }
 
-// --- its picture, its state, and what it tells of itself ---
+// --- picture, state and account ---
 
 static bool read_picture(struct rg_session *session, const void *request, void *reply)
 {

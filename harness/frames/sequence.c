@@ -19,7 +19,7 @@ struct run {
     int kept; // frames written
 };
 
-// --- where frames go ---
+// --- output of frames ---
 
 static bool open_place(struct run *run)
 {

@@ -159,7 +159,7 @@ bool rg_session_read_picture(struct rg_session *session, struct rg_picture *pict
     return ok;
 }
 
-// --- its state, and what it tells of itself ---
+// --- state and account ---
 
 bool rg_session_tell(const struct rg_session *session, struct rg_account *account)
 {

@@ -64,7 +64,7 @@ bool rg_session_picture(const struct rg_session *session, const void *texels,
 // Reads and converts.
 bool rg_session_read_picture(struct rg_session *session, struct rg_picture *picture);
 
-// --- its state, and what it tells of itself ---
+// --- state and account ---
 
 // Gets an account of the session. False, with one logged line and no account, where it has ended
 // with its worker.

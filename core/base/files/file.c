@@ -75,7 +75,7 @@ FILE *rg_file_open_small(const char *path, const char **why)
     return NULL;
 }
 
-// --- in folders that all may write to ---
+// --- shared folders ---
 
 // Splits a path: fills `folder` and returns the name in it. NULL where the path is too long.
 static const char *split(const char *path, char folder[PATH_MAX])

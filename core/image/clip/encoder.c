@@ -82,7 +82,7 @@ bool rg_encoder_start(struct rg_encoder *e, const char *name, double patience_s,
     return make_room(e) && start(e);
 }
 
-// --- while it runs ---
+// --- running ---
 
 static double now_s(void)
 {

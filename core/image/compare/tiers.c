@@ -59,7 +59,7 @@ static void mask_row(const struct pictures *p, int y, uint8_t *mask)
                    distance(p->b + at * 4, p->background + at * 4) > MASK_CODES;
 }
 
-// --- what is clamped away ---
+// --- light that the encoding clamps away ---
 
 // Whether a value is outside 0..1 once it is scaled, or NaN. Alpha is not scaled: where the scale
 // is below 1, it is as if it were 1.
@@ -115,7 +115,7 @@ static const float *linear(const struct pictures *p, const uint8_t *of, int64_t 
     return picture->texels + pixel * picture->channels;
 }
 
-// --- what the encoding holds ---
+// --- encoded codes ---
 
 // Whether the colour of pixel x, y of `from` is found within one pixel of it in `to`.
 static bool found_near(const struct pictures *p, const uint8_t *from, const uint8_t *to, int x,

@@ -10,7 +10,7 @@
 static const char names[RG_PNG_CHUNKS][5] = {"gAMA", "cHRM", "sRGB", "iCCP",
                                              "cICP", "pHYs", "oFFs", "eXIf"};
 
-// --- chunks as they come ---
+// --- reading chunks ---
 
 // Digests a frame's bytes without its sequence number, with which both kinds of frame chunks begin.
 static bool hear_frame(struct rg_png_beside *beside, const png_unknown_chunk *chunk)
@@ -73,7 +73,7 @@ void rg_png_beside_hear(struct rg_png_beside *beside, png_structp png)
     png_set_crc_action(png, PNG_CRC_DEFAULT, PNG_CRC_ERROR_QUIT);
 }
 
-// --- what they say ---
+// --- interpreting chunks ---
 
 static uint32_t big_endian(const uint8_t *c)
 {

@@ -15,7 +15,7 @@
 
 enum { MAX_NAMES = 100 };
 
-// --- where it goes ---
+// --- the target ---
 
 // Sets `mode` to the existing file's mode, including its type, or to 0 if there is none.
 static bool find_target(const char *path, char target[PATH_MAX], mode_t *mode, struct rg_why *why)
@@ -51,7 +51,7 @@ static void name_beside(const char *target, int attempt, char *name, size_t size
              (long)getpid(), attempt);
 }
 
-// --- names that go with the process ---
+// --- named temporaries, removed on a signal ---
 
 // Temporary files that have a name. NULL: a free place.
 static _Atomic(const struct rg_temporary *) named[MAX_NAMES];
@@ -85,7 +85,7 @@ static void forget(const struct rg_temporary *t)
     }
 }
 
-// --- making it ---
+// --- making ---
 
 // Until chmod, a temporary file that replaces another is 0600, so that nobody else can read it.
 static mode_t first_mode(const struct rg_temporary *t)
@@ -143,7 +143,7 @@ bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct 
                                    strerror(error));
 }
 
-// --- putting it in place ---
+// --- moving into place ---
 
 static bool give_mode(const struct rg_temporary *t)
 {

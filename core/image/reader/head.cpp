@@ -211,7 +211,7 @@ void read_tiff_head(Reading &reading)
 
 } // namespace
 
-// --- what all have in common ---
+// --- common parts ---
 
 void tell_primaries(Reading &reading, const double of[8])
 {

@@ -137,7 +137,7 @@ void prism(struct builder *b, const struct spot *outline, int count, double z0, 
 void puddle(struct builder *b, point at, double radius_x, double radius_z, int rings, int around,
             double wave, uint32_t id, enum paint paint);
 
-// --- what grows, plants.c ---
+// --- plants, plants.c ---
 
 // A tree with a round crown of several balls; `detail` scales its resolution, usually 1.
 void tree(struct builder *b, point at, double height_m, double detail, enum paint paint,
@@ -153,7 +153,7 @@ void blade(struct builder *b, point at, double height_m, double turn_deg, int fa
 // A pebble of an even number of faces, at least 6.
 void pebble(struct builder *b, point at, double radius_m, int faces, uint32_t id, enum paint paint);
 
-// --- what is left over, fill.c ---
+// --- filling up, fill.c ---
 
 // The area for pebbles and blades: a ring on the ground.
 struct leftover {

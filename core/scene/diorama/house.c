@@ -68,7 +68,7 @@ static void tiles(struct builder *b, const struct slope *s)
     }
 }
 
-// --- what is in walls ---
+// --- windows and doors ---
 
 static void shutters(struct builder *b, double half, double height)
 {

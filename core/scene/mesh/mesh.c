@@ -57,7 +57,7 @@ uint32_t *rg_mesh_pack_normals(const struct rg_mesh *mesh)
     return packed;
 }
 
-// --- what is refused ---
+// --- limits ---
 
 static bool check_counts(const char *name, int vertex_count, int face_count)
 {

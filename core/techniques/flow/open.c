@@ -12,7 +12,7 @@
 static const char *const counter_names[FLOW_COUNTER_COUNT] = {"drops_landed", "texels_moved",
                                                               "pixels_lit", "model_triangles"};
 
-// --- which stages run ---
+// --- choosing stages ---
 
 static const struct flow_settings *settings_of(const struct rg_instance *instance)
 {

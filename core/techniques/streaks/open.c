@@ -131,7 +131,7 @@ static bool open_stages(struct streaks *s)
            ((!set->overlay && !set->outside) || (s->overlay = scenery_overlay_open(&s->base)));
 }
 
-// --- facts and textures that are told ---
+// --- facts and textures ---
 
 static void tell_facts(struct streaks *s)
 {

@@ -102,7 +102,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_END},
 };
 
-// --- what is read ---
+// --- inputs ---
 
 // The expectation files of a format.
 static const struct rg_words *files_of(const struct gate_options *o, int form)
@@ -126,7 +126,7 @@ static int today(void)
     return (int)(time(NULL) / (24 * 60 * 60));
 }
 
-// --- what is printed ---
+// --- output ---
 
 // The inputs: pairs of sides, or a baseline.
 struct gate_input {

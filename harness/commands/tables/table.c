@@ -106,7 +106,7 @@ static const char *chosen_work(const struct table_options *o)
     return o->work < 0 ? NULL : works[o->work];
 }
 
-// --- what is printed ---
+// --- output ---
 
 static int form_of(const struct table_options *o)
 {

@@ -19,7 +19,7 @@
 #include "harness/devices/workers/environment.h"
 #include "harness/record/passport/variables.h"
 
-// --- folders that are in use ---
+// --- folders in use ---
 
 // Locks held until this process ends, so that no other removes the folders.
 static struct {
@@ -123,7 +123,7 @@ static bool use(const char *parent, const char *path, int kept)
     return true;
 }
 
-// --- which folder ---
+// --- finding the folder ---
 
 // In the user's cache, or if there is none in a private folder among temporary files.
 static bool find_root(char root[PATH_MAX])

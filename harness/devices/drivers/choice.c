@@ -10,7 +10,7 @@
 #include "core/base/log.h"
 #include "harness/devices/workers/environment.h"
 
-// --- what is named ---
+// --- the names' choice ---
 
 // Variables that name manifests, by API; the first one set counts.
 static const struct {
@@ -70,7 +70,7 @@ static void read_named(struct rg_choice *c)
     }
 }
 
-// --- what is amiss with it ---
+// --- messages ---
 
 static bool refuse_manifest(const struct rg_choice *c, const struct rg_manifest *m)
 {
@@ -147,7 +147,7 @@ bool rg_choice_set(const struct rg_choice *c, const char *folder, struct rg_work
     return !c->driver || rg_prefix_set(&c->prefix, folder, v);
 }
 
-// --- what is loaded ---
+// --- the loaded files ---
 
 int rg_choice_libraries(const struct rg_choice *c, const char **libraries, int max)
 {

@@ -97,7 +97,7 @@ bool rg_manifest_write(const struct rg_manifest *m, const char *library, const c
            rg_error("%s: cannot be written; set XDG_CACHE_HOME to a folder that takes files", path);
 }
 
-// --- where files belong ---
+// --- installed places ---
 
 void rg_manifest_tree(const char *path, char tree[PATH_MAX])
 {

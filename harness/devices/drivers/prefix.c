@@ -10,7 +10,7 @@
 #include "core/base/log.h"
 #include "harness/devices/drivers/manifest.h"
 
-// --- where things lie, as patterns below the prefix ---
+// --- places below a prefix, as patterns ---
 
 static const char *const folders[] = {
     "/usr/lib/*-linux-*", "/usr/lib64", "/usr/lib", "/usr/local/lib/*-linux-*", "/usr/local/lib64",
@@ -164,7 +164,7 @@ static void add_egl(struct rg_prefix *prefix, struct seen *seen)
     }
 }
 
-// --- what is amiss ---
+// --- messages ---
 
 static bool tell_none(const char *device, const char *api, const char *path,
                       const struct seen *seen)
@@ -204,7 +204,7 @@ bool rg_prefix_read(const char *device, const char *api, const char *path, struc
     return driver_of(prefix, api) || tell_none(device, api, path, &seen);
 }
 
-// --- what is set ---
+// --- variables ---
 
 static void append(char list[], size_t size, const char *path)
 {

@@ -277,7 +277,7 @@ bool rg_worker_destroy(struct rg_worker *worker)
     return well;
 }
 
-// --- watching it ---
+// --- watching ---
 
 // Why a process ended, if we ended it.
 enum verdict { BY_ITSELF, HANGS, HOLDS_TOO_MUCH, NO_ROOM, LIES };
@@ -343,7 +343,7 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
     }
 }
 
-// --- telling how it ended ---
+// --- reporting its end ---
 
 // Notes what the process was doing, and which kernels nobody had waited for: a driver may compile
 // and run them at any time, in its own threads.

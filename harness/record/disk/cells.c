@@ -9,7 +9,7 @@
 static const char field[] = "checksum";
 enum { DIGITS = 16 };
 
-// --- what a checksum is of ---
+// --- the content of a checksum ---
 
 // A number normalised for hashing, an integer if it is whole, because other programs write 28 for
 // 28.0, and 1e-05 as 0.00001.
@@ -102,7 +102,7 @@ bool rg_cells_seal(json_t *document)
     return ok;
 }
 
-// --- what is wrong ---
+// --- faults ---
 
 // The result of checking cells: counts, and the first cell whose checksum is missing or wrong.
 struct found {

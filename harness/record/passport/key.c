@@ -95,7 +95,7 @@ json_t *rg_key_parts(const json_t *passport, const json_t *device)
     return parts;
 }
 
-// --- what is told of them ---
+// --- texts ---
 
 void rg_key_hash(const json_t *parts, char key[RG_KEY_SIZE])
 {

@@ -29,7 +29,7 @@ const struct rg_record *rg_hearing_row(const struct hearing *h, int row)
     return rg_hearing_row_of(h, row, h->at.variant);
 }
 
-// --- what must be there ---
+// --- required rows ---
 
 enum { ERROR_ROWS = 3 }; // rows of a knee: the first, itself, and the last
 

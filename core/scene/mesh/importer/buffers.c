@@ -117,7 +117,7 @@ static void read_buffer(struct import *import, const char *uri)
         free(buffer->path);
 }
 
-// --- the text that names them ---
+// --- the JSON text ---
 
 // The JSON text: a GLB's first chunk, or a whole glTF file.
 static const char *text_of(const struct import *import, size_t *size)

@@ -163,7 +163,7 @@ int64_t streaks_bounds_seen(const struct streaks_packets *packets,
                             const struct streaks_sight *sight, const struct streaks_run *run,
                             uint8_t *seen);
 
-// --- what a view sees of the top plane ---
+// --- a view on the top plane ---
 
 struct streaks_area {
     double left, top, right, bottom; // metres; empty unless left <= right

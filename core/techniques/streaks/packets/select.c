@@ -27,7 +27,7 @@ static bool add_place(struct streaks_selection *s, int place, int64_t particles)
     return true;
 }
 
-// --- which packets ---
+// --- selecting packets ---
 
 static double metres(uint32_t lattice, double half_m)
 {

@@ -133,7 +133,7 @@ static void set_params(struct streaks *s, const double eye[3], double top_m)
     set_looks(p, set, s->textures);
 }
 
-// --- which blocks are drawn ---
+// --- listing blocks ---
 
 // The size classes come before them.
 bool streaks_write_blocks(struct streaks *s, const struct streaks_draw *draw)

@@ -99,7 +99,7 @@ bool streaks_outside_look(struct streaks *s)
     return streaks_observer_of(&camera, desc->width, desc->height, &s->outside);
 }
 
-// --- what is drawn ---
+// --- drawing ---
 
 // From outside a streak would be a speck, so marks are wide and long enough to be seen.
 void streaks_outside_marks(const struct streaks *s, streaks_params *p)

@@ -98,7 +98,7 @@ static void show_packets(const struct streaks *s)
     }
 }
 
-// --- what the observer sees, from outside ---
+// --- the observer's view, from outside ---
 
 // Shows a light's frustum in its colour.
 static void show_light(const struct streaks *s, const scenery_light *light)

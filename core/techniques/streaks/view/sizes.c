@@ -120,7 +120,7 @@ void streaks_sizes_turn(struct streaks *s, double top_m)
             (float)rg_rain_run(s->sizes.speeds_m_s[i], time_s, top_m, s->settings.local_height_m);
 }
 
-// --- what is told ---
+// --- facts ---
 
 struct realised {
     const struct streaks *s;
