@@ -79,8 +79,8 @@ struct rg_device {
     bool rounds;          // its programs round quotients and roots themselves; backends/rounding.h
                           // decides
     struct rg_work *work; // core/device's counts; not for the backend
-    struct rg_packing *packing; // owned by core/device/packing.c; likewise
-    struct rg_shared *shared;   // owned by core/device/shared.c; likewise
+    struct rg_packing *packing; // owned by core/device/packing.c
+    struct rg_shared *shared;   // owned by core/device/shared.c
 };
 
 struct rg_buf {

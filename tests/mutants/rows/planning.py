@@ -18,7 +18,7 @@ ROWS = [
     Fault(PLAN, "case CLAIMED:\n        if («!t->has_claims»)", "false", "claims need nothing first"),
     Fault(PLAN, "double cell_s = c->devices ? «t->check_s[c->size]» : 0;", "0", "the image to check by takes nothing"),
     Fault(CELL, "return «floor(frames / table->window_frames)» *", "0 * frames", "a window is never left"),
-    Fault("harness/tables/claims/hearing.c", "if («claim->test == RG_CLAIM_RATE && h->result->size_divisor > 1») {", "false", "a rate of small pictures is judged", tests=("verdicts",)),
+    Fault("harness/tables/claims/evidence.c", "if («claim->test == RG_CLAIM_RATE && e->result->size_divisor > 1») {", "false", "a rate of small pictures is judged", tests=("verdicts",)),
     Fault(BUDGET, "? «fmin(fmax(b->taken_s / b->due_s, 0.5), 4)» : 1;", "1.0", "slow cells are planned as if they were not", tests=("planner",)),
     Fault(BUDGET, "is_late = «due_s > left_s»;", "false", "what is late is not planned anew", tests=("planner",)),
     Fault(BUDGET, "«again_s» <= due_s +", "0", "time that is left is not used", tests=("planner",)),
