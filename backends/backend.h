@@ -58,8 +58,7 @@ struct rg_device_info {
     // The name in tables and messages: "cpu:reference", "gl", "vulkan:1", "gl@LP_NUM_THREADS=1", or
     // the short name from the command line, such as "new" from "new=vulkan@DRIVER=/opt/mesa".
     char name[RG_DEVICE_NAME_SIZE];
-    char full[RG_DEVICE_NAME_SIZE]; // the name without a short one, by which the device can be
-                                    // opened again
+    char full[RG_DEVICE_NAME_SIZE]; // without a short name, as the device can be opened again
     char device[128];               // the driver's name for it: "llvmpipe (LLVM 15.0.6, 256 bits)"
     char driver[160];               // driver and version: "Mesa 22.3.6"
     char api[64]; // "OpenGL 4.5 core", "Vulkan 1.3.230", "OpenCL 1.2", "C11, AVX-512"
@@ -76,9 +75,8 @@ struct rg_device_info {
 struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
-    bool rounds;          // its programs round quotients and roots themselves; backends/rounding.h
-                          // decides
-    struct rg_work *work; // core/device's counts; not for the backend
+    bool rounds;                // programs round quotients and roots (backends/rounding.h)
+    struct rg_work *work;       // core/device's counts; not for the backend
     struct rg_packing *packing; // owned by core/device/packing.c
     struct rg_shared *shared;   // owned by core/device/shared.c
 };
@@ -174,11 +172,7 @@ struct rg_run {
     struct rg_counts *counts;              // set by core/device/work.c; NULL: not counted
 };
 
-enum {
-    RG_MAX_DEVICES = 32,
-    RG_LIST_WHY_SIZE = 640
-}; // the longest list of devices; the size of
-   // its reason
+enum { RG_MAX_DEVICES = 32, RG_LIST_WHY_SIZE = 640 }; // length of a list; size of its reason
 
 struct rg_backend {
     const char *name;    // "vulkan"

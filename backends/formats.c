@@ -37,8 +37,7 @@ int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX
                                rg_level_size(desc->height, level) * desc->layers;
         words += (texels * rg_format_size(desc->format) + 3) / 4;
     }
-    return rg_format_size(desc->format) < 4 ? words + 1 : words; // one more, because two texels are
-                                                                 // read at once
+    return rg_format_size(desc->format) < 4 ? words + 1 : words; // two texels are read at once
 }
 
 void rg_plain_formats(struct rg_format_limits limits[RG_FORMAT_COUNT], int64_t max_bytes)

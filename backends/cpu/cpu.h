@@ -9,8 +9,7 @@
 // fastest.
 struct cpu_level {
     const char *name;
-    const struct cpu_kernel *const *kernels; // in the order of rg_kernel_all; NULL: a packing
-                                             // kernel
+    const struct cpu_kernel *const *kernels; // in rg_kernel_all's order; NULL: packing
     const struct cpu_raster *raster;         // shared by all DRAW programs of the level; NULL: none
 };
 extern const struct cpu_level cpu_levels[];

@@ -22,8 +22,7 @@ static struct rg_limits read_limits(cl_device_id id)
         .max_buffer_bytes = alloc < countable ? alloc : countable,
         .max_image_px = RG_PLAIN_MAX_PX,
         .max_image_layers = RG_PLAIN_MAX_LAYERS,
-        .max_groups = {INT_MAX / GROUP_ITEMS, 65535, 65535}, // CUDA's limits, because NVIDIA runs
-                                                             // OpenCL on it
+        .max_groups = {INT_MAX / GROUP_ITEMS, 65535, 65535}, // CUDA's limits, for NVIDIA
         .group_items = GROUP_ITEMS,
         .slot_count = any,
         .slot_end = any,

@@ -89,8 +89,7 @@ struct vk_device {
     VkPipeline bound;                                  // of compute
     VkRenderPass render_passes[VK_COLOURS][VK_DEPTHS]; // made on first use
     struct vk_framebuffer *framebuffers;               // likewise; a list
-    struct rg_buf *no_samples; // bound by draws that count nothing; exists from the first DRAW pass
-                               // on
+    struct rg_buf *no_samples; // bound by draws that count nothing; made with the first DRAW pass
     struct rg_image *no_depth;
     PFN_vkSetDebugUtilsObjectNameEXT set_name; // NULL without the validation layer
 };
@@ -286,8 +285,7 @@ bool vk_draw_fill(struct vk_device *device, const struct rg_run *run,
 // Records the draw, with pass->set.
 bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_pass *pass,
              const struct rg_run *run, uint32_t params_offset);
-void vk_draw_close(struct vk_device *device); // frees objects shared by all passes, before the
-                                              // device closes
+void vk_draw_close(struct vk_device *device); // frees what passes share, before the device closes
 
 // api/query.c
 // Resets so many occlusion queries; 0: none. False: the driver failed.

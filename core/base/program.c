@@ -173,8 +173,7 @@ const char *rg_program_self(void)
 void rg_program_folder(char place[PATH_MAX])
 {
     const char *const self = rg_program_self();
-    const ssize_t length = readlink(self, place, PATH_MAX - 1); // also works after the file was
-                                                                // deleted
+    const ssize_t length = readlink(self, place, PATH_MAX - 1); // works after deletion, too
     if (length < 0)
         snprintf(place, PATH_MAX, "%s", self);
     else

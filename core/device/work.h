@@ -12,8 +12,7 @@
 enum rg_room {
     RG_ROOM_TAKEN,   // they are; one that exceeds the limit (core/base/memory.h) is refused
     RG_ROOM_WATCHED, // they are, until much of the limit is taken; later ones are counted
-    RG_ROOM_COUNTED, // they are not: objects only have a size, runs and writes do nothing, and
-                     // reads give zeroes
+    RG_ROOM_COUNTED, // they are not: objects have a size alone, runs do nothing, reads give zeroes
 };
 
 // Called before and after each run that goes to a backend: after splitting, and including packing

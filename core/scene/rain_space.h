@@ -16,8 +16,7 @@
 // The box as an orthographic camera: its near plane is the top, its far plane the ground.
 struct rg_rain_space_settings {
     double ground_m[3];                // in the world: the middle of the ground plane
-    double fall[3];                    // in the world: the direction in which drops fall; of any
-                                       // length but 0
+    double fall[3];                    // in the world: the direction of falling; not 0
     double width_m, depth_m, height_m; // along x, y and s; above 0
 };
 

@@ -44,10 +44,8 @@ struct rg_contrast {
 // Assignments are "key=value key=value", "" for none; they override the user's settings.
 struct rg_proof {
     const struct rg_pose *poses;     // ends with one whose `set` is NULL
-    const char *dry;                 // assignments that remove all rain: they draw the background
-                                     // for the rain mask
-    const char *mutant_scene;        // assignments over the defaults for drawing mutants; NULL: no
-                                     // mutants
+    const char *dry;                 // assignments that remove all rain, for the rain mask
+    const char *mutant_scene;        // assignments over the defaults for mutants; NULL: no mutants
     const struct rg_law *laws;       // ends with one without a name
     const struct rg_mutant *mutants; // ends with one without an `about`
     const struct rg_contrast *contrasts; // ends with one without an `about`; NULL: none

@@ -59,8 +59,7 @@ struct rg_option {
     double least, most;   // inclusive, of numbers and ranges
     const char *const *choices; // the allowed values of options and operands; NULL-terminated
     enum rg_names names;
-    int first, last;      // for operands: its positions, from 1; last 0: any position from the
-                          // first on
+    int first, last;      // for operands: its positions, from 1; last 0: all from the first on
     const char *excludes; // names of options that exclude it, separated by spaces
     int arguments;        // for a group: the number of arguments that its options require; 0: any
     const struct rg_option *included;

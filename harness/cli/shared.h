@@ -6,8 +6,7 @@
 #include "harness/cli/option.h"
 #include "harness/devices/devices.h"
 
-extern const struct rg_option rg_devices_option[];  // char *: --device, names separated by commas,
-                                                    // or "all"
+extern const struct rg_option rg_devices_option[];  // char *: --device, comma-separated, or "all"
 extern const struct rg_option rg_asked_options[];   // struct rg_devices_asked: --require, --timeout
 extern const struct rg_option rg_timeout_option[];  // int, seconds: --timeout
 extern const struct rg_option rg_settings_option[]; // struct rg_words: --set

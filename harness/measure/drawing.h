@@ -12,8 +12,7 @@ struct rg_drawing {
     int count; // of formats that the device says it can draw to; 0: its limits say why
     struct rg_drawn {
         enum rg_format format;
-        int differing; // of RG_DRAWING_PIXELS: depth differs, or a colour by more than the tier
-                       // allows
+        int differing; // of RG_DRAWING_PIXELS: beyond the tier in colour, or in depth at all
     } formats[RG_DRAWING_FORMATS];
     double ms; // of all draws, without compiling
 };

@@ -4,10 +4,7 @@
 
 #include "harness/frames/session.h"
 
-enum {
-    RG_CHECK_FRAMES = 10
-}; // frames before the image is compared, unless the table says
-   // otherwise
+enum { RG_CHECK_FRAMES = 10 }; // frames before images are compared, by default
 
 // The image of cpu:reference after a table's check frames. Zeroed: none.
 struct rg_expected {

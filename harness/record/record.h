@@ -53,8 +53,7 @@ struct rg_record {
     double create_ms;      // opening: buffers, inputs, and compiling done then
     double first_frame_ms; // first step and drawing, including compiling done then
     int frames_a_sample, sample_count;
-    int wanted_samples;                // target number of samples; with fewer the cell is
-                                       // incomplete
+    int wanted_samples;                // target number; with fewer the cell is incomplete
     double samples_ms[RG_MAX_SAMPLES]; // time of a frame, in the order of sampling
     struct rg_interval frame_ms;       // from the samples
     double api_over_wall; // ratio of the API's clock to the wall clock; trusted from 0.8 to 1.05

@@ -19,8 +19,7 @@ enum { SMALL = 1 << 14, MOST_GROUPS = CPU_MASKS * 2 };
 
 // CPU_LANES shapes.
 struct lanes {
-    int x[4][CPU_LANES], y[4][CPU_LANES];    // corners relative to the centre of the box's first
-                                             // pixel
+    int x[4][CPU_LANES], y[4][CPU_LANES];    // corners, from the centre of the box's first pixel
     int width[CPU_LANES], height[CPU_LANES]; // of the box, in pixels; 0: covers nothing
     uint columns[CPU_LANES];                 // columns of the box, in each row of a group
     int turned[CPU_LANES];                   // -1: corners turn the other way; else 0

@@ -12,8 +12,7 @@
 
 struct rg_encoder {
     const char *name;   // the clip's name, for messages
-    bool (*stop)(void); // called while waiting; true gives up, without a message; NULL: never give
-                        // up
+    bool (*stop)(void); // called while waiting; true gives up, without a message; NULL: never
     double patience_s;  // 0: unlimited
     double since_s;     // when it last read or coded something, or when waiting began
     int64_t coded_bytes;

@@ -30,14 +30,12 @@ struct rg_metrics {
     double psnr_db;                // 20 log10(largest |value|, at least 1, / rms); infinite where
                                    // nothing differs, NAN where a value is not finite
     double max;                    // of |A - B|
-    int max_x, max_y, max_channel; // the first value in row order with this difference; 0 when
-                                   // equal
+    int max_x, max_y, max_channel; // the first value in row order with it; 0 when equal
     int64_t values;                // compared
     int64_t differing_values;      // not equal to the bit (0 and -0 differ)
     int64_t differing_pixels;      // pixels with a differing value
     int64_t values_above[RG_ABOVE_COUNT];
-    int64_t pixels_above[RG_ABOVE_COUNT]; // pixels with a value above: OpenImageIO's nfail and
-                                          // nwarn
+    int64_t pixels_above[RG_ABOVE_COUNT]; // with a value above: OpenImageIO's nfail and nwarn
     int64_t nonfinite_a, nonfinite_b;     // values that are NaN or infinite
     int64_t nonfinite_mismatches;
 };

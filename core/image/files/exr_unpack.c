@@ -93,8 +93,7 @@ static exr_result_t decompress(exr_decode_pipeline_t *decode)
 
 void rg_exr_take_over(struct rg_exr_unpacker *unpacker, exr_decode_pipeline_t *decode)
 {
-    if (!decode->unpack_and_convert_fn) // the library reads floats of one channel directly to their
-                                        // place
+    if (!decode->unpack_and_convert_fn) // the library puts floats of one channel in place itself
         return;
     decode->unpack_and_convert_fn = unpack;
     if (!decode->decompress_fn) // an uncompressed file

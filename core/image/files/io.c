@@ -17,8 +17,7 @@
 
 static const struct {
     const char *extension;
-    double least_pixel_bytes; // lower bound for pictures that techniques draw; docs/reliability.md
-                              // has measured sizes
+    double least_pixel_bytes; // lower bound for drawn pictures; docs/reliability.md has sizes
     bool (*read)(const char *, int64_t, struct rg_picture *, struct rg_why *);
     bool (*write)(const char *, const struct rg_picture *, const struct rg_write_options *,
                   struct rg_why *);

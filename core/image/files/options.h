@@ -7,8 +7,7 @@
 // Zeroed: half floats for EXR and TIFF, exposure 1.
 struct rg_write_options {
     bool full_float; // EXR and TIFF: 32-bit floats, which keep every bit, instead of half floats
-    float exposure;  // PNG: multiplies linear colours before they are clamped and sRGB-encoded; 0:
-                     // 1
+    float exposure;  // PNG: factor of linear colours before clamping and sRGB encoding; 0: 1
 };
 
 #endif

@@ -19,8 +19,7 @@ struct rg_temporary {
     char path[PATH_MAX];   // the path to write to
     char target[PATH_MAX]; // the path that it will get
     int fd;                // a descriptor of the same file
-    mode_t mode;           // the mode of the file to be replaced, including its type; 0: there is
-                           // none
+    mode_t mode;           // mode of the file to be replaced, including its type; 0: none
     bool is_named;
 };
 

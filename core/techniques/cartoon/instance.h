@@ -46,8 +46,7 @@ struct cartoon {
     struct diorama *diorama; // its mesh has the triangles and bounds
     struct cartoon_view view;
     struct rg_asset *normal_map, *depth_map, *face_map, *number_depth, *ink;
-    struct rg_asset *picture; // the styled picture; one texel where it is drawn directly onto the
-                              // target
+    struct rg_asset *picture; // the styled picture; one texel where the target gets it directly
     int edge_count;
     cartoon_faces_params solids, thin; // solids are visible from outside only
     cartoon_ink_params outlines;

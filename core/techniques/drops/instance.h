@@ -56,8 +56,7 @@ struct drops {
     struct rg_asset *drops, *packed, *flags, *before, *tally, *tiles;
     struct rg_asset *background;                            // of the lit pane
     struct rg_asset *height, *next_height, *ids, *next_ids; // swapped after each step
-    uint32_t tiles_before;                                  // DROPS_TILES at the beginning of the
-                                                            // step
+    uint32_t tiles_before;                                  // DROPS_TILES when the step began
 };
 
 extern const struct rg_proof drops_proof;

@@ -67,8 +67,7 @@ struct flow {
     struct flow_settings settings; // resolution_px holds flow_texels' result
     int pane_count, noise_size;
     int finest_px;                   // the largest resolution_px as the camera moves
-    struct rg_fact *texels;          // the fact with resolution_px where the camera decides it;
-                                     // else NULL
+    struct rg_fact *texels;          // has resolution_px where the camera decides it; else NULL
     struct rg_asset *water, *moved;  // the maps of this frame and of the next, swapped
     struct rg_asset *kept, *heading; // the texels' directions, likewise; NULL: they have none
     struct rg_asset *panes;          // the panes' orientations

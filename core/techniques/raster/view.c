@@ -29,8 +29,7 @@ raster_streaks_params raster_streaks_at(const struct raster_settings *s, int wid
 {
     const double seconds = (double)frame * s->step_s;
     const double speed = hypot(s->fall_m_s, s->wind_m_s);
-    const double length_s = s->streak_length_mm / 1000 / speed; // the time in which a drop falls a
-                                                                // streak's length
+    const double length_s = s->streak_length_mm / 1000 / speed; // time to fall a streak's length
     const double scale = 1 / tan(radians(s->view_angle_deg) / 2);
     const double near_m = 0.1, far_m = 2 * s->reach_m;
     return (raster_streaks_params){

@@ -43,8 +43,7 @@ bool rg_contents_read(const struct rg_asset *asset, struct rg_contents *contents
         contents->desc = asset->image->desc;
         contents->size = rg_contents_size(&contents->desc);
     }
-    contents->bytes = rg_alloc(contents->size / 4 + 1, 4, asset->name); // rounded up, because whole
-                                                                        // words are compared
+    contents->bytes = rg_alloc(contents->size / 4 + 1, 4, asset->name); // whole words are compared
     if (!contents->bytes)
         return false;
     return asset->image ? read_image(asset->image, contents->bytes)

@@ -9,8 +9,7 @@
 struct rg_dispatched {
     const struct rg_kernel *kernel;
     bool was_kept; // false for DRAW programs, whose slots are not recorded
-    _Alignas(16) unsigned char params[RG_MAX_PARAMS_SIZE]; // aligned, since kernels read them as
-                                                           // structs
+    _Alignas(16) unsigned char params[RG_MAX_PARAMS_SIZE]; // aligned: kernels read structs
     struct rg_extent origin, extent;
     struct rg_contents before[RG_MAX_SLOTS]; // by slot
     struct rg_contents after[RG_MAX_SLOTS];  // likewise, only of slots that are written

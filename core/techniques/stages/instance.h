@@ -30,8 +30,7 @@ struct rg_asset {
 // Names are those of assets.
 struct rg_stage {
     const char *kernel;                               // NULL: none; running the stage does nothing
-    bool (*when)(const struct rg_instance *instance); // false: running does nothing; NULL: always
-                                                      // run
+    bool (*when)(const struct rg_instance *instance); // false: not run; NULL: always run
     size_t params;    // offset of the kernel's parameters in the owner's struct
     const char *over; // the asset whose items a run has; NULL: one item, or the run's own
     // For DRAW programs: targets and draw state (struct rg_draw).
@@ -87,8 +86,7 @@ struct rg_fact {
 struct rg_texture {
     const char *name; // "environment"
     const struct rg_image *image;
-    int first_level; // the level of the whole texture that is the image's level 0; 0 unless it is
-                     // reduced
+    int first_level; // the whole texture's level that is level 0 here; 0 unless it is reduced
 };
 
 struct rg_instance {

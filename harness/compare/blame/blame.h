@@ -13,8 +13,7 @@ struct rg_blame {
     bool found;
     bool is_alone;          // only one of them writes the asset, or their stages differ
     struct rg_digest first; // on the device; its stage is "" if opening already left other bits
-    uint64_t expected;      // the hash on the other device; this and all below are unknown if
-                            // is_alone
+    uint64_t expected;      // the hash on the other device; from here on unknown if is_alone
     enum rg_difference difference;
     bool is_image;
     int64_t item;             // for a buffer: the element

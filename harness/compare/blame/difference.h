@@ -12,8 +12,7 @@ enum rg_difference {
     RG_DIFFERENCE_MISSING,   // at all differences, the stage has kept the earlier value
     RG_DIFFERENCE_SURPLUS,   // likewise, but the truth is the earlier value
     RG_DIFFERENCE_ORDER,     // a buffer has the same elements in another order
-    RG_DIFFERENCE_LAST_BITS, // floats differ by a few units in the last place, or 8-bit codes by
-                             // one
+    RG_DIFFERENCE_LAST_BITS, // floats a few units in the last place apart, or 8-bit codes one
     RG_DIFFERENCE_EDGE,      // each texel occurs in the other image within a texel of its place
     RG_DIFFERENCE_VALUES,    // none of these
     RG_DIFFERENCE_COUNT

@@ -8,8 +8,7 @@ enum { QUICK_STEPS = 100, FULL_STEPS = 1000, USUAL_PART = 5 };
 static int usual_steps(int quick, int full)
 {
     const int part = (full + USUAL_PART - 1) / USUAL_PART;
-    const int steps = quick > part ? quick : part; // with fewer than the quick steps there may be
-                                                   // no rain
+    const int steps = quick > part ? quick : part; // fewer may show no rain
     return full == RG_POSE_LEFT_OUT || steps > full ? full : steps;
 }
 

@@ -12,8 +12,7 @@ enum { RG_VERIFY_SEEDS = 3 };
 // How much of a proof is run. Mutants are the same in each.
 enum rg_verify_length {
     RG_VERIFY_USUAL, // every pose, for a part of its steps; seeds in turn
-    RG_VERIFY_QUICK, // poses that are not left out of quick runs, for their quick steps; seeds in
-                     // turn
+    RG_VERIFY_QUICK, // poses not left out of quick runs, for their quick steps; seeds in turn
     RG_VERIFY_FULL,  // every pose, for all its steps, with every seed
 };
 
@@ -24,8 +23,7 @@ struct rg_verify {
     enum rg_verify_length length;
     int steps;                        // of every pose; -1: each pose's own
     struct rg_device *reference;      // with which the others are compared
-    const struct rg_devices *devices; // may include the reference, which is not compared with
-                                      // itself
+    const struct rg_devices *devices; // may include the reference, which is then skipped
     struct rg_device *mutant_device;
     struct rg_checks *checks;
     struct rg_progress *progress;

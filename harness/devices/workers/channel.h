@@ -12,8 +12,7 @@
 // Zero it except the socket, which is -1: none.
 struct rg_channel {
     int socket;
-    int patience_ms;         // how long a sender waits while the receiver takes nothing; -1:
-                             // forever
+    int patience_ms;         // how long to wait while the receiver takes nothing; -1: forever
     int64_t most_bytes;      // limit of a received message
     struct rg_doing *doing;  // shows what the worker does; owned
     struct rg_message taken; // a message that has partly arrived

@@ -63,8 +63,7 @@ double rg_margin_slope(const struct rg_slope_point *points, const double *weight
     const double sigma = scatter(points, printed, count);
     double variance = 0;
     for (int i = 0; i < count; i++) {
-        const double half = rg_margin_rounding(printed[i]); // uniformly distributed, so that the
-                                                            // variance is a third of its square
+        const double half = rg_margin_rounding(printed[i]); // uniform: a third of its square
         variance += weights[i] * weights[i] * (sigma * sigma + half * half / 3);
     }
     return MOST_WITHIN * sqrt(variance);

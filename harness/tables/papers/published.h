@@ -78,8 +78,7 @@ struct rg_table {
     // allows.
     int rows_at_once;
     int check_frames;  // before images are compared; 0: RG_CHECK_FRAMES
-    int window_frames; // frames after these that are timed repeatedly (struct rg_job); 0: any later
-                       // ones
+    int window_frames; // frames after these, timed repeatedly (struct rg_job); 0: any later ones
     int width, height; // of the image, in pixels
     int row_count;     // at most RG_TABLE_ROWS
     const struct rg_table_row *rows;

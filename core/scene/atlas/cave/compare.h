@@ -16,8 +16,7 @@ enum rg_cave_way {
 
 struct rg_cave_row {
     struct rg_cave_found found;
-    bool flat;                        // one of the two pictures is constant: there is no
-                                      // correlation
+    bool flat;                        // one of the two is constant: there is no correlation
     double correlation[RG_CAVE_WAYS]; // of all pixels (Pearson); 0 where flat
     // Mean light: ours in the atlas's units, theirs in the database's. 0: the factor is unknown.
     double ours, theirs;

@@ -153,8 +153,7 @@ static void build_plant(struct building *t, const struct tier *r)
                  i ? &metal : &t->wall);
     }
     if (t->b->settings.size == CITY_FULL && r->y1 < 60 && chance(t, CHANCE_ROOF, 1) < 0.4) {
-        const struct look wood = {PAINT_BARK, SCENERY_KIND_WALL, 2, 0x80a0c0u, 0}; // for a water
-                                                                                   // tank
+        const struct look wood = {PAINT_BARK, SCENERY_KIND_WALL, 2, 0x80a0c0u, 0}; // water tank
         const double x = (r->x0 + r->x1) / 2, z = (r->z0 + r->z1) / 2, y = r->y1;
         for (int i = 0; i < 4; i++)
             city_post(t->b, x + (i & 1 ? 1 : -1), z + (i & 2 ? 1 : -1), y, y + 2.2, 0.1, 0.1, 4,

@@ -20,8 +20,7 @@ unsigned char *import_read_whole(const char *path, size_t *size)
         errno = EFBIG;
         return NULL;
     }
-    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // a file that was replaced
-                                                                  // meanwhile may block
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // may block, if replaced
     if (fd < 0)
         return NULL;
     unsigned char *bytes = NULL;

@@ -22,8 +22,7 @@ struct scenery_lights_settings {
     bool shadows;
     int shadow_map_px;         // width and height of a map
     float low_m[3], high_m[3]; // the scene's bounds, of positive volume
-    float world_to_frame[16];  // row by row, a rotation and translation: to the technique's own
-                               // frame
+    float world_to_frame[16];  // row by row, a rotation and translation to the technique's frame
 };
 
 struct scenery_lights {

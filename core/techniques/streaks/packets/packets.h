@@ -67,13 +67,12 @@ struct streaks_packets_info {
     enum streaks_scheme scheme; // chosen by auto
     int64_t total_particles;    // in the local space
     int64_t packets;            // leaves; for the grid, buckets
-    int64_t places;           // occurrences of packets: leaves; for the grid, its cells, including
-                              // empty ones
-    int grid_x, grid_y;       // cells of the grid; 0 for other schemes
-    int64_t stored_particles; // without padding
-    int64_t particle_bytes;   // of all buffers together
-    int64_t host_bytes;       // left after streaks_packets_forget
-    int64_t peak_bytes;       // peak while making them
+    int64_t places;             // occurrences of packets: leaves; for the grid, all its cells
+    int grid_x, grid_y;         // cells of the grid; 0 for other schemes
+    int64_t stored_particles;   // without padding
+    int64_t particle_bytes;     // of all buffers together
+    int64_t host_bytes;         // left after streaks_packets_forget
+    int64_t peak_bytes;         // peak while making them
 };
 
 struct streaks_packets;
