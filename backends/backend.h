@@ -132,9 +132,9 @@ struct rg_draw {
     enum rg_cull cull;
     int x0, y0, x1, y1;     // scissor: x0 <= x < x1, y0 <= y < y1; all 0: the whole target
     struct rg_buf *samples; // uints, by item, to which visible samples are added. NULL: not counted
-    // 0: fragments count samples. Otherwise the API's occlusion queries do, each for so many items
-    // from a multiple of that on; it must be a multiple of 32. `samples` is then by query, and is
-    // overwritten.
+    // 0: fragments count samples. Otherwise the API's occlusion queries do, each for this many
+    // items from a multiple of that on; it must be a multiple of 32. `samples` is then by query,
+    // and is overwritten.
     int items_a_query;
 };
 

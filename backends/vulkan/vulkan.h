@@ -288,7 +288,7 @@ bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_p
 void vk_draw_close(struct vk_device *device); // frees what passes share, before the device closes
 
 // api/query.c
-// Resets so many occlusion queries; 0: none. False: the driver failed.
+// Resets this many occlusion queries; 0: none. False: the driver failed.
 bool vk_queries_prepare(struct vk_device *device, const struct vk_batch *batch, int count);
 // Records the draws of a render pass, each in its query, and then the copy of their results.
 void vk_draw_queries(const struct vk_device *device, const struct vk_batch *batch,

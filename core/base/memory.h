@@ -29,11 +29,11 @@ int64_t rg_memory_grant(int64_t theirs);
 int64_t rg_memory_limit(void);
 // Bytes that may still be taken: 0 or more.
 int64_t rg_memory_left(void);
-// Whether so many bytes may be taken at once. Cheap for less than a MiB.
+// Whether this many bytes may be taken at once. Cheap for less than a MiB.
 bool rg_memory_allows(int64_t bytes);
 // The same for a short-lived piece of the host's memory: below 64 MiB it is always allowed.
 bool rg_memory_allows_piece(int64_t bytes);
-// Counts so many bytes as taken; false, and nothing counted, if they exceed what is left.
+// Counts this many bytes as taken; false, and nothing counted, if they exceed what is left.
 // rg_memory_give returns them.
 bool rg_memory_take(int64_t bytes);
 void rg_memory_give(int64_t bytes);

@@ -6,7 +6,7 @@
 
 #include "backends/backend.h"
 
-// What all things of one kind share; a constant that outlives them. Equal keys of different kinds
+// A kind of shared things; a constant that outlives them. Equal keys of different kinds
 // do not collide.
 struct rg_shared_kind {
     const char *name; // for messages: "atlas"

@@ -27,11 +27,11 @@ struct rg_picture {
 bool rg_picture_create(struct rg_picture *picture, int width, int height, int channels,
                        const char *name);
 
-// The bytes that so many pictures of 4 channels take together, including the copy of one picture's
-// texels in the memory shared with the device's process.
+// The bytes that this many pictures of 4 channels take together, including the copy of one
+// picture's texels in the memory shared with the device's process.
 int64_t rg_pictures_bytes(int width, int height, int count);
-// Whether memory for so many pictures may be taken (core/base/memory.h); asked before any is drawn.
-// False, and one logged line.
+// Whether memory for this many pictures may be taken (core/base/memory.h); asked before any is
+// drawn. False, and one logged line.
 bool rg_pictures_fit(int width, int height, int count);
 
 // Frees the texels and zeroes the struct. NULL and a zeroed struct are accepted.

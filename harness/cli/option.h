@@ -34,7 +34,7 @@ enum rg_option_kind {
     RG_OPTION_HELP,    // --help, which every command has
 };
 
-// What a text names, for completion.
+// The kind of names that a text holds, for completion.
 enum rg_names {
     RG_NAMES_NOTHING,
     RG_NAMES_TECHNIQUE,
@@ -69,7 +69,7 @@ struct rg_option {
     {                                                                                              \
         RG_OPTION_GROUP, .about = (title)                                                          \
     }
-// A heading of options that require so many arguments, and are refused with another number.
+// A heading of options that require this many arguments, and are refused with another number.
 #define RG_GROUP_OF(count, title)                                                                  \
     {                                                                                              \
         RG_OPTION_GROUP, .about = (title), .arguments = (count)                                    \

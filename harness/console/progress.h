@@ -25,12 +25,12 @@ struct rg_progress {
 void rg_progress_start(struct rg_progress *progress, int64_t total);
 // The same with an expected time of a unit.
 void rg_progress_start_expected(struct rg_progress *progress, int64_t total, double unit_ms);
-// Changes the number of units by so many.
+// Changes the number of units by this many.
 void rg_progress_grow(struct rg_progress *progress, int64_t units);
 // Sets the text at the bar's right.
 void rg_progress_label(struct rg_progress *progress, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-// Advances the bar by so many units. Cheap: it draws at most ten times a second.
+// Advances the bar by this many units. Cheap: it draws at most ten times a second.
 void rg_progress_add(struct rg_progress *progress, int64_t units);
 // The total time in milliseconds, as far as known. The first units are slower than the others,
 // because drivers compile in them. 0: unknown yet.

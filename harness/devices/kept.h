@@ -38,7 +38,7 @@ void rg_kept_put(struct rg_kept *kept, struct rg_session *session);
 struct rg_session *rg_kept_open(struct rg_kept *kept, struct rg_device *device,
                                 const struct rg_subject *subject);
 
-// The picture on `cpu` after so many frames, which is kept for later calls. NULL, and one logged
+// The picture on `cpu` after this many frames, which is kept for later calls. NULL, and one logged
 // line, on failure.
 const struct rg_picture *rg_kept_truth(struct rg_kept *kept, const struct rg_subject *subject,
                                        int frames);

@@ -6,7 +6,7 @@
 #include "core/techniques/stages/dispatched.h"
 #include "harness/frames/subject.h"
 
-// A run: so many frames of a subject, each simulated and drawn.
+// A run: this many frames of a subject, each simulated and drawn.
 struct rg_digest_run {
     struct rg_subject subject;
     int frames;

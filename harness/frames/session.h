@@ -19,7 +19,7 @@ struct rg_session;
 
 // Opens a subject on a device, at frame 0. Its settings are copied.
 struct rg_session *rg_session_open(struct rg_device *device, const struct rg_subject *subject);
-// Opens a session, simulates so many frames and draws the last.
+// Opens a session, simulates this many frames and draws the last.
 struct rg_session *rg_session_run(struct rg_device *device, const struct rg_subject *subject,
                                   int frames);
 void rg_session_close(struct rg_session *session); // NULL is accepted
@@ -38,9 +38,9 @@ bool rg_session_step(struct rg_session *session);
 bool rg_session_draw(struct rg_session *session);
 // Waits until the device is idle.
 bool rg_session_sync(struct rg_session *session);
-// Simulates and draws so many frames, and waits; an interruption (harness/console/interrupt.h) ends
-// it early without failure. `wall_ms`, if not NULL, gets the duration from call to end by the clock
-// of the instance's process.
+// Simulates and draws this many frames, and waits; an interruption (harness/console/interrupt.h)
+// ends it early without failure. `wall_ms`, if not NULL, gets the duration from call to end by the
+// clock of the instance's process.
 bool rg_session_frames(struct rg_session *session, int frames, double *wall_ms);
 // Makes one such frame with exact counts of its work, which takes longer.
 bool rg_session_count(struct rg_session *session, struct rg_tally *tally);

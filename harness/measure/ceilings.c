@@ -28,7 +28,7 @@ static bool time_run(struct rg_pass *pass, const struct rg_run *run, int batch, 
     return true;
 }
 
-// The rate of a copy of so many bytes, read and written, in gigabytes a second.
+// The rate of a copy of this many bytes, read and written, in gigabytes a second.
 static bool measure_copy(struct rg_device *device, int bytes, int batch, double *gb_s)
 {
     void *zeroes = rg_alloc(1, (size_t)bytes, "ceiling source");

@@ -154,7 +154,7 @@ static void tell(const struct rg_measure_options *options, double done_ms, doubl
         options->progress(all_ms > 0 ? done_ms / all_ms : 1, options->user);
 }
 
-// The time in milliseconds of a job's samples up to so many of all rounds, and of timing its
+// The time in milliseconds of a job's samples up to this many of all rounds, and of timing its
 // passes.
 static double rounds_ms(const struct rg_job *job, int rounds, int all)
 {

@@ -26,11 +26,11 @@ bool rg_output_write(const char *folder, const char *name, const char *text);
 // The same for a path.
 bool rg_output_write_file(const char *path, const char *text);
 
-// Whether files of so many bytes can be written into a folder, to be asked before any work. A
+// Whether files of this many bytes can be written into a folder, to be asked before any work. A
 // missing last part counts as writable, and is not made yet. False, and one logged line.
 bool rg_output_can_be_written(const char *folder, int64_t bytes);
 
-// The same for a file of so many bytes, whose folder must exist.
+// The same for a file of this many bytes, whose folder must exist.
 bool rg_output_file_can_be_written(const char *path, int64_t bytes);
 
 // Whether a file of this name in a folder can be replaced (false if read-only), or does not exist.

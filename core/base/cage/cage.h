@@ -21,7 +21,7 @@ enum { RG_CAGE_REFUSED = 77, RG_CAGE_NO_MEMORY };
 
 // --- from outside ---
 
-// What a caged program returned.
+// The result of a caged program.
 struct rg_caged {
     char *reply; // its reply, which the caller frees; NULL: nothing
     size_t bytes;

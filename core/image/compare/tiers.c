@@ -33,7 +33,7 @@ struct pictures {
     float exposure;
 };
 
-// What one row adds to the totals; integers, so that the order of adding does not matter.
+// The sums of one row; integers, so that the order of adding does not matter.
 struct row_sums {
     int64_t mask_pixels, above_one, coverage_mismatches, unmatched_a, unmatched_b;
     int64_t bias[3], energy_a, energy_b;

@@ -24,9 +24,9 @@ bool rg_png_write(const char *path, const struct rg_picture *picture,
 // `extension`, since `path` is a temporary name.
 bool rg_oiio_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
                   struct rg_why *why);
-// Takes the reply of the reader's process for a file of so many bytes (core/image/reader/reply.h).
-// The picture may hold texels even where the reply turns out to be cut; the caller destroys it
-// either way.
+// Takes the reply of the reader's process for a file of this many bytes
+// (core/image/reader/reply.h). The picture may hold texels even where the reply turns out to be
+// cut; the caller destroys it either way.
 bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes,
                         struct rg_picture *picture, struct rg_why *why);
 bool rg_oiio_write_hdr(const char *path, const struct rg_picture *picture,

@@ -20,11 +20,11 @@ bool rg_picture_read(const char *path, struct rg_picture *picture);
 // logged. Extras are not logged, because the caller compares them.
 bool rg_pictures_read(const char *const *paths, struct rg_picture *pictures, int count);
 
-// A lower bound in bytes for drawn pictures of so many pixels in a file of this name; 0 where its
+// A lower bound in bytes for drawn pictures of this many pixels in a file of this name; 0 where its
 // format is unknown. Some take up to twenty times as much.
 int64_t rg_picture_file_bytes(const char *path, int64_t pixels);
 
-// Whether pictures of so many pixels together can be written there, to be asked before any work:
+// Whether pictures of this many pixels together can be written there, to be asked before any work:
 // the format is known, the folder exists and is writable, the disk has room. False and one logged
 // line.
 bool rg_picture_can_be_written(const char *path, int64_t pixels);

@@ -42,7 +42,7 @@ static inline int64_t rg_picture_reply_values(const struct rg_picture_reply *rep
     return (int64_t)reply->width * reply->height * reply->channels;
 }
 
-// Whether a file of so many bytes can hold the picture: only EXR codes more than 1040 values in a
+// Whether a file of this many bytes can hold the picture: only EXR codes more than 1040 values in a
 // byte.
 static inline bool rg_picture_reply_fits(const struct rg_picture_reply *reply, int64_t file_bytes)
 {

@@ -147,7 +147,7 @@ void fir(struct builder *b, point at, double height_m, int skirts, int around, u
 void bush(struct builder *b, point at, double radius_m, int rings, uint32_t id);
 // A flower with petals about its middle.
 void flower(struct builder *b, point at, double height_m, enum paint paint, uint32_t id);
-// A blade of grass of so many faces, bent outwards in its direction.
+// A blade of grass of this many faces, bent outwards in its direction.
 void blade(struct builder *b, point at, double height_m, double turn_deg, int faces,
            enum paint paint);
 // A pebble of an even number of faces, at least 6.
@@ -162,7 +162,7 @@ struct leftover {
     double pebble_m, blade_m; // their sizes
     enum paint pebble, blade;
 };
-// Adds pebbles and blades so that the mesh has exactly so many vertices and faces. False, and one
+// Adds pebbles and blades so that the mesh has exactly this many vertices and faces. False, and one
 // logged line, where no number of them does.
 bool fill(struct builder *b, const struct leftover *leftover, int vertices, int faces);
 

@@ -15,7 +15,7 @@ struct shares {
     int pebbles, pebble_faces, blades, blade_faces;
 };
 
-// Whether these faces can make so many pebbles and blades; a lower `cost` looks better.
+// Whether these faces can make this many pebbles and blades; a lower `cost` looks better.
 static bool judge(const struct shares *s, int *cost)
 {
     const bool pebbles_fit = s->pebble_faces % 2 == 0 &&

@@ -30,7 +30,7 @@ struct rg_mesh {
 // caller destroys it.
 struct rg_mesh *rg_mesh_load(const char *name);
 
-// The same with so many faces (rg_mesh_resize); 0: as many as it has.
+// The same with this many faces (rg_mesh_resize); 0: as many as it has.
 struct rg_mesh *rg_mesh_load_faces(const char *name, int faces);
 
 // The mesh of a file that Assimp reads (OBJ, PLY, STL, glTF, GLB, 3DS, OFF and others); `member`

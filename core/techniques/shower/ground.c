@@ -2,7 +2,7 @@
 #include "core/scene/matrix.h"
 #include "core/techniques/shower/instance.h"
 
-// What the map covers: the scene, with a margin so that it is not cut at its highest and lowest.
+// Sets the map to cover the scene, with a margin so that its highest and lowest parts are not cut.
 static void set_extent(shower_params *p, const struct city_faces *faces)
 {
     const float margin_m = 1;

@@ -33,8 +33,8 @@ struct rg_asset *rg_asset_find(struct rg_instance *instance, const char *name);
 
 // Sets the items of stages over the asset, instead of one for each element.
 void rg_set_items(struct rg_asset *asset, int width, int height, int depth);
-// Ensures that a buffer holds at least so many words, and makes its contents undefined. False, with
-// one logged line and no buffer, on failure.
+// Ensures that a buffer holds at least this many words, and makes its contents undefined. False,
+// with one logged line and no buffer, on failure.
 bool rg_make_room(struct rg_instance *instance, struct rg_asset *asset, int64_t count);
 // Makes the asset an image of this description, all zeroes, unless it already is one. False, with
 // one logged line and no image, on failure.

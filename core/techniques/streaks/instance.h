@@ -76,7 +76,7 @@ struct streaks {
     struct streaks_selection selection;
     streaks_params params;
     int64_t map_due; // the frame in which a dynamic depth map is next redrawn
-    // Of the current stage.
+    // Parameters of the current stage.
     streaks_params of_rain;
     streaks_far_params of_far;
 };

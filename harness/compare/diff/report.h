@@ -17,8 +17,8 @@ json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c
 // ownership of the arrays. `devices` is NULL for files. False, and one logged line, on failure.
 bool rg_pairs_print_json(json_t *devices, json_t *pairs, json_t *failures);
 
-// Whether heat maps of so many pixels together can be written there, to be asked before any work; a
-// NULL prefix means none. False, and one logged line.
+// Whether heat maps of this many pixels together can be written there, to be asked before any work;
+// a NULL prefix means none. False, and one logged line.
 bool rg_pair_heatmaps_can_be_written(const char *prefix, int64_t pixels);
 // Whether no heat map would replace the file `read`, which may be NULL. False, and one logged line,
 // if one would.

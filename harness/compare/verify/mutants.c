@@ -1,10 +1,11 @@
 // Mutants: a comparison that accepts a slightly wrong model proves nothing. Each mutant is drawn on
 // one device and compared with the true model's image, at T1, the loosest tier that verify accepts,
 // or at a requested tier.
-//  They have a scene of their own, the proof's over the technique's defaults, regardless of the
-//  user's settings, since on a pane without drops a mutant would survive. And their pictures are
-//  early ones: by step 1,000 a drop missing at the start would have run off the pane. Contrasts are
-//  mutants with their own scenes.
+//
+// They have a scene of their own, the proof's over the technique's defaults, regardless of the
+// user's settings, since on a pane without drops a mutant would survive. And their pictures are
+// early ones: by step 1,000 a drop missing at the start would have run off the pane. Contrasts are
+// mutants with their own scenes.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -10,7 +10,7 @@
 
 #include "harness/record/schema/schema.h"
 
-// Sets the checksum of each cell of a result's document. False without memory.
+// Sets the checksum of each cell of a result's document. False when memory runs out.
 bool rg_cells_seal(json_t *document);
 
 // Whether in a document accepted by rg_result_from_json every cell has its correct checksum, or

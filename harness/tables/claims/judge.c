@@ -57,7 +57,7 @@ struct bound {
 
 static const struct bound faster_at_all = {1, 1};
 
-// A frame rate with at least so many digits, without an exponent.
+// A frame rate with at least this many digits, without an exponent.
 static const char *fps_text(double fps, int digits, char text[24])
 {
     if (fps < 999)
@@ -67,7 +67,7 @@ static const char *fps_text(double fps, int digits, char text[24])
     return text;
 }
 
-// Adds the part "`faster` is at least so many times as fast as `slower`".
+// Adds the part "`faster` is at least this many times as fast as `slower`".
 static void add_part(struct parts *parts, const struct rg_record *faster,
                      const struct rg_record *slower, struct bound bound)
 {

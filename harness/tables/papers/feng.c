@@ -2,7 +2,7 @@
 // results/published/feng-*.csv, which a test compares.
 #include "harness/tables/papers/published.h"
 
-// After so many steps, as much rain reaches the ground as is released.
+// After this many steps, as much rain reaches the ground as is released.
 #define RAIN                                                                                       \
     .technique = "cartoon",                                                                        \
     .hardware = "AMD Athlon XP 2500+ 1.83 GHz with NVIDIA GeForce 6800 LE", .names = "model",      \

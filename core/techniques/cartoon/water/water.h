@@ -7,7 +7,7 @@
 
 #define CARTOON_UNIT_M3 1e-10 // the volume of a unit
 
-// What the scene provides each frame: the place of pixels, the light and the ink.
+// Each frame's data from the scene: the place of pixels, the light and the ink.
 struct cartoon_water_view {
     m4 from_pixel;
     float to_light[3];

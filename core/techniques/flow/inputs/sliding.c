@@ -75,7 +75,7 @@ flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t ru
 {
     const int k = texels_a_cell(s);
     const double cell_mm = k * texel_mm(s), cell_mm2 = cell_mm * cell_mm;
-    // The area of a Gaussian after so many runs; at least a cell.
+    // The area of a Gaussian after this many runs; at least a cell.
     const double around_mm2 = fmax(2 * M_PI * AROUND_RUNS * SMOOTHED_MM2, cell_mm2);
     const double to_height = 1 / s->relief;
     return (flow_slide_params){

@@ -1,7 +1,8 @@
 // Groups nearby particles into blocks, and finds the blocks that a view can see.
-//  Neighbours on the Morton curve are neighbours on the top plane, but at different heights. So
-//  every 1024 of them are sorted by start: a block of 32 is then a small falling box, and most
-//  blocks of a packet that is partly out of view are culled.
+//
+// Neighbours on the Morton curve are neighbours on the top plane, but at different heights. So
+// every 1024 of them are sorted by start: a block of 32 is then a small falling box, and most
+// blocks of a packet that is partly out of view are culled.
 #include <math.h>
 #include <string.h>
 

@@ -93,7 +93,7 @@ static bool is_fine(const struct rg_density *map, const struct streaks_grid *gri
     return (double)sum <= MOST_DISPLACED * PARTS * rg_density_mean(map) * map->width * map->height;
 }
 
-// Chooses so many cells, as square as possible. False where there are too many.
+// Chooses this many cells, as square as possible. False where there are too many.
 static bool set_cells(const struct streaks_packets *p, double particles_m2, int across, int down,
                       double *full_cell, struct streaks_grid *grid)
 {

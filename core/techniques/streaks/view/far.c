@@ -9,7 +9,7 @@
 // Width and height of the density map in texels; a larger map is averaged.
 enum { DENSITY_PX = 512 };
 
-// A pattern repeats after so many metres of fall: four hours.
+// A pattern repeats after this many metres of fall: four hours.
 static const double longest_fall_m = 131072;
 
 static bool write_density(const struct streaks *s, const struct rg_density *density)
