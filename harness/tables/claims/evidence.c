@@ -92,7 +92,8 @@ static bool end_without_number(struct evidence *e, int row)
     return false;
 }
 
-// Whether a claim can be judged without a row: those between the first and the last, except a knee.
+// Whether a claim can be judged without a row. If it is about each row, any may be missing; else
+// those between the first and the last, except a knee.
 static bool can_miss(const struct rg_claim *c, int row)
 {
     return rg_claim_is_of_each_row(c) || (row != c->first && row != c->last && row != c->knee);
