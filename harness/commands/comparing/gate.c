@@ -287,9 +287,18 @@ static bool has_times(const struct gate_options *o, const struct rg_baseline *ba
                            o->baseline);
 }
 
+static bool can_search(const struct gate_input *in)
+{
+    bool ok = true;
+    for (int64_t i = 0; ok && i < in->cells.count; i++)
+        ok = rg_known_can_search(&in->known, in->cells.cells[i].name);
+    return ok;
+}
+
 static bool read_input(const struct gate_options *o, struct gate_input *in)
 {
-    const bool is_read = rg_gate_cells_read(o->cells, &in->cells) && read_known(o, &in->known);
+    const bool is_read =
+        rg_gate_cells_read(o->cells, &in->cells) && read_known(o, &in->known) && can_search(in);
     if (is_read && !o->gtest.list) {
         rg_gate_warn_of_strays(&in->known, &in->cells);
         rg_gate_warn_of_days(&in->known, today());

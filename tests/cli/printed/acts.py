@@ -117,9 +117,12 @@ def of_expectations(place, _):
         own = "flake *\n  device %s\n  driver %s%s" % (name, place.library, fields)
         yield cells + ["--expectations", place.file("in/known.txt", own)], {0}, None
         yield cells + ["--fails", place.file("in/fails.txt", "raster/torus.%s,Crash\n" % name)], {0, 1}, None
-    for pattern in ("((a?){60}){60}b", "((a|b)?(a|b)?){1000}z", "(a{0,30}){0,100}z", "(a|b)*a(a|b){200}c", "a?" * 101, 2 * ("(" + "a?" * 51 + ")"), "(a?" * 60 + ")" * 60 + "(a?){60}"):
-        yield cells + ["--flakes", place.file("in/flakes.txt", pattern + "\n")], {2}, "flakes.txt:1: regular expression"
-    yield cells + ["--skips", place.file("in/skips.txt", "((x|b)?(y|b)?){50}z\n" * 30)], {2}, "skips.txt:21: .* with those before it repeats too often"
+    cells[-1] = place.file("in/cells.txt", CELL.replace("torus ", "aabab" * 10 + " ", 1))
+    for pattern in ("(a+)+$", "((a|b|ab)*)*[YZ]", "(.*.*.*.*.*.*)*[YZ]", "(a|b)*a(a|b){200}[YZ]", "(a?b?){100}[YZ]"):
+        yield cells + ["--flakes", place.file("in/flakes.txt", pattern + "\n")], {0}, None
+    for pattern in ("((a?){60}){60}[YZ]", "((a|b)?(a|b)?){1000}[YZ]", "(.{0,1000}){9}[YZ]"):
+        yield cells + ["--skips", place.file("in/skips.txt", "x\n" + pattern)], {2}, "skips.txt:2: regular expression: takes too long .* 'raster/aabab"
+    yield cells + ["--flakes", place.file("in/flakes.txt", "((a{0,99}){0,99}){0,99}\n")], {2}, "flakes.txt:1: regular expression .* is too large"
     yield cells + ["--expectations", place.file("in/known.txt", "flake *\n  reason x\u009b31m\n")], {2}, "known.txt:2: control character 0x9b"
 
 

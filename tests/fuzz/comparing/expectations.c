@@ -31,6 +31,15 @@ static void ask(const struct rg_known *known)
     }
 }
 
+static void search(const struct rg_known *known)
+{
+    fuzz_listen();
+    bool can = true;
+    for (int i = 0; can && i < RESULTS; i++)
+        can = rg_known_can_search(known, results[i].cell);
+    fuzz_judge_lines(can, 0);
+}
+
 static void patch(const struct rg_known *known)
 {
     char *text = NULL;
@@ -51,8 +60,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         fuzz_listen();
         const bool taken = rg_known_add(&known, path, (enum rg_known_form)form);
         fuzz_judge_lines(taken, 0);
-        if (taken)
+        if (taken) {
+            search(&known);
             ask(&known);
+        }
         if (taken && form == RG_FORM_OWN)
             patch(&known);
         rg_known_free(&known);

@@ -8,11 +8,8 @@
 
 static void drop_rows(struct rg_known *expected, int64_t from)
 {
-    for (int64_t i = from; i < expected->count; i++) {
-        if (expected->rows[i].regex)
-            regfree(expected->rows[i].regex);
-        free(expected->rows[i].regex);
-    }
+    for (int64_t i = from; i < expected->count; i++)
+        rg_regex_free(expected->rows[i].regex);
     expected->count = from;
 }
 

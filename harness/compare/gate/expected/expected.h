@@ -3,11 +3,11 @@
 #ifndef RG_HARNESS_COMPARE_GATE_EXPECTED_EXPECTED_H
 #define RG_HARNESS_COMPARE_GATE_EXPECTED_EXPECTED_H
 
-#include <regex.h>
 #include <stdio.h>
 
 #include "core/base/outcome.h"
 #include "harness/compare/gate/text/lines.h"
+#include "harness/compare/gate/text/regex.h"
 
 enum rg_known_form {
     RG_FORM_OWN,    // docs/expectations.md
@@ -42,7 +42,7 @@ struct rg_expectation {
     int file;                           // in rg_known.files
     int64_t line, line_count;           // in the file, from 0
     const char *cell;                   // a pattern (rg_glob), or of Mesa's fails the name itself
-    regex_t *regex;                     // of Mesa's flakes and skips, instead of `cell`
+    struct rg_regex *regex;             // of Mesa's flakes and skips, instead of `cell`
     const char *values[RG_FIELD_COUNT]; // as they stand in the file; NULL: not given
     int64_t at[RG_FIELD_COUNT];         // their lines
     unsigned outcomes;                  // a bit, 1 << enum rg_outcome, for each that is expected
@@ -90,6 +90,11 @@ bool rg_known_add(struct rg_known *expected, const char *path, enum rg_known_for
 bool rg_known_add_text(struct rg_known *expected, const char *name, const char *text, size_t size,
                        enum rg_known_form form);
 void rg_known_free(struct rg_known *expected);
+
+// Whether all regular expressions can be searched for in a cell's name, which is asked before any
+// work. False, and one logged line with the file's, where one takes too long: for no name like that
+// does it hold.
+bool rg_known_can_search(const struct rg_known *expected, const char *cell);
 
 // The row that holds for a cell on this day: of several, a skip before a flake before a failure,
 // and then the first. -1: none; one that begins later does not hold yet.

@@ -20,13 +20,6 @@ bool rg_known_read_mesa(struct rg_known *expected, enum rg_known_form form);
 bool rg_known_holds(const struct rg_known *expected, const struct rg_expectation *row,
                     const char *cell, const char *device, const char *driver, int today);
 
-// Compiles a regular expression of Rust's syntax as one of POSIX; docs/expectations.md says what
-// of it there is. NULL, and one logged line that begins with `place`, where it cannot be had. The
-// caller calls regfree and free. `left` is what the expressions of a file may still take to be
-// searched for, the square of their repetitions: RG_KNOWN_SEARCH at first.
-regex_t *rg_known_regex(const char *place, const char *text, double *left);
-enum { RG_KNOWN_SEARCH = 200000 };
-
 extern const char *const rg_known_kinds[];  // "skip", "flake", "fail"
 extern const char *const rg_known_fields[]; // "device", ...
 

@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "core/base/log.h"
 #include "harness/compare/gate/expected/inside.h"
 #include "harness/compare/gate/text/glob.h"
 
@@ -32,11 +33,24 @@ bool rg_known_holds(const struct rg_known *expected, const struct rg_expectation
     if (today < row->since)
         return false;
     if (row->regex)
-        return !regexec(row->regex, cell, 0, NULL, 0);
+        return rg_regex_search(row->regex, cell) == RG_REGEX_FOUND;
     if (expected->files[row->file].form == RG_FORM_FAILS)
         return !strcmp(row->cell, cell);
     return rg_glob(row->cell, cell) && is_of(row->values[RG_FIELD_DEVICE], device) &&
            (!driver || is_of(row->values[RG_FIELD_DRIVER], driver));
+}
+
+bool rg_known_can_search(const struct rg_known *expected, const char *cell)
+{
+    for (int64_t i = 0; i < expected->count; i++) {
+        const struct rg_expectation *row = &expected->rows[i];
+        if (row->regex && rg_regex_search(row->regex, cell) == RG_REGEX_TOO_LONG)
+            return rg_error("%s:%lld: regular expression: takes too long to be searched for in "
+                            "'%.80s'; write fewer repetitions in one another "
+                            "(docs/expectations.md)",
+                            expected->files[row->file].lines.name, (long long)row->line + 1, cell);
+    }
+    return true;
 }
 
 int64_t rg_known_row(const struct rg_known *expected, const char *cell, const char *device,

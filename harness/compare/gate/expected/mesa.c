@@ -56,11 +56,11 @@ static bool take_fail(const char *place, struct rg_known *expected, char *text, 
 }
 
 static bool take_regex(const char *place, struct rg_known *expected, const char *text,
-                       enum rg_known_kind kind, int64_t line, double *left)
+                       enum rg_known_kind kind, int64_t line)
 {
     struct rg_expectation *row = rg_known_new(expected, kind, line);
     if (row)
-        row->regex = rg_known_regex(place, text, left);
+        row->regex = rg_regex_of(place, text);
     return row && row->regex;
 }
 
@@ -68,7 +68,6 @@ bool rg_known_read_mesa(struct rg_known *expected, enum rg_known_form form)
 {
     const struct rg_lines *lines = &expected->files[expected->file_count - 1].lines;
     const enum rg_known_kind kind = form == RG_FORM_SKIPS ? RG_EXPECT_SKIP : RG_EXPECT_FLAKE;
-    double left = RG_KNOWN_SEARCH; // to be searched for
     char place[512];
     bool ok = true;
     for (int64_t i = 0; i < lines->count && ok; i++) {
@@ -77,7 +76,7 @@ bool rg_known_read_mesa(struct rg_known *expected, enum rg_known_form form)
         if (rg_line_is_empty(&lines->lines[i]))
             continue;
         ok = form == RG_FORM_FAILS ? take_fail(place, expected, text, i)
-                                   : take_regex(place, expected, text, kind, i, &left);
+                                   : take_regex(place, expected, text, kind, i);
     }
     return ok;
 }

@@ -1,0 +1,239 @@
+#define PCRE2_CODE_UNIT_WIDTH 8
+#include "harness/compare/gate/text/regex.h"
+
+#include <ctype.h>
+#include <pcre2.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+
+enum {
+    MOST_BYTES = 4096,
+    MOST_DEPTH = 250,
+    MOST_NESTED = 8192,        // of libpcre2's groups, with those for repetitions of repetitions
+    MOST_STEPS = 1000000,      // of a search
+    STATES = 2 + 6 * 600,      // of a search that goes all ways side by side: 600, and their heads
+    MOST_HEAP_KIB = 16 * 1024, // of a search
+};
+
+struct rg_regex {
+    pcre2_code *code;
+    pcre2_match_data *data;
+    pcre2_match_context *limits;
+};
+
+// --- from Rust's syntax to libpcre2's ---
+
+// The two differ in what is refused here, in a ) without its (, which this reads as itself, and in
+// repetitions of repetitions, of which libpcre2 makes possessive ones.
+struct translation {
+    const char *place;
+    const char *at;                    // what comes next
+    char *to;                          // where it goes
+    char *last;                        // where the item that comes before it begins
+    char *groups[MOST_DEPTH];          // where the groups around it begin
+    int depth;                         // of these
+    enum { ONCE, REPEATED, LAZY } how; // often the item is there
+};
+
+static bool refuse(const struct translation *t, const char *what)
+{
+    return rg_error("%s: regular expression: %s at '%.40s' is not known here; write it without "
+                    "(docs/expectations.md)",
+                    t->place, what, t->at);
+}
+
+static void put(struct translation *t, size_t length)
+{
+    memcpy(t->to, t->at, length);
+    t->to += length;
+    t->at += length;
+}
+
+static void put_item(struct translation *t, size_t length)
+{
+    t->last = t->to;
+    t->how = ONCE;
+    put(t, length);
+}
+
+// Escapes that the two have alike; Rust's \< and \> are ends of words.
+static bool is_escape(char c, const char *letters)
+{
+    return c && (strchr(letters, c) || (ispunct((unsigned char)c) && c != '<' && c != '>'));
+}
+
+static bool take_escape(struct translation *t)
+{
+    if (!is_escape(t->at[1], "dDwWsSbB"))
+        return refuse(t, "this escape");
+    put_item(t, 2);
+    return true;
+}
+
+// In a class Rust has further classes and operators.
+static bool take_class(struct translation *t)
+{
+    const char *end = t->at + 1;
+    end += *end == '^';
+    end += *end == ']';
+    for (; *end && *end != ']'; end++)
+        if (strchr("[&~", *end) || (*end == '\\' && !is_escape(*++end, "dDwWsS")))
+            return refuse(t, "a class with [, &, ~ or this escape in it");
+    if (!*end)
+        return refuse(t, "a [ without its ]");
+    put_item(t, (size_t)(end - t->at) + 1);
+    return true;
+}
+
+// The length of a count, {3}, {3,} or {3,5}; 0: it is none.
+static size_t count_length(const char *at)
+{
+    static const char digits[] = "0123456789";
+    size_t length = 1 + strspn(at + 1, digits);
+    if (length > 1 && at[length] == ',')
+        length += 1 + strspn(at + length + 1, digits);
+    return isdigit((unsigned char)at[1]) && at[length] == '}' ? length + 1 : 0;
+}
+
+static bool take_repetition(struct translation *t)
+{
+    const size_t length = *t->at == '{' ? count_length(t->at) : 1;
+    if (!length)
+        return refuse(t, "this count");
+    const bool is_lazy = t->how == REPEATED && *t->at == '?';
+    if (t->how != ONCE && !is_lazy) {
+        memmove(t->last + 3, t->last, (size_t)(t->to - t->last));
+        memcpy(t->last, "(?:", 3);
+        t->to += 3;
+        *t->to++ = ')';
+    }
+    t->how = is_lazy ? LAZY : REPEATED;
+    put(t, length);
+    return true;
+}
+
+static bool take_group(struct translation *t)
+{
+    if (t->at[1] == '*' || (t->at[1] == '?' && t->at[2] != ':'))
+        return refuse(t, "this group");
+    if (t->depth == MOST_DEPTH)
+        return refuse(t, "so deep a group");
+    t->groups[t->depth++] = t->to;
+    put_item(t, t->at[1] == '?' ? 3 : 1);
+    return true;
+}
+
+static bool take_end_of_group(struct translation *t)
+{
+    if (!t->depth)
+        *t->to++ = '\\';
+    put_item(t, 1);
+    t->last = t->depth ? t->groups[--t->depth] : t->last - 1;
+    return true;
+}
+
+static bool take_next(struct translation *t)
+{
+    switch (*t->at) {
+    case '\\':
+        return take_escape(t);
+    case '[':
+        return take_class(t);
+    case '(':
+        return take_group(t);
+    case ')':
+        return take_end_of_group(t);
+    case '*':
+    case '+':
+    case '?':
+    case '{':
+        return take_repetition(t);
+    default:
+        put_item(t, 1);
+        return true;
+    }
+}
+
+// --- libpcre2 ---
+
+static pcre2_code *compile(const char *place, const char *text, const char *translated)
+{
+    // As of bytes: . is any, and $ is the end.
+    enum { OPTIONS = PCRE2_DOTALL | PCRE2_DOLLAR_ENDONLY | PCRE2_NEVER_UTF | PCRE2_NEVER_UCP };
+    pcre2_compile_context *context = pcre2_compile_context_create(NULL);
+    if (!context)
+        return rg_error_null("%s: no memory for a regular expression; close other programs", place);
+    pcre2_set_parens_nest_limit(context, MOST_NESTED);
+    int code;
+    PCRE2_SIZE at;
+    pcre2_code *regex =
+        pcre2_compile((PCRE2_SPTR)translated, PCRE2_ZERO_TERMINATED, OPTIONS, &code, &at, context);
+    pcre2_compile_context_free(context);
+    if (regex)
+        return regex;
+    char why[128];
+    pcre2_get_error_message(code, (PCRE2_UCHAR *)why, sizeof(why));
+    return rg_error_null("%s: regular expression '%.80s': %s; mend it", place, text, why);
+}
+
+static bool add_limits(const char *place, struct rg_regex *regex)
+{
+    regex->data = pcre2_match_data_create(1, NULL);
+    regex->limits = pcre2_match_context_create(NULL);
+    if (!regex->data || !regex->limits)
+        return rg_error("%s: no memory for a regular expression; close other programs", place);
+    pcre2_set_match_limit(regex->limits, MOST_STEPS);
+    pcre2_set_depth_limit(regex->limits, MOST_STEPS);
+    pcre2_set_heap_limit(regex->limits, MOST_HEAP_KIB);
+    return true;
+}
+
+struct rg_regex *rg_regex_of(const char *place, const char *text)
+{
+    enum { GROWTH = 5 }; // a + that follows one gets (?:)
+    const size_t length = strlen(text);
+    if (length > MOST_BYTES)
+        return rg_error_null("%s: a regular expression of %zu bytes; at most %d", place, length,
+                             MOST_BYTES);
+    struct rg_regex *regex = rg_alloc(1, sizeof(*regex), place);
+    char *translated = rg_alloc(GROWTH, length + 1, place);
+    struct translation t = {.place = place, .at = text, .to = translated};
+    bool ok = regex && translated;
+    while (ok && *t.at)
+        ok = take_next(&t);
+    ok = ok && (regex->code = compile(place, text, translated)) && add_limits(place, regex);
+    free(translated);
+    if (ok)
+        return regex;
+    rg_regex_free(regex);
+    return NULL;
+}
+
+void rg_regex_free(struct rg_regex *regex)
+{
+    if (!regex)
+        return;
+    pcre2_code_free(regex->code);
+    pcre2_match_data_free(regex->data);
+    pcre2_match_context_free(regex->limits);
+    free(regex);
+}
+
+enum rg_regex_found rg_regex_search(const struct rg_regex *regex, const char *text)
+{
+    const PCRE2_SPTR in = (PCRE2_SPTR)text;
+    int states[STATES];
+    int found =
+        pcre2_match(regex->code, in, PCRE2_ZERO_TERMINATED, 0, 0, regex->data, regex->limits);
+    // One way after the other takes too many steps: all ways side by side take fewer, and each
+    // step longer.
+    if (found < 0 && found != PCRE2_ERROR_NOMATCH)
+        found = pcre2_dfa_match(regex->code, in, PCRE2_ZERO_TERMINATED, 0, PCRE2_DFA_SHORTEST,
+                                regex->data, regex->limits, states, STATES);
+    return found >= 0                     ? RG_REGEX_FOUND
+           : found == PCRE2_ERROR_NOMATCH ? RG_REGEX_ABSENT
+                                          : RG_REGEX_TOO_LONG;
+}
