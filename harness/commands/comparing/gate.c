@@ -19,6 +19,7 @@
 #include "harness/devices/drivers/side.h"
 #include "harness/devices/workers/worker.h"
 #include "harness/record/disk/hold.h"
+#include "harness/record/output.h"
 
 struct gate_options {
     char *against;                   // another build; NULL: two devices, or a baseline
@@ -33,7 +34,7 @@ struct gate_options {
     char *pictures;                  // a folder for differing pictures; NULL: beside the JUnit file
     struct rg_gtest_asked gtest;
     int64_t memory_bytes;
-    bool pictures_only, fresh, github, json;
+    bool pictures_only, fresh, update, github, json;
 };
 
 #define AT(field) offsetof(struct gate_options, field)
@@ -81,6 +82,10 @@ static const struct rg_option options[] = {
      .offset = AT(known[RG_FORM_FLAKES]), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXTS, "skips", .argument = "FILE", .about = "the same as Mesa's *-skips.txt",
      .offset = AT(skips), .names = RG_NAMES_FILE},
+    {RG_OPTION_FLAG, "update",
+     .about = "writes the files of --expectations and --fails anew where they are not true of this "
+              "run; `git diff` shows what changed",
+     .offset = AT(update), .excludes = "gtest_filter gtest_list_tests"},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about =
@@ -177,6 +182,24 @@ static bool spares_inputs(const struct gate_options *o, const struct rg_gate_out
     return ok;
 }
 
+// Whether the files of expectations can be written anew, as is found out before any work.
+static bool can_update(const struct gate_options *o, const struct rg_gate_request *request)
+{
+    enum { KNOWN_BYTES = 1 << 16 };
+    bool ok = true, any = false;
+    for (int form = RG_FORM_OWN; o->update && form <= RG_FORM_FAILS; form++)
+        for (int i = 0; ok && i < o->known[form].count; i++, any = true)
+            ok = rg_output_file_can_be_written(o->known[form].items[i], KNOWN_BYTES);
+    if (!ok || !o->update)
+        return ok;
+    if (!any)
+        return rg_error("--update: there is no file to write; name one by --expectations or "
+                        "--fails");
+    return (!request->filter && request->shards.total <= 1) ||
+           rg_error("--update: a filter or a shard runs some of the cells, and the files are of "
+                    "all; run the gate without it");
+}
+
 // --- the command ---
 
 static int run_either(const struct gate_options *o, const struct gate_input *in,
@@ -222,8 +245,11 @@ static struct rg_gate_left left_of(const struct gate_options *o, const struct ga
 static int run(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate gate = {.case_count = 0};
-    struct rg_gate_outputs outputs = {
-        .bmf = o->bmf, .github = o->github, .json = o->json, .today = today()};
+    struct rg_gate_outputs outputs = {.bmf = o->bmf,
+                                      .github = o->github,
+                                      .json = o->json,
+                                      .updates = o->update,
+                                      .today = today()};
     struct rg_gate_request request = {.pairs = &in->pairs,
                                       .cells = &in->cells,
                                       .known = &in->known,
@@ -237,7 +263,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
         rg_gate_outputs_settle(o->junit, o->pictures, &o->gtest, &outputs) &&
         spares_inputs(o, &outputs) &&
         (!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
-        rg_gate_outputs_can_be_written(&outputs)) {
+        rg_gate_outputs_can_be_written(&outputs) && can_update(o, &request)) {
         outputs.prints_gtest |= request.shards.total > 1;
         request.pictures = *outputs.pictures ? outputs.pictures : NULL;
         exit = run_held(o, in, &request, &gate);
@@ -334,7 +360,7 @@ const struct rg_command rg_command_gate = {
     .name = "gate",
     .usage = "{A B | {--against BINARY | --baseline FILE} [--device D,...|all]} [--require D,...] "
              "[--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--expectations "
-             "FILE]... [--junit FILE] [--bmf FILE] [--github] [--json]",
+             "FILE]... [--update] [--junit FILE] [--bmf FILE] [--github] [--json]",
     .about =
         "tells whether device B is worse than A, or than a baseline: other pictures, states or "
         "counters, or slower",

@@ -82,26 +82,51 @@ bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs)
 
 // --- printing ---
 
-// Prints the changes that would bring the expectation files up to date; the first file gets new
-// failures.
-static bool print_patches(const struct rg_known *known, const struct rg_gate *gate, int today)
+// Whether a file still has the bytes that were read.
+static bool is_unchanged(const struct rg_lines *lines)
+{
+    struct rg_lines now;
+    const bool is_read = rg_lines_read(lines->name, &now);
+    const bool is_same =
+        is_read && now.size == lines->size && !memcmp(now.raw, lines->raw, now.size);
+    rg_lines_free(&now);
+    if (is_read && !is_same)
+        rg_error("%s: was changed while the gate ran, and stays; run it again", lines->name);
+    return is_same;
+}
+
+static bool mend_file(const struct rg_gate_outputs *outputs, const char *text,
+                      const struct rg_lines *lines)
+{
+    if (!outputs->updates)
+        return printf("%s: is not true of this run; --update writes it anew\n", lines->name) > 0;
+    if (!is_unchanged(lines) || !rg_output_write_file(lines->name, text))
+        return false;
+    rg_info("%s: written anew; `git diff` shows what changed", lines->name);
+    return true;
+}
+
+// What would make the files of expected failures true; the first gets failures that are new.
+static bool mend_files(const struct rg_gate_outputs *outputs, const struct rg_known *known,
+                       const struct rg_gate *gate)
 {
     bool ok = true, adds_new = true;
     for (int file = 0; ok && file < known->file_count; file++) {
-        const enum rg_known_form form = known->files[file].form;
-        if (form != RG_FORM_OWN && form != RG_FORM_FAILS)
-            continue;
-        ok =
-            rg_known_patch(known, file, gate->results, gate->result_count, today, adds_new, stdout);
+        char *text;
+        ok = rg_known_mend(known, file, gate->results, gate->result_count, outputs->today, adds_new,
+                           &text);
+        if (text)
+            ok = mend_file(outputs, text, &known->files[file].lines);
+        free(text);
         adds_new = false;
     }
     return ok;
 }
 
-static bool print_text(const struct rg_known *known, const struct rg_gate *gate, int today)
+static bool print_text(const struct rg_gate *gate)
 {
     fputs(gate->note ? gate->note : "", stdout);
-    return rg_report_text(&gate->report, stdout) && print_patches(known, gate, today);
+    return rg_report_text(&gate->report, stdout);
 }
 
 static bool print_github(const struct rg_gate_outputs *outputs, const struct rg_report *report)
@@ -121,9 +146,12 @@ bool rg_gate_outputs_print(const struct rg_gate_outputs *outputs, const struct r
     if (outputs->bmf)
         ok = rg_report_write(report, rg_report_bmf, outputs->bmf) && ok;
     if (outputs->json)
-        return rg_report_json(report, stdout) && ok;
-    ok = (outputs->prints_gtest ? rg_gtest_print(report, stdout)
-                                : print_text(known, gate, outputs->today)) &&
-         ok;
+        ok = rg_report_json(report, stdout) && ok;
+    else if (outputs->prints_gtest)
+        ok = rg_gtest_print(report, stdout) && ok;
+    else
+        ok = print_text(gate) && ok;
+    if (outputs->updates || (!outputs->json && !outputs->prints_gtest))
+        ok = mend_files(outputs, known, gate) && ok;
     return (!outputs->github || print_github(outputs, report)) && ok;
 }

@@ -8,8 +8,9 @@
 struct rg_gate_outputs {
     char junit[PATH_MAX], pictures[PATH_MAX]; // a file and a folder; "": none
     const char *bmf;                          // a file; NULL: none
-    bool prints_gtest;                        // prints results in googletest's format
-    bool github, json;                        // prints annotations; prints results as JSON
+    bool prints_gtest;                        // results, in googletest's words
+    bool github, json;                        // annotations; results in machine form
+    bool updates;                             // files of expectations are written anew
     int today;                                // harness/compare/gate/text/date.h
 };
 
@@ -27,8 +28,8 @@ bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *fi
 // and one logged line, if not.
 bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs);
 
-// Writes and prints a gate's findings, and for people the changes that would bring the files of
-// `known` up to date. False, and one logged line, on failure.
+// Writes and prints what a gate found, and writes files of `known` anew that are not true of it, or
+// tells people which these are. False, and one logged line, where something cannot be written.
 bool rg_gate_outputs_print(const struct rg_gate_outputs *outputs, const struct rg_known *known,
                            const struct rg_gate *gate);
 

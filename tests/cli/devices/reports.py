@@ -80,7 +80,8 @@ def check_names(runner):
 # --- expectations ---
 
 FIELDS = "  device gl@*\n  reason a test\n  since 2019-01-01\n  until %s\n"
-KNOWN_NAME = "what is known.txt"  # with blanks, for patch
+KNOWN_NAME = "what is known.txt"
+UNTRUE = ": is not true of this run; --update writes it anew\n"
 LATE, PAST = "2099-12-31", "2020-01-01"
 
 
@@ -89,7 +90,7 @@ def expectation(line, until=LATE, outcome="fail"):
 
 
 def gate(runner, folder, more):
-    """A gate of kernels that are right and wrong: its exit status, each case's ending and message, the patch that it prints."""
+    """A gate of kernels that are right and wrong: its exit status, each case's ending and message, what it prints."""
     args = [runner.raingauge, "gate", "gl", "gl@RG_KERNEL_DIR=kernels", "--cells", "cells.txt", "--pictures"] + more
     ran = subprocess.run(args, cwd=folder, env=runner.variables({}), capture_output=True, text=True, timeout=240, check=False)
     endings = {cell: ending for ending, cell in re.findall(r"^(\S.*?)  +(\w+/\w+)\.gl@", ran.stdout, re.M)}
@@ -97,7 +98,7 @@ def gate(runner, folder, more):
 
 
 def check_expectations(runner):
-    """expected, fixed, fails differently, expired, flaky and skipped: each has its ending, and the patch makes the file true"""
+    """expected, fixed, fails differently, expired, flaky and skipped: each has its ending, and --update makes the file true"""
     rows = [(expectation("fail flow/*"), 0, "expected failure", "", False), (expectation("fail flow/*", outcome="crash"), 1, "differs", "fails differently", True),
             (expectation("fail *"), 1, "expected failure", "", True), (expectation("fail flow/*", until=PAST), 1, "differs", "expired", True),
             (expectation("flake flow/*", outcome=None), 0, "flake", "the picture differs", False), (expectation("skip flow/*", outcome=None), 0, "skipped", "", False),
@@ -108,27 +109,32 @@ def check_expectations(runner):
         runner.kernels_with(os.path.join(folder, "kernels"), "flow_normals.glsl", RIGHT, TURNED)
         with open(os.path.join(folder, "cells.txt"), "w") as file:
             file.write(QUICK)
-        for text, status, ending, says, has_patch in rows:
+        for text, status, ending, says, is_untrue in rows:
             path = os.path.join(folder, KNOWN_NAME)
             with open(path, "w") as file:
                 file.write(text)
             found, endings, told = gate(runner, folder, ["--expectations", KNOWN_NAME])
             wanted = {"flow/pane": ending, "raster/torus": "unexpected pass" if text.startswith("fail *") else "pass"}
-            patch = told[told.index("--- "):] if "--- " in told else ""
-            if (found, endings) != (status, wanted) or says not in told or bool(patch) != has_patch:
+            with open(path) as file:
+                is_as_before = file.read() == text
+            if (found, endings) != (status, wanted) or says not in told or (KNOWN_NAME + UNTRUE in told) != is_untrue or not is_as_before:
                 problems.append("%s: exit status %d, %s\n%s" % (text, found, endings, told))
-            if not patch:
+            found, again, told = gate(runner, folder, ["--update", "--expectations", KNOWN_NAME])
+            with open(path) as file:
+                is_as_before = file.read() == text
+            if (found, again) != (status, wanted) or UNTRUE in told or is_as_before == is_untrue:
+                problems.append("%s: exit status %d, %s, with --update\n%s" % (text, found, again, told))
+            if not is_untrue:
                 continue
-            applied = subprocess.run(["patch", "-p0", "-s"], cwd=folder, input=patch, capture_output=True, text=True, check=False)
             found, endings, told = gate(runner, folder, ["--expectations", KNOWN_NAME])
             now = ("differs", 1) if text.startswith("skip") else ("expected failure", 0)  # a skip that goes lets its cell run
-            if applied.returncode or (endings["flow/pane"], found) != now:
-                problems.append("%s: patched: exit status %d, %s\n%s%s" % (text, found, endings, applied.stdout, told))
+            if (endings["flow/pane"], found) != now:
+                problems.append("%s: updated: exit status %d, %s\n%s" % (text, found, endings, told))
     return problems
 
 
 def check_unseen(runner):
-    """a patch leaves expected what was expected of devices that are not there, or were not asked for; a part of the cells has no patch"""
+    """--update leaves expected what was expected of devices that are not there, or were not asked for; it is refused for a part of the cells"""
     problems = []
     with Files(TORUS) as files:
         path, gone = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
@@ -137,16 +143,57 @@ def check_unseen(runner):
         for args, env, left in ((apart, {}, []), (apart + ["--device", "cpu"], {}, ["vulkan"]), (apart, gone, ["vulkan"]),
                                 (builds + ["--device", "cpu,vulkan"], gone, ["cpu:reference", "gl", "opencl", "vulkan"]),
                                 (builds + ["--device", "cpu,gl@NOTE=1"], {}, ["cpu:reference", "opencl", "vulkan"]),
-                                (["cpu", "cpu"], {}, []), (apart + ["--gtest_filter=*"], {}, None)):
+                                (["cpu", "cpu"], {}, [])):
             known = files.path("known.txt", "fail raster/*\n  driver ?*\n  outcome fail\n  reason r\n  since 2026-01-01\n  until " + LATER + "\n")
-            result = subprocess.run([runner.raingauge, "gate", *args, "--pictures", "--cells", files.cells, "--expectations", "known.txt"], cwd=files.folder.name,
+            result = subprocess.run([runner.raingauge, "gate", *args, "--pictures", "--cells", files.cells, "--expectations", "known.txt", "--update"], cwd=files.folder.name,
                                     env=runner.variables(env), capture_output=True, text=True, timeout=240, check=False)
-            patch = result.stdout[result.stdout.index("--- "):] if "--- " in result.stdout else ""
-            subprocess.run(["patch", "-p0", "-s"], cwd=files.folder.name, input=patch, capture_output=True, text=True, check=bool(patch))
             with open(known) as file:
                 text = file.read()
-            if result.returncode != 1 or bool(patch) != (left is not None) or sorted(re.findall(r"^  device +(.*)$", text, re.M)) != (left or []):
+            is_written = "raingauge: known.txt: written anew; `git diff` shows what changed\n" in result.stderr
+            if result.returncode != 1 or not is_written or sorted(re.findall(r"^  device +(.*)$", text, re.M)) != left:
                 problems.append("%s, %s: exit status %d, %s%s" % (args, env, result.returncode, result.stdout, result.stderr))
+    return problems
+
+
+def check_updates(runner):
+    """the first file gets what is new, in every form of report; one that changes meanwhile, or cannot be written, stays; a part of the cells is refused"""
+    problems = []
+    args = ["gate", "cpu", "cpu@RG_CPU_LEVEL=reference", "--pictures", "--update"]
+    with Files(TORUS) as files:
+        args += ["--cells", files.cells]
+        own, fails, fifo = files.path("own.txt", ""), files.path("fails.txt", "# fails\n"), files.path("none/own.txt")
+        link = files.path("link.txt")
+        os.symlink("own.txt", link)
+        refused = [([], {}, "--update: there is no file to write"), (["--flakes", own], {}, "--update: there is no file to write"),
+                   (["--fails", fails, "--gtest_filter=*"], {}, "'--update' and '--gtest_filter'|--gtest_filter"), (["--fails", fails], {"GTEST_FILTER": "*"}, "a filter or a shard"),
+                   (["--fails", fails], {"GTEST_TOTAL_SHARDS": "2", "GTEST_SHARD_INDEX": "0"}, "a filter or a shard"), (["--fails", fails, "--expectations", fifo], {}, "none/own.txt: "),
+                   (["--fails", fails, "--junit", fails], {}, "would be overwritten with a report")]
+        for more, env, says in refused:
+            ran = runner.run(args + more, env)
+            if ran.returncode != 2 or not re.search(says, ran.stderr) or ran.stderr.count("\n") != 1:
+                problems.append("%s, %s: exit status %d, %s%s" % (more, env, ran.returncode, ran.stdout, ran.stderr))
+        kernels = files.path("kernels")
+        os.mkdir(kernels)
+        runner.kernels_with(kernels, "flow_normals.glsl", RIGHT, TURNED)
+        files.path("cells.txt", QUICK)
+
+        def differing(of, more):
+            for path in (own, fails):
+                open(path, "w").close()
+            ran = runner.run(["gate", "gl", "gl@%sRG_KERNEL_DIR=%s" % (of, kernels)] + args[3:] + more)
+            with open(own) as first, open(fails) as second:
+                return ran, first.read(), second.read()
+
+        for form in ([], ["--json"], ["--github"], ["--gtest_output=xml:" + files.path("out.xml")]):
+            ran, first, second = differing("", ["--fails", fails, "--expectations", link] + form)
+            if ran.returncode != 1 or not re.match("fail flow/pane\n  device +gl@.*\n  driver.*\n  outcome +fail\n", first) or second or not os.path.islink(link):
+                problems.append("%s: exit status %d, %s%s%s%s" % (form, ran.returncode, first, second, ran.stdout, ran.stderr))
+        # Somebody writes into the file whenever B starts.
+        other = files.path("other.sh", "#!/bin/sh\necho '# mine' >> %s\nexec %s \"$@\"\n" % (own, runner.raingauge))
+        os.chmod(other, 0o700)
+        ran, first, _ = differing("RG_PROGRAM=%s;" % other, ["--expectations", own])
+        if ran.returncode != 2 or "own.txt: was changed while the gate ran, and stays" not in ran.stderr or set(first.split("\n")) != {"# mine", ""}:
+            problems.append("changed: exit status %d, %s%s%s" % (ran.returncode, first, ran.stdout, ran.stderr))
     return problems
 
 
@@ -166,4 +213,4 @@ def check_own(runner):
     return problems if example.startswith("fail ") else problems + [example]
 
 
-CHECKS = [check_names, check_expectations, check_unseen, check_own]
+CHECKS = [check_names, check_expectations, check_unseen, check_updates, check_own]

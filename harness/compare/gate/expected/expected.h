@@ -112,14 +112,13 @@ const char *rg_met_name(enum rg_met met);
 // and unsupported does not.
 bool rg_met_fails(enum rg_met met, enum rg_outcome outcome);
 
-// Prints what would make a file true of these results, as a unified diff that patch(1) applies with
-// -p0; nothing where it is true. Rows that are fixed go; rows that fail otherwise get the new
-// evidence; what has expired gets 90 days, or goes if it is a skip or has passed. What a row
-// expects of cells of which nothing is known stays expected. With `adds_new`, failures that nothing
-// expects are added at the end. False, and one logged line, without memory or where `out` cannot be
-// written.
-bool rg_known_patch(const struct rg_known *expected, int file,
-                    const struct rg_known_result *results, int64_t count, int today, bool adds_new,
-                    FILE *out);
+// What a file has to say so that it is true of these results: rows that are fixed go; rows that
+// fail otherwise get the new evidence; what has expired gets 90 days, or goes if it is a skip or
+// has passed. What a row expects of cells of which nothing is known stays expected. With
+// `adds_new`, failures that nothing expects are added at the end. All other bytes stay. The caller
+// frees the text, which is NULL where the file is true, or is none of ours or of Mesa's fails.
+// False, and one logged line, without memory.
+bool rg_known_mend(const struct rg_known *expected, int file, const struct rg_known_result *results,
+                   int64_t count, int today, bool adds_new, char **text);
 
 #endif

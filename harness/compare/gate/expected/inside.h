@@ -23,7 +23,7 @@ bool rg_known_holds(const struct rg_known *expected, const struct rg_expectation
 extern const char *const rg_known_kinds[];  // "skip", "flake", "fail"
 extern const char *const rg_known_fields[]; // "device", ...
 
-// For how long an expectation holds that a patch writes.
+// For how long an expectation holds that was written anew.
 enum { RG_KNOWN_LEASE_DAYS = 90 };
 
 // Write an expectation, each line with `end`. What a name has that a line cannot becomes a ?, which
@@ -33,18 +33,7 @@ void rg_known_write_field(FILE *out, int field, const char *value, const char *e
 void rg_known_write_new(FILE *out, const struct rg_known_result *result, int today,
                         const char *end);
 void rg_known_write_outcomes(unsigned outcomes, char *text, size_t size);
-// Mesa's line, which the caller frees: "" where it cannot hold the name. NULL, and one logged line,
-// without memory.
-char *rg_known_mesa_line(const char *cell, unsigned outcomes, const char *end);
-
-// A line of a file that another text stands for: "" takes it out. A line behind the last is added.
-struct rg_line_edit {
-    int64_t line; // from 0
-    char *text;   // whole lines, each with its end
-};
-// Prints a unified diff of the edits, which are in the order of their lines. False, and one logged
-// line, where `out` cannot be written.
-bool rg_lines_diff(const struct rg_lines *lines, const struct rg_line_edit *edits, int64_t count,
-                   FILE *out);
+// Mesa's line; none where it cannot hold the name.
+void rg_known_write_mesa(FILE *out, const char *cell, unsigned outcomes, const char *end);
 
 #endif

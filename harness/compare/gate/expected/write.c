@@ -1,7 +1,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/base/alloc.h"
 #include "harness/compare/gate/expected/inside.h"
 #include "harness/compare/gate/text/date.h"
 
@@ -75,14 +74,11 @@ static bool is_writable(const char *cell)
     return *cell && *cell != '#';
 }
 
-char *rg_known_mesa_line(const char *cell, unsigned outcomes, const char *end)
+void rg_known_write_mesa(FILE *out, const char *cell, unsigned outcomes, const char *end)
 {
     const char *word = outcomes & (1U << RG_FAIL | 1U << RG_ERROR) ? "Fail"
                        : outcomes & 1U << RG_CRASH                 ? "Crash"
                                                                    : "Timeout";
-    const size_t size = strlen(cell) + strlen(word) + strlen(end) + 2;
-    char *text = rg_alloc(1, size, "a patch");
-    if (text && is_writable(cell))
-        snprintf(text, size, "%s,%s%s", cell, word, end);
-    return text;
+    if (is_writable(cell))
+        fprintf(out, "%s,%s%s", cell, word, end);
 }

@@ -18,7 +18,7 @@ struct rg_gate {
     int case_count;
     struct rg_gate_case *cases; // harness/compare/gate/run/cases.h
     int64_t result_count;
-    struct rg_known_result *results; // for rg_known_patch: one a case, and a cell of what was left
+    struct rg_known_result *results; // for rg_known_mend: one a case, and a cell of what was left
     char *note;                      // what is printed for people above the report; owned
 };
 

@@ -420,7 +420,7 @@ static void an_expectation_of_a_far_day_is_told(void **state)
     }
 }
 
-// What begins later expects nothing yet, and a patch leaves it as it is.
+// What begins later expects nothing yet, and stays as it is.
 static void an_expectation_to_come_does_not_hold_yet(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-"""What runs a gate in CI: googletest's flags and shards, pictures that differ, patches of what is expected."""
+"""What runs a gate in CI: googletest's flags and shards, pictures that differ, files of what is expected."""
 from fault import Fault
 
 TESTS = ("command line, ci", "command line, reports")
@@ -52,7 +52,11 @@ ROWS = [
     Fault(CASES, ".outcome = «broke_off(c)» ?", "false", "a cell that broke off while it was timed passed, to the expectations", tests=("command line, gates",)),
     Fault(CASES, "if («c->agreement.has_pictures»)", "false", "reports name no picture"),
     Fault("harness/commands/comparing/outputs.c", "const size_t stem = «end && !strcmp(end, \".xml\")» ?", "false", "pictures lie in a folder with the report's ending"),
-    Fault(OUTPUTS, "«adds_new»,", "false", "what nothing expects is not in the patch"),
+    Fault(OUTPUTS, "outputs->today, «adds_new»,", "false", "what nothing expects is not added"),
+    Fault(OUTPUTS, "        «adds_new = false;»", ";", "what nothing expects is added to every file", tests=("command line, reports",)),
+    Fault(OUTPUTS, "if («is_read && !is_same»)", "false", "nobody is told that a file changed meanwhile", tests=("command line, reports",)),
+    Fault(OUTPUTS, "if («!is_unchanged(lines)» ||", "false", "what somebody wrote meanwhile is lost", tests=("command line, reports",)),
+    Fault(COMMAND, "return («!request->filter && request->shards.total <= 1») ||", "true", "a part of the cells decides for all", tests=("command line, reports",)),
     Fault(OUTPUTS, "return !report || !*report || «!file || !rg_file_is_same(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
     Fault(AGREE, "} else if («rg_comparison_outcome(&c, owed) == RG_NOTHING») {", "false", "a cell without rain is a difference", tests=("command line, gates",)),
     Fault(SIDES, "else if («!strcmp(name.name, other.name)»)", "false", "cells of a device that is named twice share a name", tests=("command line, gates",)),

@@ -1,11 +1,11 @@
-"""What a gate reads from text: its cells, and what it expects to go wrong; how results meet that, and patches of it."""
+"""What a gate reads from text: its cells, and what it expects to go wrong; how results meet that, and files that are written anew."""
 from fault import Fault
 
-TESTS = ("gate cells", "expectations", "patches of expectations", "regular expressions", "command line, acts")
+TESTS = ("gate cells", "expectations", "expectations mended", "regular expressions", "command line, acts")
 
 CELLS, LINES, GLOB = "harness/compare/gate/cells/cells.c", "harness/compare/gate/text/lines.c", "harness/compare/gate/text/glob.c"
 DATE, OWN, MESA = "harness/compare/gate/text/date.c", "harness/compare/gate/expected/own.c", "harness/compare/gate/expected/mesa.c"
-JUDGE, PATCH, DIFF = "harness/compare/gate/expected/judge.c", "harness/compare/gate/expected/patch.c", "harness/compare/gate/expected/diff.c"
+JUDGE, MEND = "harness/compare/gate/expected/judge.c", "harness/compare/gate/expected/mend.c"
 REGEX, WRITE, LOG = "harness/compare/gate/text/regex.c", "harness/compare/gate/expected/write.c", "core/base/log.c"
 
 ROWS = [
@@ -47,25 +47,24 @@ ROWS = [
     Fault(JUDGE, "(«!driver» || is_of(row", "false", "what is expected of one driver goes where nobody knows which there is"),
     Fault(JUDGE, "return met == RG_MET_FIXED || met == RG_MET_DIFFERENT || «met == RG_MET_EXPIRED»;", "false", "a gate passes with what has expired"),
     Fault(OWN, "i < 2 && «!are_compared»; i++)", "false", "evidence of pictures stands beside outcomes that have none"),
-    Fault(PATCH, "row->at[field] == line && «is_idle(row, s, field)»)", "false", "a patch writes what is refused"),
-    Fault(PATCH, "else if («s->fixed || is_over»)", "is_over", "a row stays whole for cells that pass"),
-    Fault(PATCH, "return «s->has_expired»;", "false", "what has expired stays so"),
-    Fault(PATCH, "return «e->least < old->least» || e->most > old->most;", "false", "an envelope does not grow downwards"),
+    Fault(MEND, "else if («is_idle(row, s, field)»)", "false", "what is written is refused"),
+    Fault(MEND, "if («s->fixed || is_over»)", "is_over", "a row stays whole for cells that pass"),
+    Fault(MEND, "return «s->has_expired»;", "false", "what has expired stays so"),
+    Fault(MEND, "return «e->least < old->least» || e->most > old->most;", "false", "an envelope does not grow downwards"),
     Fault(JUDGE, "if (row->kind == RG_EXPECT_SKIP && «!is_over»)", "true", "a skip holds for ever"),
     Fault(JUDGE, "if («result->is_foreign») // of", "false", "a failure of another is what was expected of a device"),
-    Fault(PATCH, "return p->rows[i] < 0 && «!p->results[i].is_foreign» &&", "true", "a device is blamed for a failure of another"),
-    Fault(PATCH, "result->outcome == RG_UNSUPPORTED || «result->is_foreign»)", "false", "a row gets what failed on another device"),
-    Fault(PATCH, "           «rg_met_fails(p->met[i], p->results[i].outcome)»;", "true", "cells that pass are added as failures"),
-    Fault(PATCH, "else if («is_unended»)", "false", "a last line without an end is lost"),
-    Fault(DIFF, "const char *end = «strchr(lines->name, ' ')» ?", "false", "a name with blanks is no file to patch", tests=("command line, reports",)),
-    Fault(PATCH, "if ((is_of_row(p, row, i) || «is_fixed_behind(p, row, i)») &&", "false", "what stood twice is fixed once", tests=("patches of expectations",)),
-    Fault(PATCH, "return is_of_row(p, row, result) && «!has_passed»;", "!has_passed && p->met[result] != RG_MET_NOTHING", "what did not run is not expected to fail any more", tests=("patches of expectations",)),
-    Fault(PATCH, "s->has_expired : is_over && «!s->unknown»)", "true", "what did not run goes with what is fixed", tests=("patches of expectations", "command line, reports")),
-    Fault(PATCH, "    if («s.unknown»)\n", "false", "what did not run is expected to fail as others do now", tests=("patches of expectations",)),
-    Fault(PATCH, "    if («s->unknown»)\n", "false", "a line of Mesa's goes where a test passes on one of two devices", tests=("patches of expectations",)),
-    Fault(PATCH, "                                                               «p->results[result].outcome == RG_OK»);", "false", "what has passed stays in quarantine", tests=("patches of expectations",)),
-    Fault(DIFF, "*moved += «added»;", "0", "later hunks name the old file's lines", lives="patch(1) finds a hunk by its text, and takes its line in the new file for nothing"),
-    Fault(DIFF, "while (n < count && edits[n].line - edits[n - 1].line <= «2 * CONTEXT»)", "0", "hunks overlap"),
+    Fault(MEND, "return m->rows[i] < 0 && «!m->results[i].is_foreign» &&", "true", "a device is blamed for a failure of another"),
+    Fault(MEND, "result->outcome == RG_UNSUPPORTED || «result->is_foreign»)", "false", "a row gets what failed on another device"),
+    Fault(MEND, "           «rg_met_fails(m->met[i], m->results[i].outcome)»;", "true", "cells that pass are added as failures"),
+    Fault(MEND, "if («any && *m->size» &&", "false", "what is new stands behind a last line without an end"),
+    Fault(MEND, "if ((is_of_row(m, row, i) || «is_fixed_behind(m, row, i)») &&", "false", "what stood twice is fixed once", tests=("expectations mended",)),
+    Fault(MEND, "return is_of_row(m, row, result) && «!has_passed»;", "!has_passed && m->met[result] != RG_MET_NOTHING", "what did not run is not expected to fail any more", tests=("expectations mended",)),
+    Fault(MEND, "s->has_expired : is_over && «!s->unknown»)", "true", "what did not run goes with what is fixed", tests=("expectations mended", "command line, reports")),
+    Fault(MEND, "    if («s.unknown»)\n", "false", "what did not run is expected to fail as others do now", tests=("expectations mended",)),
+    Fault(MEND, "if («!s->unknown» && s->fixed && !s->failing)", "true", "a line of Mesa's goes where a test passes on one of two devices", tests=("expectations mended",)),
+    Fault(MEND, "                                                               «m->results[result].outcome == RG_OK»);", "false", "what has passed stays in quarantine", tests=("expectations mended",)),
+    Fault(MEND, "return next + («is_own && next < m->lines->count» &&", "false && next < m->lines->count", "blank lines of what goes stay in pairs"),
+    Fault(MEND, "if (!ok || («size == lines->size && !memcmp(*text, lines->raw, size)»)) {", "false", "a file that is true is written anew"),
     Fault(WRITE, "fputc(«(unsigned char)*c < ' ' || *c == blank || *c == 127» ? '?' : *c, out);", "false", "a name breaks the line that it stands in"),
-    Fault(WRITE, "if (text && «is_writable(cell)»)", "true", "Mesa's line has a comma in its name"),
+    Fault(WRITE, "if («is_writable(cell)»)", "true", "Mesa's line has a comma in its name"),
 ]

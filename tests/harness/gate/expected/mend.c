@@ -1,5 +1,4 @@
-// The patch of a file of expectations makes it true: patch(1) applies it, and then the same results
-// meet what they ought to.
+// A file of expectations that is mended is true: the same results meet what they ought to.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,14 +9,9 @@
 
 #include <cmocka.h>
 #include <math.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "core/base/program.h"
 #include "harness/compare/gate/expected/expected.h"
 #include "harness/compare/gate/text/date.h"
-
-static const char name[] = "my.txt"; // in a folder of the test's own
 
 static int day(const char *text)
 {
@@ -26,66 +20,30 @@ static int day(const char *text)
     return number;
 }
 
-static void write_file(const char *path, const char *text)
-{
-    FILE *out = fopen(path, "wb");
-    assert_non_null(out);
-    fputs(text, out);
-    assert_int_equal(fclose(out), 0);
-}
-
-static char *read_file(const char *path)
-{
-    char *text = calloc(1, 65536);
-    FILE *in = fopen(path, "rb");
-    assert_true(in && text);
-    assert_true(fread(text, 1, 65535, in) < 65535);
-    fclose(in);
-    return text;
-}
-
-static void apply(void)
-{
-    const char *const args[] = {"patch", "-s", "-p0",     "--binary", "--no-backup-if-mismatch",
-                                "-F0",   "-i", "my.diff", NULL};
-    const int fds[] = {-1, 1, 2};
-    pid_t child;
-    int status;
-    assert_int_equal(rg_program_start(args, fds, 3, &child), 0);
-    assert_int_equal(waitpid(child, &status, 0), child);
-    assert_int_equal(status, 0);
-}
-
-// The text once it is patched, which the caller frees.
-static char *patched(const char *text, enum rg_known_form form,
-                     const struct rg_known_result *results, int64_t count, const char *today)
+// The text as it is mended, which the caller frees; a copy where it stays.
+static char *mended(const char *text, enum rg_known_form form,
+                    const struct rg_known_result *results, int64_t count, const char *today)
 {
     struct rg_known known = {.count = 0};
-    write_file(name, text);
-    assert_true(rg_known_add(&known, name, form));
-    FILE *out = fopen("my.diff", "wb");
-    assert_non_null(out);
-    assert_true(rg_known_patch(&known, 0, results, count, day(today), true, out));
-    const bool is_any = ftell(out) > 0;
-    fclose(out);
+    char *now, *again;
+    assert_true(rg_known_add_text(&known, "my.txt", text, strlen(text), form));
+    assert_true(rg_known_mend(&known, 0, results, count, day(today), true, &now));
     rg_known_free(&known);
-    if (is_any)
-        apply();
-    // What a patch has written is true: no other follows.
-    assert_true(rg_known_add(&known, name, form));
-    out = fopen("my.diff", "wb");
-    assert_non_null(out);
-    assert_true(rg_known_patch(&known, 0, results, count, day(today), true, out));
-    assert_int_equal(ftell(out), 0);
-    fclose(out);
+    if (!now)
+        return strdup(text);
+    // It is true: nothing is to be mended again.
+    assert_string_not_equal(now, text);
+    assert_true(rg_known_add_text(&known, "my.txt", now, strlen(now), form));
+    assert_true(rg_known_mend(&known, 0, results, count, day(today), true, &again));
+    assert_null(again);
     rg_known_free(&known);
-    return read_file(name);
+    return now;
 }
 
 static void expect(const char *text, enum rg_known_form form, const struct rg_known_result *results,
                    int64_t count, const char *today, const char *wanted)
 {
-    char *now = patched(text, form, results, count, today);
+    char *now = mended(text, form, results, count, today);
     assert_string_equal(now, wanted);
     free(now);
 }
@@ -281,14 +239,18 @@ static void what_is_new_is_added(void **state)
     char text[4096];
     snprintf(text, sizeof(text), "# head\n\n%s", added);
     expect("# head", RG_FORM_OWN, results, 2, "2026-01-15", text); // its last line gets an end
+    // One that stays, or stays without anything new, keeps its end as it is.
+    expect("a,Fail\nb,Crash", RG_FORM_FAILS, results, 2, "2026-01-15", "a,Fail\nb,Crash");
+    expect("c,Fail\nb,Crash", RG_FORM_FAILS, results + 1, 1, "2026-01-15", "c,Fail\nb,Crash");
+    expect("c,Fail\na,Fail", RG_FORM_FAILS, results, 2, "2026-01-15", "c,Fail\na,Fail\nb,Crash\n");
     // The last row goes, and others come in its place.
     static const struct rg_known_result both[] = {{"c", "gl", "M", RG_OK, 0, 0, false},
                                                   {"b", "gl", "M", RG_CRASH, NAN, NAN, false}};
     expect(ROW("c", "1", "2026-02-01"), RG_FORM_OWN, both, 2, "2026-01-15",
-           "\n" NEW("b", "  outcome    crash\n"));
+           NEW("b", "  outcome    crash\n"));
 }
 
-// Rows far from each other are mended in hunks of their own, and lines keep their ends.
+// Rows far from each other are mended, and lines keep their ends.
 static void long_files_and_foreign_line_ends_are_kept(void **state)
 {
     (void)state;
@@ -312,23 +274,14 @@ static void long_files_and_foreign_line_ends_are_kept(void **state)
             strcat(wanted, line);
     }
     strcat(wanted, "new,Fail\r\n");
-    write_file(name, text);
-    struct rg_known known = {.count = 0};
-    assert_true(rg_known_add(&known, name, RG_FORM_FAILS));
-    FILE *out = fopen("my.diff", "wb");
-    assert_non_null(out);
-    assert_true(rg_known_patch(&known, 0, results, 7, 0, true, out));
-    fclose(out);
-    rg_known_free(&known);
-    apply();
-    char *now = read_file(name), *diff = read_file("my.diff");
+    char *now = mended(text, RG_FORM_FAILS, results, 7, "1970-01-01");
     assert_string_equal(now, wanted);
-    int hunks = 0;
-    for (const char *at = diff; (at = strstr(at, "\n@@ -")); at++)
-        hunks++;
-    assert_int_equal(hunks, 4);
     free(now);
-    free(diff);
+    struct rg_known known = {.count = 0};
+    assert_true(rg_known_add_text(&known, "my.txt", "t\n", 2, RG_FORM_SKIPS));
+    assert_true(rg_known_mend(&known, 0, results, 7, 0, true, &now));
+    assert_null(now);
+    rg_known_free(&known);
 }
 
 // Names of 10 kB, with blanks and control characters, become patterns that match them.
@@ -340,29 +293,13 @@ static void hostile_names_are_matched_by_what_is_written(void **state)
     memcpy(cell, "a b\n<\"'&\x01\t\x7f", 11);
     cell[sizeof(cell) - 1] = 0;
     const struct rg_known_result results[] = {{cell, "d\nreason x", "", RG_FAIL, 1, NAN, false}};
-    char *text = patched("", RG_FORM_OWN, results, 1, "2026-01-15");
+    char *text = mended("", RG_FORM_OWN, results, 1, "2026-01-15");
     struct rg_known known = {.count = 0};
-    assert_true(rg_known_add(&known, name, RG_FORM_OWN));
+    assert_true(rg_known_add_text(&known, "my.txt", text, strlen(text), RG_FORM_OWN));
     assert_int_equal(rg_known_row(&known, cell, "d\nreason x", "Any", 20500), 0);
     assert_int_equal(rg_known_row(&known, cell, "e", "", 20500), -1);
     rg_known_free(&known);
     free(text);
-}
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    static char folder[] = "/tmp/rg_patch_XXXXXX";
-    return mkdtemp(folder) ? chdir(folder) : -1;
-}
-
-static int leave_folder(void **state)
-{
-    (void)state;
-    char folder[256];
-    unlink(name);
-    unlink("my.diff");
-    return getcwd(folder, sizeof(folder)) && !chdir("/") ? rmdir(folder) : -1;
 }
 
 int main(void)
@@ -380,5 +317,5 @@ int main(void)
         cmocka_unit_test(long_files_and_foreign_line_ends_are_kept),
         cmocka_unit_test(hostile_names_are_matched_by_what_is_written),
     };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }
