@@ -24,7 +24,6 @@
            reports  what gates tell, of names with any characters and of what is expected
            ci       gates as CI services and runners of googletest run them
            bisects  the first of several drivers that is bad
-           shells   what a bisect hands to shells
            acts     what a file from elsewhere may have raingauge do
            shrinking  a driver that miscompiles: blamed, and shrunk to a case
            compiling  a driver that cannot compile or run a kernel: named, and shrunk to a case
@@ -68,7 +67,6 @@ import pages
 import pictures
 import reports
 import resuming
-import shells
 import shrinking
 import stored
 import tables
@@ -100,9 +98,8 @@ SUITES = {
     "sides": lambda runner: runner.check_all(named.SIDES),
     "reports": lambda runner: runner.check_all(reports.CHECKS),
     "ci": lambda runner: runner.check_all(ci.CHECKS),
-    "bisects": lambda runner: runner.check_all(bisecting.CHECKS + shells.CHECKS),
+    "bisects": lambda runner: runner.check_all(bisecting.CHECKS),
     "acts": lambda runner: runner.check_all(acts.CHECKS),
-    "shells": lambda runner: runner.check_all(shells.THOROUGH),
     "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
     "compiling": lambda runner: runner.check_all(compiling.CHECKS),
     "wrong": lambda runner: runner.check_all(wrong.CHECKS),

@@ -23,7 +23,7 @@ COMMANDS = {
     "sweep": "sweep " + FLOW + "--axis seed=1,2..9 --device cpu -o OUT/sweep",
     "gate": "gate cpu cpu:reference --junit OUT/junit.xml",
     "baseline": "baseline --device cpu -o OUT/kept.json",
-    "bisect": "bisect --good a --bad b --run 'RAINGAUGE render flow --frame 100000 -o OUT/{}.png' c",
+    "bisect": "bisect --good a --bad b --run 'RAINGAUGE render flow --frame 100000 -o OUT/$RG_CANDIDATE.png' c",
     "atlas": "atlas --full -o OUT/atlas",
     "a mesh": "render raster --set scene=mesh --set model=IN/large.obj --frame 0 -o OUT/a.png",
     "shrink": "shrink flow --device cpu,cpu:reference --frame 1000 -o OUT/case.txt",

@@ -8,7 +8,6 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/compare/bisect/bisect.h"
-#include "harness/compare/bisect/blanks.h"
 #include "harness/compare/bisect/git.h"
 #include "harness/compare/gate/text/shell.h"
 #include "harness/console/duration.h"
@@ -20,7 +19,7 @@ struct bisect_options {
     char *list;       // a file
     char *budget;     // "2m"
     int tries, crash;
-    bool fresh, dry_run, json;
+    bool dry_run, json;
 };
 
 #define AT(field) offsetof(struct bisect_options, field)
@@ -43,15 +42,12 @@ static const struct rg_option options[] = {
      .offset = AT(good), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXT, "bad", .argument = "B", .about = "the candidate that is known to be bad",
      .offset = AT(bad), .names = RG_NAMES_FILE},
-    {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a bisect that was interrupted",
-     .offset = AT(fresh)},
     RG_GROUP("How one is judged"),
     {RG_OPTION_TEXT, "run", .argument = "COMMAND",
      .about =
-         "a line for the shell, in which \"$RG_CANDIDATE\" or {} is the candidate, "
-         "\"$RG_GOOD\" or {good} the good end, and \"$RG_BUDGET\" or {budget} a time; its exit "
-         "status is the verdict: 0 good, 1 bad, 3 again, 4, 77 and 125 skip, else it stops "
-         "(docs/ci.md)",
+         "a line for the shell, in which \"$RG_CANDIDATE\" is the candidate, \"$RG_GOOD\" the "
+         "good end, and \"$RG_BUDGET\" a time; its exit status is the verdict: 0 good, 1 bad, 3 "
+         "again, 4, 77 and 125 skip, else it stops (docs/ci.md)",
      .offset = AT(line)},
     {RG_OPTION_INT, "tries", .argument = "N",
      .about = "what says 3 is tried so many times, then skipped", .offset = AT(tries),
@@ -103,32 +99,19 @@ static int print_lines(const struct rg_candidates *candidates, const struct rg_j
     return RG_EXIT_PASS;
 }
 
-// Whether all output was written. False, and one logged line, if not.
-static bool is_printed(void)
-{
-    return (!fflush(stdout) && !ferror(stdout)) || rg_stdout_error();
-}
-
-static bool print_text(const struct rg_bisect *bisect)
-{
-    rg_bisect_print_end(bisect);
-    return is_printed();
-}
-
-static bool print_json(const struct rg_bisect *bisect)
-{
-    return rg_bisect_print_json(bisect, stdout) && is_printed();
-}
-
 static int search(const struct bisect_options *o, const struct rg_candidates *candidates,
                   const struct rg_judging *judging)
 {
-    struct rg_bisect bisect = {.candidates = candidates,
-                               .judging = judging,
-                               .fresh = o->fresh,
-                               .tell = o->json ? NULL : rg_bisect_print_verdict,
-                               .tell_end = o->json ? print_json : print_text};
-    const int exit = rg_bisect_run(&bisect);
+    struct rg_bisect bisect = {.candidates = candidates, .judging = judging, .prints = !o->json};
+    int exit = rg_bisect_run(&bisect);
+    if (!o->json)
+        rg_bisect_print_end(&bisect);
+    if (o->json && !rg_bisect_print_json(&bisect, stdout))
+        exit = rg_exit_worse(exit, rg_exit_of_error());
+    else if (fflush(stdout) || ferror(stdout)) {
+        rg_stdout_error();
+        exit = rg_exit_worse(exit, rg_exit_of_error());
+    }
     rg_bisect_free(&bisect);
     return exit;
 }
@@ -155,34 +138,45 @@ static bool check(const struct bisect_options *o, const struct rg_words *argumen
     const bool has_list = o->list || arguments->count;
     *is_git = !o->good && !o->bad && !has_list;
     if (!o->line)
-        return rg_error("bisect: --run names the command that judges, as in `raingauge bisect "
-                        "--good A --bad B --run 'raingauge gate {good} {}' A X Y B`");
+        return rg_error(
+            "bisect: --run names the command that judges, as in `raingauge bisect "
+            "--good A --bad B --run 'raingauge gate \"$RG_GOOD\" \"$RG_CANDIDATE\"' X Y`");
     if (o->list && arguments->count)
         return rg_error("--list %s and '%s': name candidates in one of the two", o->list,
                         arguments->items[0]);
     if (*is_git)
-        return !(o->json || o->dry_run || o->fresh) ||
+        return !(o->json || o->dry_run) ||
                rg_error("bisect: inside `git bisect run` there are no candidates; leave out "
-                        "--json, --dry-run and --fresh");
+                        "--json and --dry-run");
     return (o->good && o->bad) ||
            rg_error("bisect: --good and --bad name the two ends; --%s is missing",
                     o->good ? "bad" : "good");
 }
 
+// What stood for the variables once, in places where a shell would have read a name as code.
+static bool has_no_blank(const char *line, bool is_git)
+{
+    static const char *const blanks[][2] = {{"{budget}", RG_VARIABLE_BUDGET},
+                                            {"{}", RG_VARIABLE_CANDIDATE},
+                                            {"{good}", RG_VARIABLE_GOOD}};
+    for (int i = 0; i < (is_git ? 1 : 3); i++)
+        if (strstr(line, blanks[i][0]))
+            return rg_error("--run '%.200s': %s stands for nothing; write \"$%s\", or put the line "
+                            "into a script",
+                            line, blanks[i][0], blanks[i][1]);
+    return true;
+}
+
 static int bisect(const void *values, const struct rg_words *arguments)
 {
     const struct bisect_options *o = values;
-    struct rg_judging judging = {.tries = o->tries, .crash_is_bad = o->crash == CRASH_BAD};
-    char *line = NULL;
+    struct rg_judging judging = {
+        .line = o->line, .tries = o->tries, .crash_is_bad = o->crash == CRASH_BAD};
     if (!check(o, arguments, &judging.prints_here) ||
         !rg_duration_read(o->budget, "--budget", &judging.budget_s) ||
-        !(line = rg_blanks_fill(o->line, !judging.prints_here)))
+        !has_no_blank(o->line, judging.prints_here))
         return rg_git_status_of_usage();
-    judging.line = line;
-    const int exit =
-        judging.prints_here ? judge_for_git(&judging) : bisect_list(o, arguments, &judging);
-    free(line);
-    return exit;
+    return judging.prints_here ? judge_for_git(&judging) : bisect_list(o, arguments, &judging);
 }
 
 const struct rg_command rg_command_bisect = {

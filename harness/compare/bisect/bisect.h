@@ -21,28 +21,23 @@ enum { RG_BISECT_ENDS = RG_BISECT_STOPPED + 1 };
 struct rg_bisect {
     const struct rg_candidates *candidates;
     const struct rg_judging *judging;
-    bool fresh; // verdicts of an interrupted bisect are not taken
-    void (*tell)(const struct rg_bisect *bisect, int64_t judged); // of a verdict; NULL: nobody asks
-    // Tells what it came to, whatever that is; false where that is lost, and one line is logged.
-    // NULL: nobody asks.
-    bool (*tell_end)(const struct rg_bisect *bisect);
+    bool prints; // each verdict as a line of text, as it comes
     // What it leaves behind.
-    struct rg_judged *judged; // one a candidate
+    enum rg_judgement *verdicts; // one a candidate
+    struct rg_judged *judged;    // in the order in which they were judged
+    int64_t count;               // of these
     enum rg_bisect_end end;
     int64_t good, bad; // between these two it lies: the last that is good, the first that is bad
-    int64_t *order, order_count; // candidates in the order in which they were judged
 };
 
-// Runs it. Each verdict is kept as it comes, in raingauge's folder of the user's state, so that the
-// same bisect goes on after an interruption; the file goes when it has ended and that was told.
-// Returns an enum rg_exit: pass where one is found, inconclusive among several, fail where an end
-// is none, nothing measured where an end cannot be judged, usage where the command is wrong or the
-// end could not be told. The caller calls rg_bisect_free in any case.
+// Runs it. Returns an enum rg_exit: pass where one is found, inconclusive among several, fail where
+// an end is none, nothing measured where an end cannot be judged, usage where the command is wrong.
+// The caller calls rg_bisect_free in any case.
 int rg_bisect_run(struct rg_bisect *bisect);
 void rg_bisect_free(struct rg_bisect *bisect);
 
 // A verdict as a line of text; what it came to; "bisect" of docs/records.schema.json.
-void rg_bisect_print_verdict(const struct rg_bisect *bisect, int64_t judged);
+void rg_bisect_print_verdict(const struct rg_bisect *bisect, const struct rg_judged *judged);
 void rg_bisect_print_end(const struct rg_bisect *bisect);
 bool rg_bisect_print_json(const struct rg_bisect *bisect, FILE *out);
 

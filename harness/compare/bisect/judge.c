@@ -11,7 +11,6 @@
 
 #include "core/base/log.h"
 #include "core/base/program.h"
-#include "harness/compare/bisect/blanks.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"

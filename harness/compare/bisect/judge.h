@@ -5,6 +5,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+// Variables hand each candidate to the command: the shell takes one in quotes for one word, so that
+// no name of a candidate is ever read as code.
+#define RG_VARIABLE_CANDIDATE "RG_CANDIDATE"
+#define RG_VARIABLE_GOOD      "RG_GOOD"
+#define RG_VARIABLE_BUDGET    "RG_BUDGET"
+
 enum rg_judgement {
     RG_JUDGED_NONE, // not judged yet
     RG_JUDGED_GOOD,
@@ -24,7 +30,7 @@ const char *rg_judgement_name(enum rg_judgement verdict);
 enum rg_judgement rg_judgement_of(int status, bool crash_is_bad);
 
 struct rg_judging {
-    const char *line; // for the shell, with its blanks filled (blanks.h)
+    const char *line; // for the shell
     double budget_s;  // RG_BUDGET at the first try; each further has twice as much
     int tries;        // at most
     bool crash_is_bad;
@@ -36,7 +42,7 @@ struct rg_judged {
     int status;                // of the last try: 128 and the number of a signal that ended it
     int tries;
     double seconds;
-    uint64_t stamp; // what the candidate was on disk once it was judged (stamp.h)
+    int64_t at; // of the candidate, in its list
 };
 
 // RG_BUDGET of a try, counted from 0.

@@ -6,12 +6,11 @@
 #include "harness/console/duration.h"
 #include "harness/record/named.h"
 
-void rg_bisect_print_verdict(const struct rg_bisect *bisect, int64_t judged)
+void rg_bisect_print_verdict(const struct rg_bisect *bisect, const struct rg_judged *j)
 {
-    const struct rg_judged *j = &bisect->judged[judged];
     char time[RG_DURATION_TEXT];
     printf("%-4s  %s  (exit status %d, %s", rg_judgement_name(j->verdict),
-           bisect->candidates->names[judged], j->status, rg_duration_text(j->seconds, time));
+           bisect->candidates->names[j->at], j->status, rg_duration_text(j->seconds, time));
     printf(j->tries > 1 ? ", %d tries)\n" : ")\n", j->tries);
     fflush(stdout);
 }
@@ -42,11 +41,11 @@ static const char *const ends[RG_BISECT_ENDS] = {[RG_BISECT_FOUND] = "found",
 static json_t *judged_json(const struct rg_bisect *b)
 {
     json_t *all = json_array();
-    for (int64_t i = 0; i < b->order_count; i++) {
-        const struct rg_judged *j = &b->judged[b->order[i]];
+    for (int64_t i = 0; i < b->count; i++) {
+        const struct rg_judged *j = &b->judged[i];
         json_array_append_new(all,
                               json_pack("{so ss si si so}", "candidate",
-                                        rg_json_text(b->candidates->names[b->order[i]]), "verdict",
+                                        rg_json_text(b->candidates->names[j->at]), "verdict",
                                         rg_judgement_name(j->verdict), "status", j->status, "tries",
                                         j->tries, "seconds", rg_number_json(j->seconds)));
     }
