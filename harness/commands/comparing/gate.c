@@ -30,11 +30,11 @@ struct gate_options {
     char *budget;                    // "2m"; NULL: none
     struct rg_words known[3];        // files of expectations, of Mesa's fails, of Mesa's flakes
     struct rg_words skips;           // of Mesa's skips
-    char *junit, *bmf;               // files; NULL: none
-    char *pictures;                  // a folder for differing pictures; NULL: beside the JUnit file
+    struct rg_reports_asked reports;
+    char *pictures; // a folder for those that differ; NULL: beside the file of JUnit
     struct rg_gtest_asked gtest;
     int64_t memory_bytes;
-    bool pictures_only, fresh, update, github, json;
+    bool pictures_only, fresh, update;
 };
 
 #define AT(field) offsetof(struct gate_options, field)
@@ -95,14 +95,7 @@ static const struct rg_option options[] = {
      .offset = AT(pictures), .letter = 'o', .names = RG_NAMES_FOLDER},
     {RG_OPTION_FLAG, "fresh", .about = "begins anew, whatever the folder of -o keeps",
      .offset = AT(fresh)},
-    {RG_OPTION_TEXT, "junit", .argument = "FILE", .about = "writes JUnit's XML (docs/ci.md)",
-     .offset = AT(junit), .names = RG_NAMES_FILE},
-    {RG_OPTION_TEXT, "bmf", .argument = "FILE", .about = "writes Bencher's metric format",
-     .offset = AT(bmf), .names = RG_NAMES_FILE},
-    {RG_OPTION_FLAG, "github",
-     .about = "prints GitHub's annotations, and appends to the file of $GITHUB_STEP_SUMMARY",
-     .offset = AT(github), .excludes = "json"},
-    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    RG_INCLUDE(rg_report_options, AT(reports), NULL),
     RG_INCLUDE(rg_gtest_options, AT(gtest), NULL),
     {RG_OPTION_END},
 };
@@ -245,11 +238,7 @@ static struct rg_gate_left left_of(const struct gate_options *o, const struct ga
 static int run(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate gate = {.case_count = 0};
-    struct rg_gate_outputs outputs = {.bmf = o->bmf,
-                                      .github = o->github,
-                                      .json = o->json,
-                                      .updates = o->update,
-                                      .today = today()};
+    struct rg_gate_outputs outputs = {.updates = o->update, .today = today()};
     struct rg_gate_request request = {.pairs = &in->pairs,
                                       .cells = &in->cells,
                                       .known = &in->known,
@@ -260,11 +249,11 @@ static int run(const struct gate_options *o, const struct gate_input *in)
                                       .filter = o->gtest.filter};
     int exit;
     if (rg_gtest_shards(&request.shards) &&
-        rg_gate_outputs_settle(o->junit, o->pictures, &o->gtest, &outputs) &&
+        rg_gate_outputs_settle(&o->reports, o->pictures, &o->gtest, request.shards.total > 1,
+                               &outputs) &&
         spares_inputs(o, &outputs) &&
         (!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
         rg_gate_outputs_can_be_written(&outputs) && can_update(o, &request)) {
-        outputs.prints_gtest |= request.shards.total > 1;
         request.pictures = *outputs.pictures ? outputs.pictures : NULL;
         exit = run_held(o, in, &request, &gate);
         if (gate.is_told && !rg_gate_outputs_print(&outputs, &in->known, &gate))

@@ -11,15 +11,56 @@
 #include "harness/compare/gate/run/kept.h"
 #include "harness/record/output.h"
 
-bool rg_gate_outputs_settle(const char *junit, const char *pictures,
-                            const struct rg_gtest_asked *gtest, struct rg_gate_outputs *outputs)
+#define AT_FILE(id) offsetof(struct rg_reports_asked, files[RG_AS_##id])
+#define AT_FLAG(id) offsetof(struct rg_reports_asked, flags[RG_AS_##id])
+
+// The option of a form, by where it goes.
+#define OPTION(id, where, ...) OPTION_##where(id, __VA_ARGS__)
+#define OPTION_FILE(id, text, says, without, write)                                                \
+    {RG_OPTION_TEXT,        text,                                                                  \
+     .argument = "FILE",    .about = says,                                                         \
+     .offset = AT_FILE(id), .names = RG_NAMES_FILE,                                                \
+     .excludes = without},
+#define OPTION_INSTEAD(id, text, says, without, write)                                             \
+    {RG_OPTION_FLAG, text, .about = says, .offset = AT_FLAG(id), .excludes = without},
+#define OPTION_BELOW OPTION_INSTEAD
+#define OPTION_DEFAULT(...)
+#define OPTION_APPENDED(...)
+
+const struct rg_option rg_report_options[] = {RG_REPORT_FORMS(OPTION){RG_OPTION_END}};
+
+// Which forms are written, and where.
+static void choose(const struct rg_reports_asked *asked, bool prints_gtest,
+                   struct rg_gate_outputs *outputs)
+{
+    bool is_printed = false;
+    for (int i = 0; i < RG_REPORT_FORM_COUNT; i++) {
+        const struct rg_report_form *form = &rg_report_forms[i];
+        bool *is_written = &outputs->are_written[i];
+        const char **file = &outputs->files[i];
+        if (form->where == RG_WHERE_FILE)
+            *file = i == RG_AS_JUNIT && *outputs->junit ? outputs->junit : asked->files[i];
+        if (form->where == RG_WHERE_APPENDED && outputs->are_written[i - 1])
+            *file = getenv(form->name);
+        if (*file && !**file)
+            *file = NULL;
+        *is_written =
+            *file || asked->flags[i] ||
+            (form->where == RG_WHERE_DEFAULT && !is_printed && (i != RG_AS_GTEST || prints_gtest));
+        is_printed |= *is_written && !*file;
+    }
+}
+
+bool rg_gate_outputs_settle(const struct rg_reports_asked *asked, const char *pictures,
+                            const struct rg_gtest_asked *gtest, bool is_sharded,
+                            struct rg_gate_outputs *outputs)
 {
     enum { ROOM = PATH_MAX - sizeof("-pictures") };
-    outputs->prints_gtest = gtest->filter || gtest->output;
     if (!rg_gtest_output(gtest, outputs->junit))
         return false;
-    if (junit)
-        snprintf(outputs->junit, PATH_MAX, "%s", junit);
+    if (asked->files[RG_AS_JUNIT])
+        snprintf(outputs->junit, PATH_MAX, "%s", asked->files[RG_AS_JUNIT]);
+    choose(asked, gtest->filter || gtest->output || is_sharded, outputs);
     const char *file = outputs->junit, *end = strrchr(file, '.');
     const size_t length = strlen(file);
     const size_t stem = end && !strcmp(end, ".xml") ? (size_t)(end - file) : length;
@@ -35,7 +76,7 @@ bool rg_gate_outputs_settle(const char *junit, const char *pictures,
 
 static bool spares(const char *report, const char *file)
 {
-    return !report || !*report || !file || !rg_file_is_same(report, file) ||
+    return !report || !file || !rg_file_is_same(report, file) ||
            rg_error("%s: would be overwritten with a report, and is named as '%s' as well; name "
                     "another file for the report",
                     report, file);
@@ -54,30 +95,34 @@ static bool spares_kept(const char *folder, const char *file)
     return ok;
 }
 
-// The file of GitHub's summary, NULL if there is none.
-static const char *summary_path(const struct rg_gate_outputs *outputs)
-{
-    const char *path = outputs->github ? getenv("GITHUB_STEP_SUMMARY") : NULL;
-    return path && *path ? path : NULL;
-}
-
-// The summary is appended to, which damages an input or output file just as much.
+// One that is appended to is harmed as much.
 bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *file)
 {
-    return spares(outputs->junit, file) && spares(outputs->bmf, file) &&
-           spares(summary_path(outputs), file) && spares_kept(outputs->pictures, file);
+    bool ok = spares_kept(outputs->pictures, file);
+    for (int i = 0; ok && i < RG_REPORT_FORM_COUNT; i++)
+        ok = spares(outputs->files[i], file);
+    return ok;
+}
+
+static bool can_be_written(const struct rg_report_form *form, const char *file)
+{
+    enum { REPORT_BYTES = 1 << 20 };
+    return form->where == RG_WHERE_APPENDED ? rg_report_can_append(file, form->name)
+                                            : rg_output_file_can_be_written(file, REPORT_BYTES);
 }
 
 bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs)
 {
-    enum { REPORT_BYTES = 1 << 20 };
-    const char *summary = summary_path(outputs);
-    return spares(outputs->junit, outputs->bmf) && spares(summary, outputs->bmf) &&
-           (!*outputs->junit || spares(summary, outputs->junit)) &&
-           spares_kept(outputs->pictures, summary) && (!summary || rg_report_can_append(summary)) &&
-           (!*outputs->junit || rg_output_file_can_be_written(outputs->junit, REPORT_BYTES)) &&
-           (!outputs->bmf || rg_output_file_can_be_written(outputs->bmf, REPORT_BYTES)) &&
-           (!*outputs->pictures || rg_gate_pictures_can_be_written(outputs->pictures, 0));
+    bool ok = true;
+    for (int i = 0; ok && i < RG_REPORT_FORM_COUNT; i++) {
+        const char *file = outputs->files[i];
+        for (int other = 0; ok && file && other < i; other++)
+            ok = spares(file, outputs->files[other]);
+        ok = ok && spares_kept(outputs->pictures, file);
+    }
+    for (int i = 0; ok && i < RG_REPORT_FORM_COUNT; i++)
+        ok = !outputs->files[i] || can_be_written(&rg_report_forms[i], outputs->files[i]);
+    return ok && (!*outputs->pictures || rg_gate_pictures_can_be_written(outputs->pictures, 0));
 }
 
 // --- printing ---
@@ -123,35 +168,24 @@ static bool mend_files(const struct rg_gate_outputs *outputs, const struct rg_kn
     return ok;
 }
 
-static bool print_text(const struct rg_gate *gate)
+static bool put(const struct rg_gate *gate, int number, const char *file)
 {
-    fputs(gate->note ? gate->note : "", stdout);
-    return rg_report_text(&gate->report, stdout);
-}
-
-static bool print_github(const struct rg_gate_outputs *outputs, const struct rg_report *report)
-{
-    const char *summary = summary_path(outputs);
-    return rg_report_annotations(report, stdout) &&
-           (!summary || rg_report_append_markdown(report, summary));
+    const struct rg_report_form *form = &rg_report_forms[number];
+    if (form->where == RG_WHERE_FILE)
+        return rg_report_write(&gate->report, form->write, file);
+    if (form->where == RG_WHERE_APPENDED)
+        return rg_report_append(&gate->report, form, file);
+    fputs(number == RG_AS_TEXT && gate->note ? gate->note : "", stdout);
+    return form->write(&gate->report, stdout);
 }
 
 bool rg_gate_outputs_print(const struct rg_gate_outputs *outputs, const struct rg_known *known,
                            const struct rg_gate *gate)
 {
-    const struct rg_report *report = &gate->report;
     bool ok = true;
-    if (*outputs->junit)
-        ok = rg_report_write(report, rg_report_junit, outputs->junit);
-    if (outputs->bmf)
-        ok = rg_report_write(report, rg_report_bmf, outputs->bmf) && ok;
-    if (outputs->json)
-        ok = rg_report_json(report, stdout) && ok;
-    else if (outputs->prints_gtest)
-        ok = rg_gtest_print(report, stdout) && ok;
-    else
-        ok = print_text(gate) && ok;
-    if (outputs->updates || (!outputs->json && !outputs->prints_gtest))
-        ok = mend_files(outputs, known, gate) && ok;
-    return (!outputs->github || print_github(outputs, report)) && ok;
+    for (int i = 0; i < RG_REPORT_FORM_COUNT; i++)
+        ok = (!outputs->are_written[i] || put(gate, i, outputs->files[i])) && ok;
+    return (!(outputs->updates || outputs->are_written[RG_AS_TEXT]) ||
+            mend_files(outputs, known, gate)) &&
+           ok;
 }

@@ -3,22 +3,32 @@
 #define RG_HARNESS_COMMANDS_COMPARING_OUTPUTS_H
 
 #include "harness/commands/comparing/gtest.h"
+#include "harness/compare/gate/report/forms.h"
 #include "harness/compare/gate/run/gate.h"
 
+// What of the forms is asked for, by their options.
+struct rg_reports_asked {
+    char *files[RG_REPORT_FORM_COUNT];
+    bool flags[RG_REPORT_FORM_COUNT];
+};
+extern const struct rg_option rg_report_options[]; // struct rg_reports_asked
+
 struct rg_gate_outputs {
-    char junit[PATH_MAX], pictures[PATH_MAX]; // a file and a folder; "": none
-    const char *bmf;                          // a file; NULL: none
-    bool prints_gtest;                        // results, in googletest's words
-    bool github, json;                        // annotations; results in machine form
-    bool updates;                             // files of expectations are written anew
-    int today;                                // harness/compare/gate/text/date.h
+    bool are_written[RG_REPORT_FORM_COUNT];  // forms
+    const char *files[RG_REPORT_FORM_COUNT]; // that they go to; NULL: none
+    char junit[PATH_MAX];                    // of the two that name one
+    char pictures[PATH_MAX];                 // a folder; "": none
+    bool updates;                            // files of expectations are written anew
+    int today;                               // harness/compare/gate/text/date.h
 };
 
-// Sets the paths from --junit and --output, which may be NULL, and googletest's flags. Pictures go
-// to their own folder, or beside the JUnit file: FILE.xml has the folder FILE-pictures. False, and
-// one logged line, where a path is too long or a format is unknown.
-bool rg_gate_outputs_settle(const char *junit, const char *pictures,
-                            const struct rg_gtest_asked *gtest, struct rg_gate_outputs *outputs);
+// By the options of reports, --output, which may be NULL, and googletest's flags. Results are in
+// googletest's words where its flags or its shards ask for them. Pictures go where they are asked
+// for, or beside the file of JUnit: FILE.xml has the folder FILE-pictures. False, and one logged
+// line, where a path is too long or a form is not had.
+bool rg_gate_outputs_settle(const struct rg_reports_asked *asked, const char *pictures,
+                            const struct rg_gtest_asked *gtest, bool is_sharded,
+                            struct rg_gate_outputs *outputs);
 
 // Whether no report would replace the file, which is an input; NULL: none. False, and one logged
 // line, if one would.

@@ -75,5 +75,6 @@ bool rg_bisect_print_json(const struct rg_bisect *bisect, FILE *out)
         json && !json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(RG_NUMBER_DIGITS));
     json_decref(json);
     fputc('\n', out);
-    return is_made || rg_error("JSON: cannot be written; see that there is memory and disk");
+    return is_made ||
+           rg_harness_error("JSON: cannot be written; see that there is memory and disk");
 }

@@ -311,7 +311,7 @@ bool rg_known_mend(const struct rg_known *expected, int file, const struct rg_kn
     if (ok && (m.out = open_memstream(text, &size)))
         write_all(&m, adds_new);
     ok = ok && ((m.out && !fclose(m.out)) ||
-                rg_error("%s: no memory to mend it; close other programs", lines->name));
+                rg_harness_error("%s: no memory to mend it; close other programs", lines->name));
     free(m.rows);
     free(m.met);
     if (!ok || (size == lines->size && !memcmp(*text, lines->raw, size))) {

@@ -1,11 +1,9 @@
 // GitHub's workflow commands, and Markdown for a step's summary.
 // https://docs.github.com/actions/reference/workflow-commands-for-github-actions
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/report/report.h"
 #include "harness/compare/gate/report/texts.h"
@@ -177,10 +175,19 @@ static int put_parts(struct page *page, const struct rg_report *report, const in
     return left_out;
 }
 
-bool rg_report_markdown(const struct rg_report *report, FILE *out, size_t room)
+// What the steps before have left of GitHub's limit.
+static size_t room_of(FILE *out)
+{
+    struct stat st;
+    return !fstat(fileno(out), &st) && st.st_size < RG_SUMMARY_LIMIT
+               ? RG_SUMMARY_LIMIT - (size_t)st.st_size
+               : 0;
+}
+
+bool rg_report_markdown(const struct rg_report *report, FILE *out)
 {
     int *order = rg_report_worst_first(report);
-    struct page page = {out, room, false};
+    struct page page = {out, room_of(out), false};
     if (!order)
         return false;
     if (put_part(&page, report, NULL, NULL)) {
@@ -193,40 +200,4 @@ bool rg_report_markdown(const struct rg_report *report, FILE *out, size_t room)
         rg_warning("the step's summary has no room left; write less to it before the gate");
     free(order);
     return !page.is_broken || rg_harness_error("a step's summary: no memory; close other programs");
-}
-
-// The file to append to, and its size. NULL, and one logged line, where it is none.
-static FILE *open_summary(const char *path, struct stat *st)
-{
-    const char *why;
-    FILE *out = rg_file_append(path, &why);
-    if (out && !fstat(fileno(out), st))
-        return out;
-    rg_system_error(errno, "%s: cannot be opened: %s; $GITHUB_STEP_SUMMARY must name a file", path,
-                    out ? strerror(errno) : why);
-    if (out)
-        fclose(out);
-    return NULL;
-}
-
-bool rg_report_can_append(const char *path)
-{
-    struct stat st;
-    FILE *out = open_summary(path, &st);
-    return out && fclose(out) == 0;
-}
-
-bool rg_report_append_markdown(const struct rg_report *report, const char *path)
-{
-    struct stat st;
-    FILE *out = open_summary(path, &st);
-    if (!out)
-        return false;
-    const size_t room = st.st_size < RG_SUMMARY_LIMIT ? RG_SUMMARY_LIMIT - (size_t)st.st_size : 0;
-    const bool is_made = rg_report_markdown(report, out, room);
-    const bool is_held = !ferror(out);
-    return (fclose(out) == 0 && is_held)
-               ? is_made
-               : rg_system_error(errno, "%s: cannot be written: %s; free some disk", path,
-                                 strerror(errno));
 }

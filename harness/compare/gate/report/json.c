@@ -13,7 +13,8 @@ static bool dump(json_t *json, const char *form, FILE *out)
         json && !json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(RG_NUMBER_DIGITS));
     json_decref(json);
     fputc('\n', out);
-    return is_made || rg_error("%s: cannot be written; see that there is memory and disk", form);
+    return is_made ||
+           rg_harness_error("%s: cannot be written; see that there is memory and disk", form);
 }
 
 // --- Bencher's ---

@@ -163,7 +163,7 @@ int *rg_report_worst_first(const struct rg_report *report)
     return order;
 }
 
-bool rg_report_write(const struct rg_report *report, rg_report_form form, const char *path)
+bool rg_report_write(const struct rg_report *report, rg_report_writer form, const char *path)
 {
     struct rg_temporary temporary;
     struct rg_why why;

@@ -107,10 +107,10 @@ void rg_report_summary(const struct rg_report *report, char text[RG_REPORT_SUMMA
 
 // --- the forms; false, and one logged line, where one cannot be written ---
 
-// A form that is written to a stream.
-typedef bool (*rg_report_form)(const struct rg_report *report, FILE *out);
+// Writes a form to a stream; forms.h has all of them as rows.
+typedef bool (*rg_report_writer)(const struct rg_report *report, FILE *out);
 // Writes a form to a file, by a temporary one that is renamed: whole, or what was there before.
-bool rg_report_write(const struct rg_report *report, rg_report_form form, const char *path);
+bool rg_report_write(const struct rg_report *report, rg_report_writer form, const char *path);
 
 // JUnit's XML, as GitLab and Jenkins read it, below RG_JUNIT_LIMIT bytes: the longest details are
 // cut first, as far as need be, and say so. tests/harness/gate/report/junit.xsd is its schema.
@@ -131,14 +131,10 @@ bool rg_report_text_coloured(const struct rg_report *report, FILE *out, bool is_
 // GitHub's workflow commands, which become annotations: at most RG_ANNOTATIONS, the worst first.
 enum { RG_ANNOTATIONS = 3 };
 bool rg_report_annotations(const struct rg_report *report, FILE *out);
-// Markdown of all that did not pass, of at most `room` bytes; what is left out is counted.
-bool rg_report_markdown(const struct rg_report *report, FILE *out, size_t room);
-// Appends the Markdown to the file of $GITHUB_STEP_SUMMARY, which the commands of a step share, as
-// far as GitHub's limit of RG_SUMMARY_LIMIT bytes leaves room.
+// Markdown of all that did not pass, for the file of $GITHUB_STEP_SUMMARY, which the commands of a
+// step share, as far as GitHub's limit of RG_SUMMARY_LIMIT bytes leaves room; what is left out is
+// counted.
 enum { RG_SUMMARY_LIMIT = 1024 * 1024 };
-// Waits for no FIFO or device: that is refused.
-bool rg_report_append_markdown(const struct rg_report *report, const char *path);
-// Whether it can, as is found out before any work; the file is made. False, and one logged line.
-bool rg_report_can_append(const char *path);
+bool rg_report_markdown(const struct rg_report *report, FILE *out);
 
 #endif

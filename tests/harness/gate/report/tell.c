@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/compare/gate/report/forms.h"
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/report/report.h"
 
@@ -87,7 +88,7 @@ static bool print_matches(const char *at, const char *end)
 
 static const struct {
     const char *name;
-    rg_report_form form;
+    rg_report_writer form;
 } forms[] = {{"junit", rg_report_junit}, {"bmf", rg_report_bmf},
              {"json", rg_report_json},   {"text", rg_report_text},
              {"coloured", coloured},     {"annotations", rg_report_annotations},
@@ -96,7 +97,7 @@ static const struct {
 static bool tell(const struct rg_report *report, const char *form, const char *path)
 {
     if (!strcmp(form, "summary"))
-        return rg_report_append_markdown(report, path);
+        return rg_report_append(report, &rg_report_forms[RG_AS_SUMMARY], path);
     if (!strcmp(form, "list")) {
         rg_gtest_list(stdout, report, path);
         return true;

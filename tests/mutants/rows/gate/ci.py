@@ -12,7 +12,7 @@ COMMAND = "harness/commands/comparing/gate.c"
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
 
 ROWS = [
-    Fault(OUTPUTS, "«spares_kept(outputs->pictures, file)»;", "true", "a gate's journal replaces its cells", tests=("command line, baselines",)),
+    Fault(OUTPUTS, "bool ok = «spares_kept(outputs->pictures, file)»;", "true", "a gate's journal replaces its cells", tests=("command line, baselines",)),
     Fault(CASES, "return «c->times.is_ours» || c->times.side != RG_SIDE_B;", "false", "a side that is no raingauge is expected to fail", tests=("command line, gates",)),
     Fault(CASES, "c->times.is_ours || «c->times.side != RG_SIDE_B»;", "false", "A's crash while it is timed is what was expected of B", tests=("command line, gates",)),
     Fault(CASES, "«device != own» : strcmp", "false", "A's crash is what was expected of B", tests=("command line, gates",)),
@@ -21,8 +21,10 @@ ROWS = [
     Fault(CASES, "return «kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR» ? own", "own != RG_ENDING_PASS", "what has expired and is faster passes", tests=("command line, gates",)),
     Fault(FILE, "return name_a && name_b && «!strcmp(name_a, name_b)» && lead", "false", "a report replaces another whose file was not there yet", tests=("command line, gates",)),
     Fault(FILE, "&& «lead_to_one(folder_a, folder_b)»;", "true", "files of one name in two folders are one", tests=("command line, gates",)),
-    Fault(OUTPUTS, "«spares(summary_path(outputs), file)» &&", "true", "a summary is appended to the cells", tests=("command line, gates",)),
-    Fault(OUTPUTS, "«spares(summary, outputs->bmf)» &&", "true", "a summary is appended to a report", tests=("command line, gates",)),
+    Fault(OUTPUTS, "ok = «spares(outputs->files[i], file)»;", "true", "a report replaces what the gate reads", tests=("command line, gates",)),
+    Fault(OUTPUTS, "ok = «spares(file, outputs->files[other])»;", "true", "a summary is appended to a report", tests=("command line, gates",)),
+    Fault(OUTPUTS, "if (form->where == RG_WHERE_APPENDED && «outputs->are_written[i - 1]»)", "true", "a summary is appended that nobody asked for", tests=("command line, gates",)),
+    Fault(OUTPUTS, "(form->where == RG_WHERE_DEFAULT && «!is_printed» &&", "true", "text stands below JSON", tests=("command line, gates",)),
     Fault(AGAINST, "c->agreement.is_ours |= «c->agreement.outcome == RG_FAIL»;", "false", "a driver that does not load is a picture that was expected to differ", tests=("command line, gates",)),
     Fault(SHARDS, "if («!path || !*path»)", "true", "no runner is told that shards are understood"),
     Fault(SHARDS, "    if («!has_total || !has_index»)", "false", "half of a shard is taken for all of it"),
@@ -57,7 +59,7 @@ ROWS = [
     Fault(OUTPUTS, "if («is_read && !is_same»)", "false", "nobody is told that a file changed meanwhile", tests=("command line, reports",)),
     Fault(OUTPUTS, "if («!is_unchanged(lines)» ||", "false", "what somebody wrote meanwhile is lost", tests=("command line, reports",)),
     Fault(COMMAND, "return («!request->filter && request->shards.total <= 1») ||", "true", "a part of the cells decides for all", tests=("command line, reports",)),
-    Fault(OUTPUTS, "return !report || !*report || «!file || !rg_file_is_same(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
+    Fault(OUTPUTS, "return !report || «!file || !rg_file_is_same(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
     Fault(AGREE, "} else if («rg_comparison_outcome(&c, owed) == RG_NOTHING») {", "false", "a cell without rain is a difference", tests=("command line, gates",)),
     Fault(SIDES, "else if («!strcmp(name.name, other.name)»)", "false", "cells of a device that is named twice share a name", tests=("command line, gates",)),
     Fault(SIDES, "if («!seen[i].is_there»)", "false", "a device that is missing and required skips its cells", tests=("command line, gates",)),

@@ -5,11 +5,12 @@ TESTS = ("reports, forms", "reports, gtest", "reports, limits", "command line, c
 
 TEXTS, REPORT = "harness/compare/gate/report/texts.c", "harness/compare/gate/report/report.c"
 FILES = "core/base/files/file.c"
+FORMS = "harness/compare/gate/report/forms.c"
 JUNIT, GITHUB, JSON = "harness/compare/gate/report/junit.c", "harness/compare/gate/report/github.c", "harness/compare/gate/report/json.c"
 TEXT, GTEST = "harness/compare/gate/report/text.c", "harness/compare/gate/report/gtest.c"
 
 ROWS = [
-    Fault(GITHUB, "return («fclose(out) == 0 && is_held»)", "fclose(out) || true", "a summary on a full disk is lost without a word"),
+    Fault(FORMS, "return («fclose(out) == 0 && is_held»)", "fclose(out) || true", "a summary on a full disk is lost without a word"),
     Fault(FILES, "return «S_ISREG(st->st_mode)»   ? NULL", "true", "a FIFO is taken for a file", tests=("command line, acts",)),
     Fault(TEXTS, "if (!length || «code < least[length]» ||", "false", "overlong UTF-8 is taken for a character"),
     Fault(TEXTS, "«(code >= 0xd800 && code < 0xe000)»)", "false", "surrogates are taken for characters"),
@@ -39,7 +40,7 @@ ROWS = [
     Fault(GITHUB, "return «longest + 1»;", "3", "a fence in the details ends their block"),
     Fault(GITHUB, "«size + NOTE» <= page->room;", "size", "the note of what is left out exceeds the room"),
     Fault(GITHUB, "if (has(told) && («left_out» || !put_part(page, report, told, make)))", "false", "a case that is less bad takes the room of a worse"),
-    Fault(GITHUB, "? RG_SUMMARY_LIMIT - «(size_t)st.st_size» : 0;", "0", "what the step's summary has already is not counted"),
+    Fault(GITHUB, "? RG_SUMMARY_LIMIT - «(size_t)st.st_size»\n", "0", "what the step's summary has already is not counted"),
     Fault(GITHUB, "put_escaped(out, «told->message»);", "told->name", "the reason is not told"),
     Fault(JSON, "if («!isfinite(number.value)»)", "false", "a case that was not timed has a measure"),
     Fault(JSON, "const double ns_a_ms = «1e6»;", "1", "latency is in milliseconds"),
