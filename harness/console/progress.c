@@ -1,5 +1,6 @@
 #include "harness/console/progress.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -27,15 +28,11 @@ static void draw(struct rg_progress *p)
     memset(bar, '#', (size_t)(filled > BAR_COLUMNS ? BAR_COLUMNS : filled));
     bar[BAR_COLUMNS] = 0;
     p->drawn_ms = rg_now_ms();
-    const double passed_s = (p->drawn_ms - p->start_ms) * 1e-3;
     wipe();
     fprintf(stderr, "[%s] %3d %%", bar, (int)(part * 100));
-    // The first moments do not predict the rest, unless a time was expected.
-    if (p->expected_unit_ms > 0 || (part > 0.01 && passed_s > 1)) {
-        const double left_ms = (double)(p->total - p->done) * rg_progress_unit_ms(p, p->drawn_ms);
-        const int left_s = (int)(left_ms * 1e-3 + 0.5);
+    const int left_s = (int)(rg_progress_left_ms(p, p->drawn_ms) * 1e-3 + 0.5);
+    if (left_s)
         fprintf(stderr, "  %d:%02d left", left_s / 60, left_s % 60);
-    }
     fprintf(stderr, "  %s", p->label);
     fflush(stderr);
 }
@@ -50,31 +47,15 @@ static void print_above(enum rg_log_level level, const char *line, void *user)
     draw(user);
 }
 
-static void tell_all(const struct rg_progress *p, double ms)
-{
-    char text[RG_DURATION_TEXT];
-    rg_info("about %s in all%s%s", rg_duration_text(ms / 1e3, text), *p->label ? "; now: " : "",
-            p->label);
-}
-
-void rg_progress_start_expected(struct rg_progress *p, int64_t total, double unit_ms)
-{
-    *p = (struct rg_progress){.shown = isatty(STDERR_FILENO),
-                              .total = total,
-                              .start_ms = rg_now_ms(),
-                              .expected_unit_ms = unit_ms};
-    if (p->shown) {
-        rg_log_listen(print_above, p);
-        draw(p);
-    } else if ((double)total * unit_ms > rg_long_s() * 1e3) {
-        p->told_ms = (double)total * unit_ms;
-        tell_all(p, p->told_ms);
-    }
-}
-
 void rg_progress_start(struct rg_progress *p, int64_t total)
 {
-    rg_progress_start_expected(p, total, 0);
+    *p = (struct rg_progress){
+        .shown = isatty(STDERR_FILENO), .total = total, .start_ms = rg_now_ms()};
+    p->marks[0].ms = p->marks[1].ms = p->start_ms;
+    if (!p->shown)
+        return;
+    rg_log_listen(print_above, p);
+    draw(p);
 }
 
 void rg_progress_grow(struct rg_progress *p, int64_t units)
@@ -92,21 +73,48 @@ void rg_progress_label(struct rg_progress *p, const char *format, ...)
         draw(p);
 }
 
-double rg_progress_all_ms(const struct rg_progress *p, double now_ms)
+void rg_progress_unlike(struct rg_progress *p, bool is_unlike)
 {
-    const int64_t since = p->done - p->first_done;
-    return p->first_ms > 0 && since > 0
-               ? p->first_ms - p->start_ms +
-                     (now_ms - p->first_ms) / (double)since * (double)(p->total - p->first_done)
-               : 0;
+    p->is_unlike = is_unlike;
 }
 
 double rg_progress_unit_ms(const struct rg_progress *p, double now_ms)
 {
-    const double passed_ms = now_ms - p->start_ms;
-    const double prior = p->expected_unit_ms > 0 ? 0.1 * (double)p->total : 0;
-    const double units = (double)p->done + prior;
-    return units > 0 ? (passed_ms + prior * p->expected_unit_ms) / units : 0;
+    return p->done > 0 ? (now_ms - p->start_ms) / (double)p->done : 0;
+}
+
+void rg_progress_due(struct rg_progress *p, double left_ms)
+{
+    p->due_ms = left_ms < 0 ? -1 : rg_now_ms() + left_ms;
+}
+
+// Whether a tenth is behind.
+static bool is_well_begun(const struct rg_progress *p, double now_ms, double left_ms)
+{
+    return 10 * (now_ms - p->start_ms) >= now_ms - p->start_ms + left_ms;
+}
+
+// By what units took: all of them, and those that were done last.
+static double left_by_units_ms(const struct rg_progress *p, double now_ms)
+{
+    const struct rg_progress_mark *mark = &p->marks[0];
+    const double left = (double)(p->total - p->done);
+    if (!mark->done || p->done <= mark->done)
+        return 0;
+    const double by_all_ms = left * rg_progress_unit_ms(p, now_ms);
+    const double by_last_ms = left * (now_ms - mark->ms) / (double)(p->done - mark->done);
+    const double low_ms = fmin(by_all_ms, by_last_ms), high_ms = fmax(by_all_ms, by_last_ms);
+    return high_ms <= 2 * low_ms && is_well_begun(p, now_ms, high_ms) ? sqrt(low_ms * high_ms) : 0;
+}
+
+double rg_progress_left_ms(const struct rg_progress *p, double now_ms)
+{
+    const double left_ms = fmax(p->due_ms - now_ms, 0);
+    if (p->is_unlike || p->due_ms < 0)
+        return 0;
+    if (!(p->due_ms > 0))
+        return left_by_units_ms(p, now_ms);
+    return is_well_begun(p, now_ms, left_ms) ? left_ms : 0;
 }
 
 void rg_progress_told(void)
@@ -114,53 +122,33 @@ void rg_progress_told(void)
     is_told_otherwise = true;
 }
 
-bool rg_progress_is_long(const struct rg_progress *p, double now_ms, double long_ms)
-{
-    return rg_progress_all_ms(p, now_ms) > long_ms && now_ms - p->first_ms >= long_ms / 10;
-}
-
-bool rg_progress_is_off(const struct rg_progress *p, double now_ms)
-{
-    const double all_ms = rg_progress_all_ms(p, now_ms);
-    return now_ms - p->start_ms >= 2 * p->told_after_ms &&
-           (all_ms > 2 * p->told_ms || 2 * all_ms < p->told_ms);
-}
-
-static void tell_if_long(struct rg_progress *p)
-{
-    const double now_ms = rg_now_ms();
-    if (p->first_ms <= 0) {
-        p->first_ms = now_ms;
-        p->first_done = p->done;
-    } else if (p->told_ms > 0 ? rg_progress_is_off(p, now_ms)
-                              : rg_progress_is_long(p, now_ms, rg_long_s() * 1e3)) {
-        p->told_ms = rg_progress_all_ms(p, now_ms);
-        p->told_after_ms = now_ms - p->start_ms;
-        tell_all(p, p->told_ms);
-    }
-}
-
-// With an expected time, tells the time left at every tenth.
-static void tell_left(struct rg_progress *p)
+// Once how long all takes, where that is long; then how long the rest does, with every tenth of the
+// time, but no more often than what is long takes.
+static void tell(struct rg_progress *p, double now_ms)
 {
     char text[RG_DURATION_TEXT];
-    const int tenths = p->total > 0 ? (int)(10 * p->done / p->total) : 10;
-    if (p->told_ms <= 0 || tenths <= p->told_tenths || tenths > 9)
+    const double long_ms = rg_long_s() * 1e3, left_ms = rg_progress_left_ms(p, now_ms);
+    const double all_ms = now_ms - p->start_ms + left_ms;
+    if (!(left_ms > 0) || all_ms <= long_ms ||
+        (p->told_ms > 0 && now_ms - p->told_at_ms < fmax(long_ms, all_ms / 10)))
         return;
-    p->told_tenths = tenths;
-    const double left_ms = (double)(p->total - p->done) * rg_progress_unit_ms(p, rg_now_ms());
-    rg_info("about %s left%s%s", rg_duration_text(left_ms / 1e3, text), *p->label ? "; now: " : "",
-            p->label);
+    rg_info("about %s %s%s%s", rg_duration_text((p->told_ms > 0 ? left_ms : all_ms) / 1e3, text),
+            p->told_ms > 0 ? "left" : "in all", *p->label ? "; now: " : "", p->label);
+    p->told_ms = all_ms;
+    p->told_at_ms = now_ms;
 }
 
 void rg_progress_add(struct rg_progress *p, int64_t units)
 {
+    const double now_ms = rg_now_ms();
     p->done += units;
-    if (!p->shown && p->expected_unit_ms > 0)
-        tell_left(p);
-    else if (!p->shown && !is_told_otherwise)
-        tell_if_long(p);
-    if (p->shown && rg_now_ms() - p->drawn_ms > DRAW_EVERY_MS)
+    if (p->done > 0 && p->done >= 2 * p->marks[1].done) {
+        p->marks[0] = p->marks[1];
+        p->marks[1] = (struct rg_progress_mark){p->done, now_ms};
+    }
+    if (!p->shown && !is_told_otherwise)
+        tell(p, now_ms);
+    if (p->shown && now_ms - p->drawn_ms > DRAW_EVERY_MS)
         draw(p);
 }
 

@@ -180,6 +180,28 @@ bool rg_result_next(const struct rg_result *result, struct rg_place *at)
     return false;
 }
 
+// Where a cell of one result stands in another; false where that has it not.
+static bool find_place(const struct rg_result *in, const struct rg_record *record, int row,
+                       struct rg_place *at)
+{
+    if (!rg_result_has(in, row))
+        return false;
+    for (*at = rg_result_start_row(row); rg_result_next_in_row(in, at);)
+        if (!strcmp(in->work_count ? in->works[at->work].name : "", record->work) &&
+            !strcmp(in->variants[at->variant], record->variant) &&
+            !strcmp(in->devices[at->device].name, record->device.name))
+            return true;
+    return false;
+}
+
+void rg_result_take(struct rg_result *into, const struct rg_result *from)
+{
+    struct rg_place to;
+    for (struct rg_place at = rg_result_start(from); rg_result_next(from, &at);)
+        if (find_place(into, rg_result_at(from, at), at.row, &to))
+            *rg_result_at(into, to) = *rg_result_at(from, at);
+}
+
 void rg_result_samples(const struct rg_result *result, int *least, int *most)
 {
     *least = *most = 0;

@@ -38,15 +38,14 @@ struct rg_result {
     bool is_of_textures;     // nothing is timed
     int width, height;       // of the image, in pixels
     int check_frames;        // simulated and drawn before images are compared
-    int first_row, last_row; // indices in the table, from 0
-    // Chosen by a budget of seconds (harness/tables/runs/plan.h); 0: none.
+    int first_row, last_row; // of the table, from 0
+    // What a budget of seconds chose (harness/tables/runs/budget.h); 0: there was none.
     double budget_s;
-    int size_divisor;     // divides the table's width and height; 0: as 1
-    double budget_end_ms; // by rg_now_ms, after which no row is begun; 0: never; not in documents
-    bool few_samples;     // takes the fewest samples
-    bool left_out[RG_RESULT_ROWS]; // from first_row on: not to be measured
-    int resumed_rows;              // measured by an earlier, interrupted run
-    int work_count;                // 0: the table has no works
+    int size_divisor;              // width and height are those of the table by this; 0: as 1
+    bool few_samples;              // the fewest
+    bool left_out[RG_RESULT_ROWS]; // of first_row and those behind it: not to be measured
+    int resumed_rows;              // not measured now but by an earlier run that was interrupted
+    int work_count;                // 0: the table does not tell works apart
     struct rg_result_work works[RG_RESULT_WORKS];
     int variant_count;
     char variants[RG_RESULT_VARIANTS][RG_NAME_SIZE];
@@ -90,8 +89,11 @@ int rg_result_first_missing(const struct rg_result *result);
 // Adds zeroed records for a row. False, with one logged line, when memory runs out.
 bool rg_result_add_row(struct rg_result *result, int row);
 void rg_result_drop_row(struct rg_result *result, int row);
-// Drop the rows before `first` and after `last`, or the cells of other works or variants. A table
-// without works is not changed. False where nothing is left.
+// Copies into rows that are there the cells that another result has of the same row, work, variant
+// and device.
+void rg_result_take(struct rg_result *into, const struct rg_result *from);
+// Leaves out the rows before `first` and behind `last`, or the cells of other works, or of other
+// variants. A table that does not tell works apart stays as it is. False where nothing is left.
 bool rg_result_keep_rows(struct rg_result *result, int first, int last);
 bool rg_result_keep_work(struct rg_result *result, const char *work);
 bool rg_result_keep_variant(struct rg_result *result, const char *variant);

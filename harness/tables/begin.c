@@ -118,6 +118,19 @@ char *rg_table_assignments(const struct rg_result *result, const struct rg_table
     return rg_harness_error_null("table '%s': no memory for a row's settings", table->id);
 }
 
+void *rg_table_settings(const struct rg_result *result, const struct rg_table *table,
+                        struct rg_place at)
+{
+    const struct rg_technique *technique = rg_technique_find(table->technique);
+    void *defaults = rg_settings_create(technique), *settings = NULL;
+    char *assignments = rg_table_assignments(result, table, at);
+    if (defaults && assignments)
+        settings = rg_settings_copy(technique, defaults, assignments);
+    free(assignments);
+    free(defaults);
+    return settings;
+}
+
 // What tells the row from others: its name, and the settings that are the table's keys.
 static void name_row(struct rg_record *record, const struct rg_table *table, int row)
 {

@@ -28,5 +28,9 @@ const struct rg_table_work *rg_table_work_at(const struct rg_result *result,
 // logged line, without memory.
 char *rg_table_assignments(const struct rg_result *result, const struct rg_table *table,
                            struct rg_place at);
+// The settings that they make. Owned by the caller; NULL, and one logged line, where one is
+// refused.
+void *rg_table_settings(const struct rg_result *result, const struct rg_table *table,
+                        struct rg_place at);
 
 #endif

@@ -102,18 +102,22 @@ static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char *
            rg_error("--axis: none is of a parameter; name one, as in --axis seed=1,2..5");
 }
 
-// Measures the table, or prints how long that would take.
-static int run_on(struct rg_grid *grid, const struct rg_devices *devices,
-                  const struct sweep_options *o, const char *set)
+// Tells what measuring the table would take.
+static int plan(const struct rg_grid *grid, const struct rg_devices *devices,
+                const struct sweep_options *o, const char *set)
 {
     struct rg_kept kept = {.devices = devices};
     struct rg_plan plan;
     const bool planned = rg_plan_make(&grid->table, set, o->length.full, &kept, &plan);
     if (!rg_kept_free(&kept) || !planned)
         return rg_exit_of_error();
-    rg_plan_print(&plan, devices, o->dry_run ? stdout : stderr);
-    if (o->dry_run)
-        return plan.failed ? rg_exit_of_error() : RG_EXIT_PASS;
+    rg_plan_print(&plan, devices, stdout);
+    return plan.failed ? rg_exit_of_error() : RG_EXIT_PASS;
+}
+
+static int measure(const struct rg_grid *grid, const struct rg_devices *devices,
+                   const struct sweep_options *o, const char *set)
+{
     const struct rg_table *const tables[] = {&grid->table};
     const struct rg_regenerate_options wanted = {.full = o->length.full,
                                                  .fresh = o->fresh,
@@ -138,7 +142,8 @@ static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, cha
     int exit = rg_devices_open_asked(&asked, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;
-    exit = rg_exit_worse(run_on(grid, &devices, o, set), rg_devices_exit(&devices));
+    exit = rg_exit_worse((o->dry_run ? plan : measure)(grid, &devices, o, set),
+                         rg_devices_exit(&devices));
     return rg_devices_end(&devices, exit);
 }
 

@@ -15,6 +15,7 @@
 #include "harness/commands/tables/sets.h"
 #include "harness/console/duration.h"
 #include "harness/console/exit.h"
+#include "harness/console/started.h"
 #include "harness/record/disk/stored.h"
 #include "harness/record/output.h"
 #include "harness/tables/claims/json.h"
@@ -295,6 +296,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
                                                  .variant = o->variant,
                                                  .set = o->set,
                                                  .budget_s = budget_s,
+                                                 .begin_ms = rg_started_ms(),
                                                  .folder = o->output,
                                                  .print = print,
                                                  .print_end = print_claims,

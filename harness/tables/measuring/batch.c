@@ -23,15 +23,14 @@ void rg_batch_close(struct rg_batch *batch)
     free(batch->jobs);
 }
 
+struct rg_device *rg_batch_device(const struct rg_batch *batch, int device)
+{
+    return rg_kept_device(batch->kept, batch->result->devices[device].name);
+}
+
 const void *rg_batch_settings(struct rg_batch *batch, struct rg_place at)
 {
-    const struct rg_technique *technique = rg_technique_find(batch->table->technique);
-    void *defaults = rg_settings_create(technique), *settings = NULL;
-    char *assignments = rg_table_assignments(batch->result, batch->table, at);
-    if (defaults && assignments)
-        settings = rg_settings_copy(technique, defaults, assignments);
-    free(assignments);
-    free(defaults);
+    void *settings = rg_table_settings(batch->result, batch->table, at);
     if (settings)
         batch->settings[batch->settings_count++] = settings;
     return settings;

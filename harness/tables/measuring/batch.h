@@ -21,6 +21,8 @@ bool rg_batch_open(struct rg_batch *batch, int rows);
 // Hands the sessions over to what the tables of a command keep, and frees the rest.
 void rg_batch_close(struct rg_batch *batch);
 
+// The device of this place among those of the result.
+struct rg_device *rg_batch_device(const struct rg_batch *batch, int device);
 // Opens, checks and warms up the jobs of a row's variant on all devices, or ends their records.
 // `at` names the row, the work and the variant.
 void rg_batch_prepare(struct rg_batch *batch, struct rg_place at,

@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "core/image/compare/compare.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/measure/expected.h"
@@ -90,29 +89,4 @@ double rg_cell_ms(const struct rg_table *table, const struct rg_cell_frames *f,
     const double frames =
         1 + warm_up_frames(ms, o) + calibration + rg_sampling_ms(&sampling, ms) / ms;
     return check_ms(table, f) + frames * ms + reopen_ms(table, f, frames);
-}
-
-double rg_cell_compare_ms(void)
-{
-    enum { SIDE = 128 };
-    struct rg_picture a = {0}, b = {0}, dry = {0};
-    struct rg_comparison comparison = {0};
-    double ms = 0;
-    if (rg_picture_create(&a, SIDE, SIDE, 4, "probe") &&
-        rg_picture_create(&b, SIDE, SIDE, 4, "probe") &&
-        rg_picture_create(&dry, SIDE, SIDE, 4, "probe")) {
-        for (int i = 0; i < SIDE * SIDE * 4; i++) {
-            a.texels[i] = (float)(i % 7) / 7;
-            b.texels[i] = (float)(i % 5) / 5;
-            dry.texels[i] = 0;
-        }
-        const double start = rg_now_ms();
-        rg_compare(&a, "a", &b, "b", &dry, &(struct rg_compare_options){0}, &comparison);
-        ms = (rg_now_ms() - start) / (SIDE * SIDE);
-    }
-    rg_comparison_destroy(&comparison);
-    rg_picture_destroy(&a);
-    rg_picture_destroy(&b);
-    rg_picture_destroy(&dry);
-    return ms;
 }

@@ -30,8 +30,4 @@ double rg_cell_ms(const struct rg_table *table, const struct rg_cell_frames *fra
 // What an image that others are compared with takes: it is opened, simulated and drawn once.
 double rg_cell_image_ms(const struct rg_table *table, const struct rg_cell_frames *frames);
 
-// What comparing pictures takes, in milliseconds a pixel, by comparing some of noise now: FLIP
-// takes the same for all pictures.
-double rg_cell_compare_ms(void);
-
 #endif

@@ -1,6 +1,8 @@
 // A table from its rows to their numbers. As many rows as memory holds are open together and are
 // visited in turn. Where it does not hold all, each group of rows is visited several times, so that
 // what disturbs the machine for a while disturbs no row alone.
+#include <math.h>
+
 #include "core/base/memory.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
@@ -11,6 +13,8 @@
 enum { VISITS = 3 };
 // More buffers and images than any technique's instance has.
 enum { OBJECTS_AN_INSTANCE = 100 };
+// Of a bar, for each cell: so many when it is open, and as many again when it is sampled.
+enum { CELL_UNITS = 1000 };
 // What is measured is kept on disk so often.
 #define KEEP_EVERY_MS 30000
 
@@ -27,7 +31,10 @@ struct measuring {
     struct rg_kept *kept;
     struct rg_journal *journal;
     struct rg_measure_options options;
-    struct rg_table_bar bar;
+    struct rg_progress *bar;
+    const struct rg_table_deadline *deadline; // NULL: there is none
+    int rows_opened;
+    double least_ms; // of the rows behind the first, what opening one took
     struct rg_batch batch;
     struct group groups[RG_TABLE_ROWS];
     int group_count;
@@ -50,11 +57,28 @@ static void keep(struct measuring *m)
     m->kept_ms = rg_now_ms();
 }
 
+// What the samples that are left take, of all jobs that were opened, and opening groups again.
+static double samples_left_ms(const struct measuring *m)
+{
+    double ms = 0;
+    for (int i = 0; i < m->batch.job_count; i++) {
+        const struct rg_job *job = &m->batch.jobs[i];
+        const bool is_whole = rg_record_is_whole(job->record);
+        ms += is_whole ? 0 : rg_jobs_expected_ms(job, 1, &m->options);
+        if (!is_whole && m->group_count > 1)
+            ms += VISITS * (1 - m->options.share) *
+                  (job->record->create_ms + job->check_frames * job->warm_frame_ms);
+    }
+    return ms;
+}
+
 static void show_share(double share, void *user)
 {
     struct measuring *m = user;
     const int64_t units = (int64_t)((double)m->now->units * m->share * share);
-    rg_progress_add(m->bar.progress, units - m->units);
+    if (m->now->last_row == m->result->last_row || m->options.share > m->share)
+        rg_progress_due(m->bar, samples_left_ms(m));
+    rg_progress_add(m->bar, units - m->units);
     m->units = units;
     if (share < 1 && rg_now_ms() - m->kept_ms > KEEP_EVERY_MS)
         keep(m);
@@ -62,11 +86,13 @@ static void show_share(double share, void *user)
 
 // --- rows are opened ---
 
-// What the cell with this number, from 1, has of a row's units.
-static int64_t share_of(int64_t units, int64_t cell, const struct rg_result *result)
+int64_t rg_table_units(const struct rg_result *result, const struct rg_journal *journal)
 {
-    const int64_t cells = rg_result_row_cells(result);
-    return units * cell / cells - units * (cell - 1) / cells;
+    int64_t units = 0;
+    for (int row = result->first_row; row <= result->last_row; row++)
+        if (rg_result_wants(result, row) && !rg_journal_has(journal, row))
+            units += 2 * CELL_UNITS * rg_result_row_cells(result);
+    return units;
 }
 
 // What samples of jobs take, and what opening these again for further visits does.
@@ -81,36 +107,61 @@ static double samples_ms(const struct measuring *m, const struct rg_job *jobs, i
     return ms;
 }
 
-// What a row took to open, and what its samples will take, tells of the rows that are left.
-static void learn(struct measuring *m, int row, int64_t shown, double ms, int first_job)
+// --- a deadline ---
+
+// Whether what is open will be sampled, and `rows` more be opened and sampled, only after the
+// deadline. The first row is no measure of how long others take to open: drivers compile in it.
+static bool is_late(const struct measuring *m, int rows)
 {
-    const struct rg_job *jobs = m->batch.jobs + first_job;
-    const double sampling_ms = samples_ms(m, jobs, m->batch.job_count - first_job, 1);
-    rg_table_bar_correct(&m->bar, shown, ms);
-    rg_table_bar_learn(&m->bar, RG_BAR_OPENING,
-                       rg_table_row_units(m->result, &m->bar, row, RG_BAR_OPENING), ms);
-    rg_table_bar_learn(&m->bar, RG_BAR_SAMPLING,
-                       rg_table_row_units(m->result, &m->bar, row, RG_BAR_SAMPLING), sampling_ms);
+    if (!m->deadline || !m->rows_opened)
+        return false;
+    const double open_ms = rg_jobs_expected_ms(m->batch.jobs, m->batch.job_count, &m->options);
+    const double row_ms = m->least_ms + open_ms / m->rows_opened;
+    return rg_now_ms() + open_ms + rows * row_ms >= m->deadline->rows_ms;
 }
 
-static void prepare(struct measuring *m, int row)
+// Forgets the jobs from this one on, whose row is dropped.
+static void forget_jobs(struct measuring *m, int first_job)
 {
-    const int64_t units = rg_table_row_units(m->result, &m->bar, row, RG_BAR_OPENING);
-    const int64_t shown = rg_table_bar_begin(&m->bar, RG_BAR_OPENING, units);
+    for (; m->batch.job_count > first_job; m->batch.job_count--)
+        if (m->batch.jobs[m->batch.job_count - 1].session)
+            rg_kept_put(m->kept, m->batch.jobs[m->batch.job_count - 1].session);
+}
+
+static void leave_out(struct measuring *m, int row)
+{
+    struct rg_result *result = m->result;
+    for (; row <= result->last_row; row++) {
+        if (rg_result_wants(result, row))
+            rg_progress_grow(m->bar, -2 * CELL_UNITS * rg_result_row_cells(result));
+        result->left_out[row - result->first_row] = true;
+    }
+}
+
+// --- a row is opened ---
+
+// False where the deadline comes between two of its cells: it is no row then.
+static bool prepare(struct measuring *m, int row)
+{
     const double start_ms = rg_now_ms();
     const int first_job = m->batch.job_count;
-    int64_t cells = 0;
-    rg_progress_label(m->bar.progress, "%s, row %d", m->table->id, row + 1);
+    int cells = 0;
+    rg_progress_label(m->bar, "%s, row %d", m->table->id, row + 1);
     for (struct rg_place at = rg_result_start_row(row);
-         rg_result_next_in_row(m->result, &at) && !rg_interrupted();) {
+         rg_result_next_in_row(m->result, &at) && !rg_interrupted(); cells++) {
+        if (at.device == 0 && cells && m->deadline && rg_now_ms() >= m->deadline->end_ms) {
+            forget_jobs(m, first_job);
+            return false;
+        }
         if (at.device == 0 && m->result->is_of_textures)
             rg_batch_tell_texture(&m->batch, at);
         else if (at.device == 0)
             rg_batch_prepare(&m->batch, at, &m->options);
-        rg_progress_add(m->bar.progress, share_of(shown, ++cells, m->result));
+        rg_progress_add(m->bar, CELL_UNITS);
     }
-    if (!rg_interrupted())
-        learn(m, row, shown, rg_now_ms() - start_ms, first_job);
+    const double ms = rg_now_ms() - start_ms;
+    m->least_ms = m->rows_opened++ < 2 ? (m->rows_opened - 1) * ms : fmin(m->least_ms, ms);
+    return true;
 }
 
 // Takes a row that an earlier run measured. False where it has to be measured now; a part of it may
@@ -121,28 +172,6 @@ static bool take_row(struct measuring *m, int row)
         return false;
     m->result->resumed_rows++;
     return rg_result_is_whole(m->result, row);
-}
-
-// Where cells take longer than a budget has them, the rows that would not be done when it ends are
-// left out, with what those that are open still take.
-static bool is_late(const struct measuring *m, const struct group *group)
-{
-    const double left_ms = rg_jobs_expected_ms(m->batch.jobs + group->first_job,
-                                               m->batch.job_count - group->first_job, &m->options);
-    return m->result->budget_end_ms > 0 && rg_now_ms() + left_ms >= m->result->budget_end_ms;
-}
-
-static void leave_out(struct measuring *m, int row)
-{
-    struct rg_result *result = m->result;
-    for (; row <= result->last_row; row++) {
-        for (int part = 0; part < RG_BAR_PARTS && rg_result_wants(result, row); part++) {
-            const int64_t units = rg_table_row_units(result, &m->bar, row, (enum rg_bar_part)part);
-            rg_progress_grow(m->bar.progress,
-                             -rg_table_bar_begin(&m->bar, (enum rg_bar_part)part, units));
-        }
-        result->left_out[row - result->first_row] = true;
-    }
 }
 
 // Whether each device holds the buffers and images of so many rows.
@@ -167,6 +196,15 @@ static bool has_room(const struct measuring *m, int rows)
            have_room(m, rows + 1);
 }
 
+// How many rows, from this one on, are worth nothing without each other.
+static int rows_due(const struct measuring *m, int row)
+{
+    int rows = 1;
+    while (m->deadline && m->deadline->whole && ++row <= m->result->last_row)
+        rows += rg_result_wants(m->result, row);
+    return rows;
+}
+
 // Opens rows from `row` on, as many as memory holds, and returns the one that comes next. `*ok`:
 // there was memory for their records.
 static int open_group(struct measuring *m, struct group *group, int row, bool *ok)
@@ -178,13 +216,17 @@ static int open_group(struct measuring *m, struct group *group, int row, bool *o
     for (; *ok && row <= result->last_row && !rg_interrupted(); row++) {
         if (rows && !has_room(m, rows))
             break;
-        if (rg_result_wants(result, row) && is_late(m, group))
+        if (rg_result_wants(result, row) && is_late(m, rows_due(m, row)))
             leave_out(m, row);
         if (!rg_result_wants(result, row))
             continue;
         *ok = rg_table_add_row(result, m->table, row);
         if (*ok && !take_row(m, row)) {
-            prepare(m, row);
+            if (!prepare(m, row)) {
+                rg_result_drop_row(result, row);
+                leave_out(m, row);
+                continue;
+            }
             rows++;
         }
         group->last_row = row;
@@ -211,15 +253,14 @@ static void close_jobs(struct measuring *m, const struct group *group)
 // Once its jobs are open it is known what its samples take.
 static void expect_samples(struct measuring *m, struct group *group, int visits)
 {
-    const double unit_ms = rg_progress_unit_ms(m->bar.progress, rg_now_ms());
+    const double unit_ms = rg_progress_unit_ms(m->bar, rg_now_ms());
     const double ms = samples_ms(m, m->batch.jobs + group->first_job, group->job_count, visits);
     int64_t planned = 0;
     for (int row = group->first_row; row <= group->last_row; row++)
         if (rg_result_wants(m->result, row) && !rg_journal_has(m->journal, row))
-            planned += rg_table_row_units(m->result, &m->bar, row, RG_BAR_SAMPLING);
-    const int64_t shown = rg_table_bar_begin(&m->bar, RG_BAR_SAMPLING, planned);
-    group->units = unit_ms > 0 ? (int64_t)(ms / unit_ms) : shown;
-    rg_progress_grow(m->bar.progress, group->units - shown);
+            planned += CELL_UNITS * rg_result_row_cells(m->result);
+    group->units = unit_ms > 0 ? (int64_t)(ms / unit_ms) : planned;
+    rg_progress_grow(m->bar, group->units - planned);
 }
 
 // Takes the samples of a group up to a visit's share of all.
@@ -229,8 +270,8 @@ static void visit(struct measuring *m, struct group *group, int visits, int numb
     m->units = 0;
     m->share = 1.0 / visits;
     m->options.share = (double)(number + 1) / visits;
-    rg_progress_label(m->bar.progress, "%s, rows %d-%d in turn%s", m->table->id,
-                      group->first_row + 1, group->last_row + 1, number ? ", again" : "");
+    rg_progress_label(m->bar, "%s, rows %d-%d in turn%s", m->table->id, group->first_row + 1,
+                      group->last_row + 1, number ? ", again" : "");
     if (!rg_interrupted() && group->job_count)
         rg_jobs_measure(m->batch.jobs + group->first_job, group->job_count, &m->options);
     show_share(1, m);
@@ -269,23 +310,25 @@ static bool measure(struct measuring *m)
 }
 
 bool rg_table_measure(struct rg_result *result, const struct rg_table *table, struct rg_kept *kept,
-                      struct rg_journal *journal, const struct rg_table_bar *bar)
+                      struct rg_journal *journal, struct rg_progress *bar,
+                      const struct rg_table_deadline *deadline)
 {
     struct rg_progress own;
-    struct rg_table_learned learned = {0};
     struct measuring m = {
         .result = result,
         .table = table,
         .kept = kept,
         .journal = journal,
-        .bar = bar ? *bar : rg_table_bar_of(NULL, &own, &learned),
+        .bar = bar ? bar : &own,
+        .deadline = deadline,
         .options = *(result->few_samples ? rg_table_few_samples() : rg_table_options(result->full)),
         .batch = {.result = result, .table = table, .kept = kept},
         .kept_ms = rg_now_ms()};
     m.options.progress = show_share;
     m.options.user = &m;
     if (!bar)
-        rg_progress_start(&own, rg_table_bar_add(&m.bar, result, journal));
+        rg_progress_start(&own, rg_table_units(result, journal));
+    rg_progress_due(m.bar, -1);
     const bool ok = measure(&m);
     if (!bar)
         rg_progress_end(&own);

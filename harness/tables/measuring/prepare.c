@@ -32,13 +32,13 @@ static struct preparation begin(struct rg_batch *batch, struct rg_place at)
                             .subject = {rg_technique_find(table->technique),
                                         rg_batch_settings(batch, at), table->width, table->height},
                             .check_frames = batch->result->check_frames,
-                            .count = batch->kept->devices->count,
+                            .count = batch->result->device_count,
                             .jobs = batch->jobs + batch->job_count};
     p.drawn = p.subject;
     batch->job_count += p.count;
     for (at.device = 0; at.device < p.count; at.device++)
         p.jobs[at.device] = (struct rg_job){.subject = p.subject,
-                                            .device = batch->kept->devices->devices[at.device],
+                                            .device = rg_batch_device(batch, at.device),
                                             .check_frames = p.check_frames,
                                             .window_frames = table->window_frames,
                                             .counted = table->counted,

@@ -35,9 +35,9 @@ void rg_batch_tell_texture(struct rg_batch *batch, struct rg_place at)
     const struct rg_table *table = batch->table;
     const struct rg_subject subject = {rg_technique_find(table->technique),
                                        rg_batch_settings(batch, at), table->width, table->height};
-    for (at.device = 0; at.device < batch->kept->devices->count; at.device++) {
+    for (at.device = 0; at.device < batch->result->device_count; at.device++) {
         struct rg_record *record = rg_result_at(batch->result, at);
-        struct rg_device *device = batch->kept->devices->devices[at.device];
+        struct rg_device *device = rg_batch_device(batch, at.device);
         struct rg_session *session =
             subject.settings ? rg_kept_open(batch->kept, device, &subject) : NULL;
         if (session)

@@ -4,233 +4,305 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/console/clock.h"
+#include "harness/console/duration.h"
+#include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
+#include "harness/console/progress.h"
+#include "harness/tables/measuring/measure.h"
+#include "harness/tables/runs/closing.h"
+#include "harness/tables/runs/left.h"
 #include "harness/tables/runs/needed.h"
-#include "harness/tables/runs/tell.h"
 
-static double passed_s(const struct rg_budget *b)
+struct budget {
+    const struct rg_regenerate_options *options;
+    const struct rg_devices *devices;
+    struct rg_kept kept;
+    struct rg_order_devices bits;
+    int count;
+    struct rg_standing *standings; // a table each, as what follows
+    struct rg_result *results;     // what is measured
+    struct rg_left_why *whys;      // why the first of what is left out was
+    double end_ms;                 // by rg_now_ms
+    enum rg_turn told;             // the turn that was told last; RG_TURNS: none
+    double needed_s;               // where the first row does not fit, what it takes; else 0
+};
+
+static double left_s(const struct budget *b)
 {
-    return (rg_now_ms() - b->start_ms) / 1000;
+    return (b->end_ms - rg_now_ms()) / 1000;
 }
 
-// --- planning ---
-
-// Of the budget, as much as looking at more than one table of a technique may take.
-#define MOST_PROBING 0.25
-
-// Looks at the first table of each technique, or at the others, as long as there is time for it.
-static void probe_tables(struct rg_budget *b, struct rg_kept *kept, bool first_ones)
+// cpu comes first, and cpu:reference last, unless it is alone.
+static struct rg_order_devices name_bits(const struct rg_devices *devices)
 {
-    for (int i = 0; i < b->count && !rg_interrupted(); i++) {
-        const int kind = rg_budget_kind_of(b->tables, i);
-        if ((kind == i) != first_ones)
-            continue;
-        if (kind != i && passed_s(b) > MOST_PROBING * b->seconds) {
-            rg_budget_alike(b->tables[i], &b->costs[kind], &b->costs[i]);
+    struct rg_order_devices bits = {0};
+    for (int d = 0; d < devices->count; d++) {
+        const char *name = devices->devices[d]->info.name;
+        bits.all |= 1u << d;
+        bits.first |= !strcmp(name, "cpu") ? 1u << d : 0;
+        bits.last |= !strcmp(name, "cpu:reference") ? 1u << d : 0;
+    }
+    bits.last = bits.last == bits.all ? 0 : bits.last;
+    const unsigned others = bits.all & ~bits.last;
+    bits.first = bits.first ? bits.first : others & (~others + 1);
+    return bits;
+}
+
+// --- what a step measures ---
+
+// A table as a share of it has it. `step`, unless NULL, leaves of its variants and works what the
+// step adds. What `quick` points to is freed by the caller; false, and one logged line, without
+// memory.
+static bool view(const struct rg_table *table, const struct rg_share *share,
+                 const struct rg_step *step, struct rg_table *seen, char **quick)
+{
+    const bool adds_variants = step && step->turn == RG_TURN_VARIANTS;
+    const bool adds_works = step && step->turn == RG_TURN_WORKS;
+    bool needed[RG_TABLE_VARIANTS];
+    int variants = 0, works = 0;
+    rg_needed_variants(table, needed);
+    *seen = *table;
+    for (int v = 0; v < RG_TABLE_VARIANTS && table->variants[v].name; v++)
+        if (adds_variants ? !needed[v] : needed[v] || share->all_variants)
+            seen->variants[variants++] = table->variants[v];
+    seen->variants[variants].name = NULL;
+    for (int w = 0; w < RG_TABLE_WORKS && table->works[w].name; w++)
+        if (adds_works ? w > 0 : !w || share->all_works)
+            seen->works[works++] = table->works[w];
+    seen->works[works].name = NULL;
+    seen->width /= share->divisor;
+    seen->height /= share->divisor;
+    seen->truth = rg_wants_truth(table, share->divisor) ? table->truth : NULL;
+    seen->quick = *quick = rg_table_quick(table, share->divisor);
+    return *quick;
+}
+
+static void begin_result(const struct budget *b, const struct rg_table *seen,
+                         const struct rg_share *share, unsigned devices, struct rg_result *result)
+{
+    const struct rg_table_part all = {.last_row = seen->row_count - 1};
+    struct rg_devices chosen = *b->devices;
+    chosen.count = 0;
+    for (int d = 0; d < b->devices->count; d++)
+        if (devices >> d & 1)
+            chosen.devices[chosen.count++] = b->devices->devices[d];
+    *result = (struct rg_result){0};
+    rg_table_begin(result, seen, &all, &chosen);
+    result->budget_s = b->options->budget_s;
+    result->size_divisor = share->divisor;
+    result->few_samples = !share->all_samples;
+}
+
+// Whether a step measures a row.
+static bool wants(const struct budget *b, const struct rg_step *step, int row)
+{
+    const struct rg_table *table = b->standings[step->table].table;
+    bool rows[RG_TABLE_ROWS];
+    const bool is_there = rg_result_has(&b->results[step->table], row);
+    if (step->turn == RG_TURN_ROWS)
+        rg_quick_rows(table, rows);
+    else
+        rg_needed_rows(table, rows);
+    const bool adds = step->turn <= RG_TURN_NEEDED || step->turn == RG_TURN_ROWS;
+    return adds ? rows[row] && !is_there : is_there;
+}
+
+static int rows_of(const struct rg_result *result)
+{
+    int rows = 0;
+    for (int row = result->first_row; row <= result->last_row; row++)
+        rows += rg_result_has(result, row);
+    return rows;
+}
+
+// Measures a step's part. False without memory.
+static bool measure(struct budget *b, const struct rg_step *step, const struct rg_table *seen,
+                    struct rg_result *part)
+{
+    const double part_s = step->turn == RG_TURN_FIRST
+                              ? rg_order_part_s(b->standings, b->count, left_s(b))
+                              : left_s(b);
+    const struct rg_table_deadline deadline = {rg_now_ms() + 1000 * part_s, b->end_ms,
+                                               rg_turn_is_whole(step->turn)};
+    begin_result(b, seen, &step->share, step->devices, part);
+    for (int row = 0; row < seen->row_count; row++)
+        part->left_out[row] = !wants(b, step, row);
+    return rg_table_measure(part, seen, &b->kept, NULL, NULL, &deadline);
+}
+
+// --- what is measured grows ---
+
+// Puts a part beside what there is, or in its place. False, with one logged line, without memory.
+static bool join(struct budget *b, const struct rg_step *step, const struct rg_table *seen,
+                 const struct rg_result *part)
+{
+    struct rg_result *old = &b->results[step->table], joined;
+    bool ok = true;
+    begin_result(b, seen, &step->share, step->share.devices, &joined);
+    for (int row = 0; ok && row < seen->row_count; row++) {
+        const bool is_there = rg_result_has(part, row) || rg_result_has(old, row);
+        joined.left_out[row] = !is_there;
+        ok = !is_there || rg_table_add_row(&joined, seen, row);
+    }
+    if (ok) {
+        rg_result_take(&joined, old);
+        rg_result_take(&joined, part);
+    }
+    if (ok)
+        rg_result_free(old);
+    else
+        rg_result_free(&joined);
+    if (ok)
+        *old = joined;
+    return ok;
+}
+
+// What a step has measured, in so many seconds, is taken where it has all that it must have.
+static bool take(struct budget *b, const struct rg_step *step, const struct rg_result *part,
+                 double seconds)
+{
+    struct rg_standing *s = &b->standings[step->table];
+    const int rows = rows_of(part);
+    if (rows)
+        rg_order_learn(b->standings, b->count, step,
+                       rows * rg_result_row_cells(part) / part->device_count, seconds);
+    if (!rows || (rg_turn_is_whole(step->turn) && rows < s->rows)) {
+        rg_left_why(&b->whys[step->table], b->devices, step, seconds, -1);
+        return true;
+    }
+    struct rg_table seen;
+    char *quick = NULL;
+    const bool ok = view(s->table, &step->share, NULL, &seen, &quick) && join(b, step, &seen, part);
+    free(quick);
+    s->share = ok ? step->share : s->share;
+    s->rows = rows_of(&b->results[step->table]);
+    return ok;
+}
+
+static void tell_turn(struct budget *b, enum rg_turn turn)
+{
+    char text[RG_DURATION_TEXT];
+    if (turn != b->told)
+        rg_info("within the budget, of which %s are left: %s",
+                rg_duration_text(fmax(left_s(b), 0), text), rg_turn_about(turn));
+    b->told = turn;
+}
+
+// False where the budget ends: without memory.
+static bool do_step(struct budget *b, const struct rg_step *step)
+{
+    struct rg_result part = {0};
+    struct rg_table seen;
+    char *quick = NULL;
+    const double start_ms = rg_now_ms();
+    bool ok = view(b->standings[step->table].table, &step->share, step, &seen, &quick);
+    tell_turn(b, step->turn);
+    ok = ok && measure(b, step, &seen, &part);
+    rg_order_tried(b->standings, step);
+    if (ok && !rg_interrupted())
+        ok = take(b, step, &part, (rg_now_ms() - start_ms) / 1000);
+    rg_result_free(&part);
+    free(quick);
+    return ok;
+}
+
+// The first row tells whether anything fits: where its table has several variants, it ended with
+// the first of them that was late.
+static bool first_fits(struct budget *b, const struct rg_step *step, double start_ms)
+{
+    const double now_ms = rg_now_ms(), begin_ms = b->options->begin_ms;
+    const int parts = b->results[step->table].rows[0] ? 1 : step->cells;
+    if (now_ms <= b->end_ms || rg_interrupted())
+        return true;
+    b->needed_s = ceil((start_ms - begin_ms + parts * (now_ms - start_ms)) / 1000);
+    const struct rg_table *table = b->standings[step->table].table;
+    return rg_error("--budget: a first row, of %s, is done %.0f s after the start, so that nothing "
+                    "fits into %g s; give %.0fs or more, or name other tables",
+                    table->id, b->needed_s, b->options->budget_s, b->needed_s);
+}
+
+// Measures until the time is over. False, with one logged line, without memory, or where nothing
+// fits.
+static bool run(struct budget *b)
+{
+    struct rg_step step;
+    bool ok = true, is_first = true;
+    while (ok && !rg_interrupted() && (is_first || left_s(b) > 0) &&
+           rg_order_next(b->standings, b->count, &b->bits, left_s(b), &step)) {
+        const double start_ms = rg_now_ms();
+        if (!is_first && step.expected_s >= left_s(b)) {
+            rg_left_why(&b->whys[step.table], b->devices, &step, step.expected_s, left_s(b));
+            rg_order_tried(b->standings, &step);
             continue;
         }
-        rg_info("planning: %s", b->tables[i]->id);
-        rg_budget_probe(b->tables[i], kept, false, &b->kinds[kind], &b->costs[i]);
+        ok = do_step(b, &step) && (!is_first || first_fits(b, &step, start_ms));
+        is_first = false;
     }
+    return ok;
 }
 
-// Of the devices that are given: cpu comes first, and cpu:reference last, unless it is alone.
-static void name_bits(struct rg_budget *b)
-{
-    struct rg_budget_devices *bits = &b->bits;
-    for (int d = 0; d < b->devices->count; d++) {
-        const char *name = b->devices->devices[d]->info.name;
-        bits->all |= 1u << d;
-        bits->first |= !strcmp(name, "cpu") ? 1u << d : 0;
-        bits->last |= !strcmp(name, "cpu:reference") ? 1u << d : 0;
-    }
-    bits->last = bits->last == bits->all ? 0 : bits->last;
-    const unsigned others = bits->all & ~bits->last;
-    bits->first = bits->first ? bits->first : others & (~others + 1);
-}
+// --- the end ---
 
-bool rg_budget_begin(struct rg_budget *b, const struct rg_table *const tables[], int count,
-                     struct rg_kept *kept, double seconds, FILE *out)
+static int print_all(struct budget *b, struct rg_closing *closing)
 {
-    *b = (struct rg_budget){.tables = tables,
-                            .count = count,
-                            .devices = kept->devices,
-                            .seconds = seconds,
-                            .start_ms = rg_now_ms()};
-    if (count > RG_BUDGET_TABLES)
-        return rg_error("--budget: %d tables are more than %d; name fewer", count,
-                        RG_BUDGET_TABLES);
-    name_bits(b);
-    probe_tables(b, kept, true);
-    probe_tables(b, kept, false);
-    if (rg_interrupted())
-        return true;
-    b->probed_s = passed_s(b);
-    b->planned_s = rg_budget_plan(b->costs, count, &b->bits, seconds - b->probed_s, b->choices);
-    bool any = false;
-    for (int i = 0; i < count; i++)
-        any = any || b->choices[i].devices;
-    if (any)
-        rg_budget_tell(b, out);
-    return true;
-}
-
-// How much longer cells take than they were to. Of little that is done nothing is concluded.
-static double slowness(const struct rg_budget *b)
-{
-    return b->due_s > 0.05 * b->seconds ? fmin(fmax(b->taken_s / b->due_s, 0.5), 4) : 1;
-}
-
-static bool is_same_choice(const struct rg_budget_choice *a, const struct rg_budget_choice *b)
-{
-    return a->devices == b->devices && a->size == b->size && a->all_samples == b->all_samples &&
-           a->all_rows == b->all_rows && a->all_variants == b->all_variants &&
-           a->all_works == b->all_works;
-}
-
-// Of the budget, more than this is worth another plan, and of what is left so much stays for cells
-// that take longer again.
-#define MORE  0.05
-#define STAYS 0.2
-
-// Plans a table and those that follow anew where they would not be done in time, or where those
-// before took less than they were to, so that there is time for more of these.
-static void plan_again(struct rg_budget *b, int from, FILE *out)
-{
-    const int count = b->count - from;
-    const double slow = slowness(b), left_s = (b->seconds - passed_s(b)) / slow;
-    struct rg_budget_choice again[RG_BUDGET_TABLES];
-    char why[64];
-    double due_s = 0;
-    for (int i = from; i < b->count; i++)
-        due_s += b->choices[i].expected_s;
-    const bool is_late = due_s > left_s;
-    const double again_s = rg_budget_plan(b->costs + from, count, &b->bits,
-                                          is_late ? left_s : (1 - STAYS) * left_s, again);
-    if (!is_late && again_s <= due_s + MORE * b->seconds)
-        return;
-    if (!is_late)
-        snprintf(why, sizeof(why), "there is time for more");
-    else if (slow > 1)
-        snprintf(why, sizeof(why), "cells take %.2f times as long as they were to", slow);
-    else
-        snprintf(why, sizeof(why), "less time is left than the rest was to take");
-    for (int i = from, told = 0; i < b->count; i++) {
-        const bool is_same = is_same_choice(&b->choices[i], &again[i - from]);
-        b->choices[i] = again[i - from];
-        if (is_same)
+    int exit = RG_EXIT_PASS;
+    for (int i = 0; i < b->count; i++) {
+        struct rg_place any = rg_result_start(&b->results[i]);
+        if (!b->standings[i].rows || !rg_result_next(&b->results[i], &any))
             continue;
-        if (!told++)
-            fprintf(out, "planned anew, as %s:\n", why);
-        rg_budget_tell_table(b, i, out);
+        rg_closing_add(closing, &b->results[i]);
+        exit = rg_exit_worse(exit, b->options->print(&b->results[i], b->options->user));
     }
+    if (b->options->print_end)
+        exit = rg_exit_worse(exit, b->options->print_end(b->options->user));
+    return exit;
 }
 
-// --- a table as it is chosen ---
-
-static void choose_variants(struct rg_budget *b, int i)
+static int finish(struct budget *b, FILE *out)
 {
-    bool needed[RG_TABLE_VARIANTS];
-    int kept = 0;
-    rg_needed_variants(b->tables[i], needed);
-    for (int v = 0; v < RG_TABLE_VARIANTS && b->tables[i]->variants[v].name; v++)
-        if (needed[v] || b->choices[i].all_variants)
-            b->table.variants[kept++] = b->tables[i]->variants[v];
-    b->table.variants[kept].name = NULL;
+    struct rg_closing closing = {0};
+    int exit = print_all(b, &closing);
+    exit = rg_exit_with(exit, rg_closing_measured(&closing));
+    if (rg_interrupted())
+        return rg_exit_worse(exit, RG_EXIT_SIGNALLED + rg_interrupt_signal());
+    fprintf(out, "took %.0f s, of a budget of %.0f s; left out, for time:\n",
+            b->options->budget_s - left_s(b), b->options->budget_s);
+    rg_left_tell(b->standings, b->results, b->whys, b->count, b->devices, out);
+    rg_closing_tell(&closing, b->devices->count);
+    return exit;
 }
 
-static void choose_devices(struct rg_budget *b, int i)
+static bool begin(struct budget *b, const struct rg_table *const tables[])
 {
-    b->chosen = *b->devices;
-    b->chosen.count = 0;
-    for (int d = 0; d < b->devices->count; d++)
-        if (b->choices[i].devices >> d & 1)
-            b->chosen.devices[b->chosen.count++] = b->devices->devices[d];
+    b->standings = rg_alloc((size_t)b->count, sizeof(*b->standings), "budget");
+    b->results = rg_alloc((size_t)b->count, sizeof(*b->results), "budget");
+    b->whys = rg_alloc((size_t)b->count, sizeof(*b->whys), "budget");
+    for (int i = 0; b->standings && i < b->count; i++)
+        b->standings[i] = rg_standing_of(tables[i]);
+    return b->standings && b->results && b->whys;
 }
 
-static void leave_out_rows(const struct rg_budget *b, int i, struct rg_result *result)
+int rg_tables_within(const struct rg_table *const tables[], int count,
+                     const struct rg_devices *devices, const struct rg_regenerate_options *options,
+                     FILE *out)
 {
-    bool chosen[RG_TABLE_ROWS];
-    rg_budget_rows(b, i, chosen);
-    for (int row = 0; row < b->tables[i]->row_count; row++)
-        result->left_out[row] = !chosen[row];
-}
-
-// What the least of the tables behind one takes, which it must leave to them.
-static double least_behind_s(const struct rg_budget *b, int table)
-{
-    double s = 0;
-    for (int i = table + 1; i < b->count; i++)
-        if (b->choices[i].devices)
-            s += fmin(rg_budget_least_s(b, i), b->choices[i].expected_s);
-    return s * slowness(b);
-}
-
-bool rg_budget_next(struct rg_budget *b, int i, struct rg_result *result, FILE *out)
-{
-    plan_again(b, i, out);
-    const struct rg_budget_choice *c = &b->choices[i];
-    free(b->quick);
-    b->quick = rg_table_quick(b->tables[i], rg_budget_divisor(c));
-    if (!c->devices || !b->quick)
-        return false;
-    const struct rg_table_part part = {.last_row = b->tables[i]->row_count - 1};
-    b->table = *b->tables[i];
-    b->table.width /= rg_budget_divisor(c);
-    b->table.height /= rg_budget_divisor(c);
-    b->table.quick = b->quick;
-    if (!rg_budget_has_truth(b->tables[i], c->size))
-        b->table.truth = NULL;
-    if (!c->all_works && b->table.works[0].name)
-        b->table.works[1].name = NULL;
-    choose_variants(b, i);
-    choose_devices(b, i);
-    rg_table_begin(result, &b->table, &part, &b->chosen);
-    leave_out_rows(b, i, result);
-    result->budget_s = b->seconds;
-    result->budget_end_ms = b->start_ms + 1000 * (b->seconds - least_behind_s(b, i));
-    result->size_divisor = rg_budget_divisor(c);
-    result->few_samples = !c->all_samples;
-    return true;
-}
-
-void rg_budget_done(struct rg_budget *b, int i, const struct rg_result *result, double start_ms)
-{
-    int wanted = 0, had = 0;
-    bool chosen[RG_TABLE_ROWS];
-    rg_budget_rows(b, i, chosen);
-    for (int row = 0; row < b->tables[i]->row_count; row++) {
-        wanted += chosen[row];
-        had += rg_result_has(result, row);
-    }
-    b->measured += had > 0;
-    // Textures are expected to take nothing, where what holds them is open: that tells nothing of
-    // the others.
-    if (b->tables[i]->is_of_textures)
-        return;
-    b->due_s += b->choices[i].expected_s * had / fmax(wanted, 1);
-    b->taken_s += (rg_now_ms() - start_ms) / 1000;
-}
-
-// The table of which the least takes least.
-static int cheapest(const struct rg_budget *b)
-{
-    int least = 0;
-    for (int i = 1; i < b->count; i++)
-        if (rg_budget_least_s(b, i) < rg_budget_least_s(b, least))
-            least = i;
-    return least;
-}
-
-bool rg_budget_end(const struct rg_budget *b, FILE *out)
-{
-    const int least = cheapest(b);
-    if (!b->measured)
-        return rg_error("--budget: nothing was measured within %g s, of which planning took %.1f "
-                        "s; %s would take %.1f s more: give more time, or name fewer tables",
-                        b->seconds, b->probed_s, b->tables[least]->id, rg_budget_least_s(b, least));
-    rg_budget_tell_end(b, passed_s(b), out);
-    return true;
+    struct budget b = {.options = options,
+                       .devices = devices,
+                       .kept = {.devices = devices},
+                       .bits = name_bits(devices),
+                       .count = count,
+                       .told = RG_TURNS,
+                       .end_ms = options->begin_ms + 1000 * options->budget_s};
+    rg_interrupt_watch();
+    rg_progress_told();
+    const int exit = begin(&b, tables) && run(&b) ? finish(&b, out) : rg_exit_of_error();
+    for (int i = 0; b.results && i < count; i++)
+        rg_result_free(&b.results[i]);
+    free(b.standings);
+    free(b.results);
+    free(b.whys);
+    return rg_kept_free(&b.kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }

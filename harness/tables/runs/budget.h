@@ -1,26 +1,17 @@
-// Tables within a budget of time: what of each is measured now, and what was left out.
+// Tables within a budget of time: cells are measured in an order of priority (order.h) until the
+// time is over.
 #ifndef RG_HARNESS_TABLES_RUNS_BUDGET_H
 #define RG_HARNESS_TABLES_RUNS_BUDGET_H
 
-#include <stdio.h>
+#include "harness/tables/runs/regenerate.h"
 
-#include "harness/tables/runs/chosen.h"
-
-// Probes the tables and prints the plan to `out`, a line a table. `kept` is of all devices. False,
-// and one logged line, where there are too many tables.
-bool rg_budget_begin(struct rg_budget *budget, const struct rg_table *const tables[], int count,
-                     struct rg_kept *kept, double seconds, FILE *out);
-
-// Begins the result of a table as the budget has it, after it has been planned anew, with those
-// that follow, by the time that is left and by how long those before it took: budget->table and
-// budget->chosen are what is measured. False where the table is left out.
-bool rg_budget_next(struct rg_budget *budget, int table, struct rg_result *result, FILE *out);
-// Tells it that the table is done.
-void rg_budget_done(struct rg_budget *budget, int table, const struct rg_result *result,
-                    double start_ms);
-
-// Prints what was left out, and what all took beside what was planned. False, and one logged line
-// that names the cheapest table, where nothing was measured.
-bool rg_budget_end(const struct rg_budget *budget, FILE *out);
+// Measures what fits into options->budget_s, which began at options->begin_ms; then prints each
+// table of which there is a row, and to `out` what was left out. A cell that would end behind the
+// budget, by what it or its neighbours took, is not begun; one of which nothing is known is. Where
+// not even the first row fits, one logged line says how long it takes, and nothing is printed.
+// There is no journal. Returns an enum rg_exit.
+int rg_tables_within(const struct rg_table *const tables[], int count,
+                     const struct rg_devices *devices, const struct rg_regenerate_options *options,
+                     FILE *out);
 
 #endif

@@ -103,18 +103,24 @@ bool rg_has_claims(const struct rg_table *table)
     return any;
 }
 
-bool rg_needs_truth(const struct rg_table *table)
+// Whether a claim about the table is judged by this test.
+static bool has_test(const struct rg_table *table, enum rg_claim_test test)
 {
-    bool needs = false;
+    bool has = false;
     for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
-        needs = needs || (is_about(claim, table) && claim->test == RG_CLAIM_FLATTENS);
-    return needs;
+        has = has || (is_about(claim, table) && claim->test == test);
+    return has;
 }
 
-bool rg_needs_size(const struct rg_table *table)
+int rg_most_divisor(const struct rg_table *table)
 {
-    bool needs = table->is_of_textures;
-    for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
-        needs = needs || (is_about(claim, table) && claim->test == RG_CLAIM_RATE);
-    return needs;
+    enum { SMALL_PIXELS = 512 * 512 };
+    const bool stays = table->is_of_textures || has_test(table, RG_CLAIM_RATE) ||
+                       table->width * table->height <= SMALL_PIXELS;
+    return stays ? 1 : 4;
+}
+
+bool rg_wants_truth(const struct rg_table *table, int divisor)
+{
+    return table->truth && (divisor == 1 || has_test(table, RG_CLAIM_FLATTENS));
 }

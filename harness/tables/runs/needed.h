@@ -14,10 +14,11 @@ int rg_quick_rows(const struct rg_table *table, bool rows[RG_TABLE_ROWS]);
 int rg_needed_variants(const struct rg_table *table, bool needed[RG_TABLE_VARIANTS]);
 // Whether claims are about it.
 bool rg_has_claims(const struct rg_table *table);
-// Whether a claim is about how far its pictures are from the truth.
-bool rg_needs_truth(const struct rg_table *table);
-// Whether its size means something: a claim is about how fast its frames are, rather than how they
-// compare, or it is of textures.
-bool rg_needs_size(const struct rg_table *table);
+// The most that a table's width and height can be divided by, 4 or 1: pictures stay as they are
+// where a claim is about how fast their frames are, where they are small, or of textures.
+int rg_most_divisor(const struct rg_table *table);
+// Whether errors of pictures are measured at this size: where they are whole, or where a claim is
+// about them.
+bool rg_wants_truth(const struct rg_table *table, int divisor);
 
 #endif

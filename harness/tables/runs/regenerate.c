@@ -6,13 +6,11 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/console/clock.h"
-#include "harness/console/duration.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/record/disk/hold.h"
 #include "harness/tables/runs/budget.h"
 #include "harness/tables/runs/closing.h"
-#include "harness/tables/runs/forecast.h"
 #include "harness/tables/runs/needed.h"
 #include "harness/tables/measuring/measure.h"
 
@@ -21,9 +19,7 @@ struct task {
     const struct rg_table *table;
     struct rg_result result;
     struct rg_journal *journal;
-    struct rg_table_bar bar;         // its part of the command's; without a progress it has its own
-    struct rg_table_learned learned; // of its technique, where it is the first of it
-    bool is_lost;                    // its files, or what it prints, could not be written
+    bool is_lost; // its files, or what it prints, could not be written
 };
 
 static void tell_resumed(const struct task *task)
@@ -55,18 +51,13 @@ static void tell_interrupted(const struct task *task)
         rg_info("%s: interrupted before a row of it was done; the same command begins it anew", id);
 }
 
-static int run_task(struct task *task, struct rg_kept *kept,
+static int run_task(struct task *task, struct rg_kept *kept, struct rg_progress *bar,
                     const struct rg_regenerate_options *options, struct rg_closing *closing)
 {
     tell_resumed(task);
-    const struct rg_table_bar *bar = task->bar.progress ? &task->bar : NULL;
-    if (!rg_table_measure(&task->result, task->table, kept, task->journal, bar))
+    if (!rg_table_measure(&task->result, task->table, kept, task->journal, bar, NULL))
         return rg_exit_of_error();
-    if (bar)
-        rg_progress_hide(bar->progress);
-    struct rg_place any = rg_result_start(&task->result);
-    if (!rg_interrupted() && !rg_result_next(&task->result, &any))
-        return RG_EXIT_PASS; // the budget ended before it
+    rg_progress_hide(bar);
     rg_closing_add(closing, &task->result);
     int exit = options->print(&task->result, options->user);
     task->is_lost = exit == RG_EXIT_USAGE || exit == RG_EXIT_HARNESS;
@@ -146,78 +137,12 @@ static bool spare_journals(const struct task *tasks, int count, const struct rg_
     return true;
 }
 
-static int cells_of(const struct task *tasks, int count)
+static int64_t units_of(const struct task *tasks, int count)
 {
-    int cells = 0;
-    for (int i = 0; i < count; i++)
-        for (int row = tasks[i].result.first_row; row <= tasks[i].result.last_row; row++)
-            if (rg_result_wants(&tasks[i].result, row) && !rg_journal_has(tasks[i].journal, row))
-                cells += rg_result_row_cells(&tasks[i].result);
-    return cells;
-}
-
-// What cells of each table are expected to take. NULL where it is not worth finding out, or an
-// interruption ended that: what was found by then is not all of it. The caller frees it.
-static struct rg_forecast *foresee(const struct task *tasks, int count, struct rg_kept *kept,
-                                   const struct rg_regenerate_options *o)
-{
-    if (count > RG_BUDGET_TABLES || !rg_forecast_is_worth(cells_of(tasks, count), o->full))
-        return NULL;
-    struct rg_forecast *forecasts = rg_alloc((size_t)count, sizeof(*forecasts), "forecast");
-    for (int i = 0; forecasts && i < count; i++) {
-        const struct rg_result *result = &tasks[i].result;
-        forecasts[i].table = tasks[i].table;
-        forecasts[i].part = part_of(tasks[i].table, o);
-        for (int row = result->first_row; row <= result->last_row; row++)
-            forecasts[i].rows[row] =
-                rg_result_wants(result, row) && !rg_journal_has(tasks[i].journal, row);
-    }
-    if (forecasts)
-        rg_forecast(forecasts, count, kept);
-    if (!rg_interrupted())
-        return forecasts;
-    free(forecasts);
-    return NULL;
-}
-
-// Begins the command's bar, of which each table has its part. What one tells of its technique holds
-// for the others of it.
-static void begin_bar(struct task *tasks, int count, const struct rg_forecast *forecasts,
-                      struct rg_progress *progress)
-{
-    const struct rg_table *tables[RG_BUDGET_TABLES] = {NULL};
     int64_t units = 0;
-    for (int i = 0; i < count; i++) {
-        struct rg_table_bar *bar = &tasks[i].bar;
-        int kind = i;
-        if (forecasts) {
-            tables[i] = tasks[i].table;
-            kind = rg_budget_kind_of(tables, i);
-        }
-        *bar =
-            rg_table_bar_of(forecasts ? forecasts[i].times : NULL, progress, &tasks[kind].learned);
-        units += rg_table_bar_add(bar, &tasks[i].result, tasks[i].journal);
-    }
-    rg_progress_start_expected(progress, units, forecasts ? RG_TABLE_UNIT_MS : 0);
-}
-
-// The plain loops of cpu:reference take most of the time of many tables, and few readers want their
-// speed: what they take is told where it is long.
-static void tell_reference(const struct task *tasks, int count, const struct rg_forecast *forecasts,
-                           int devices)
-{
-    char text[RG_DURATION_TEXT];
-    double s = 0;
-    for (int i = 0; forecasts && devices > 1 && i < count; i++) {
-        const struct rg_result *result = &tasks[i].result;
-        for (int row = result->first_row; row <= result->last_row; row++)
-            if (rg_result_wants(result, row) && !rg_journal_has(tasks[i].journal, row))
-                s += 1e-3 * forecasts[i].times[row].reference_ms * rg_result_row_cells(result) /
-                     devices;
-    }
-    if (s > rg_long_s())
-        rg_info("about %s of it are cpu:reference's alone; --device names others",
-                rg_duration_text(s, text));
+    for (int i = 0; i < count; i++)
+        units += rg_table_units(&tasks[i].result, tasks[i].journal);
+    return units;
 }
 
 // Journals go once all tables are written and printed: where one is not, the same command begins
@@ -278,12 +203,11 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     struct rg_closing closing = {0};
     int exit = RG_EXIT_PASS;
     rg_interrupt_watch();
-    struct rg_forecast *forecasts = foresee(tasks, count, &kept, o);
-    begin_bar(tasks, count, forecasts, &progress);
-    tell_reference(tasks, count, forecasts, devices->count);
-    free(forecasts);
-    for (int i = 0; i < count && !rg_interrupted(); i++)
-        exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, o, &closing));
+    rg_progress_start(&progress, units_of(tasks, count));
+    for (int i = 0; i < count && !rg_interrupted(); i++) {
+        rg_progress_unlike(&progress, i + 1 < count); // others may take a hundred times as long
+        exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, &progress, o, &closing));
+    }
     rg_progress_end(&progress);
     if (rg_interrupted())
         exit = rg_exit_worse(exit, RG_EXIT_SIGNALLED + rg_interrupt_signal());
@@ -293,66 +217,12 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 
-// --- within a budget of time ---
-
-// Measures a table as the budget has it. There is no journal: the next run plans anew.
-static int run_within(struct rg_budget *budget, int i, struct rg_kept *kept,
-                      const struct rg_regenerate_options *options, struct rg_closing *closing)
-{
-    const double start_ms = rg_now_ms();
-    struct task task = {.table = &budget->table};
-    if (!rg_budget_next(budget, i, &task.result, stderr))
-        return RG_EXIT_PASS;
-    kept->devices = &budget->chosen;
-    const int exit = run_task(&task, kept, options, closing);
-    kept->devices = budget->devices;
-    rg_budget_done(budget, i, &task.result, start_ms);
-    rg_result_free(&task.result);
-    return exit;
-}
-
-static int regenerate_within(const struct rg_table *const tables[], int count,
-                             const struct rg_devices *devices,
-                             const struct rg_regenerate_options *options, struct rg_budget *budget)
-{
-    struct rg_kept kept = {.devices = devices};
-    struct rg_closing closing = {0};
-    int exit = RG_EXIT_PASS;
-    rg_interrupt_watch();
-    const bool ok = rg_budget_begin(budget, tables, count, &kept, options->budget_s, stderr);
-    for (int i = 0; ok && i < count && !rg_interrupted(); i++)
-        exit = rg_exit_worse(exit, run_within(budget, i, &kept, options, &closing));
-    if (!ok)
-        exit = rg_exit_of_error();
-    if (ok && !rg_interrupted() && !rg_budget_end(budget, stderr))
-        exit = rg_exit_worse(exit, RG_EXIT_NOTHING);
-    if (rg_interrupted())
-        exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    exit = rg_exit_with(rg_exit_worse(exit, print_end(options)), rg_closing_measured(&closing));
-    if (ok && !rg_interrupted())
-        rg_closing_tell(&closing, devices->count);
-    return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
-}
-
-static int plan_and_regenerate(const struct rg_table *const tables[], int count,
-                               const struct rg_devices *devices,
-                               const struct rg_regenerate_options *options)
-{
-    struct rg_budget *budget = rg_alloc(1, sizeof(*budget), "budget");
-    const int exit =
-        budget ? regenerate_within(tables, count, devices, options, budget) : rg_exit_of_error();
-    if (budget)
-        free(budget->quick);
-    free(budget);
-    return exit;
-}
-
 static int regenerate(const struct rg_table *const tables[], int count,
                       const struct rg_devices *devices, const struct rg_regenerate_options *options,
                       bool keeps)
 {
     if (options->budget_s > 0)
-        return plan_and_regenerate(tables, count, devices, options);
+        return rg_tables_within(tables, count, devices, options, stderr);
     struct task *tasks = rg_alloc((size_t)count, sizeof(*tasks), "tables");
     const int made = tasks ? make_tasks(options, devices, tables, count, keeps, tasks) : 0;
     const bool ok = tasks && spare_journals(tasks, made, devices);

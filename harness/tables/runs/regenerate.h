@@ -10,6 +10,7 @@ struct rg_regenerate_options {
     const char *work, *variant; // NULL: all
     const char *set;            // over the settings of all cells, as struct rg_table_part has it
     double budget_s;    // what all tables may take together, without journals; 0: all they need
+    double begin_ms;    // by rg_now_ms, when the budget began
     const char *folder; // of the results, which journals lie beside; NULL: the user's state
     // Prints what there is of a table, which may be interrupted, and returns how that ended
     // (harness/console/exit.h).

@@ -7,7 +7,6 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/console/duration.h"
-#include "harness/console/progress.h"
 #include "harness/devices/workers/device.h"
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/measuring/measure.h"
@@ -152,5 +151,4 @@ void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices,
     fprintf(out, "), about %.0f MB%s\n", (all ? plan->all_bytes : plan->row_bytes) / 1e6,
             all ? " with all rows open in turn"
                 : " a row, of which as many are open as memory holds");
-    rg_progress_told();
 }

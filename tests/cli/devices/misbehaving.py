@@ -139,7 +139,7 @@ def problems_of(runner, command, case):
         problems.append("results of %s" % sorted(kept))
     if outcomes_of(command, report, device) != outcomes_wanted(command, case):
         problems.append("outcomes: %s" % outcomes_of(command, report, device))
-    lines = [line for line in result.stderr.splitlines() if not line.startswith("plan: ")]
+    lines = result.stderr.splitlines()
     if not lines or len(set(lines)) != len(lines) or len(lines) > 4:
         problems.append("%d lines" % len(lines))
     if not any(re.search(device + ".*" + HOW[how][1], line) for line in lines):

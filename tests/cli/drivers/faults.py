@@ -64,7 +64,7 @@ class Faults:
             args = COMMANDS[command].format(api=api, tmp=folder).split() + ["--timeout", str(HANG_S) if hangs else "100", "--memory", "1GiB"]
             result = subprocess.run([self.raingauge] + args, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                     encoding="utf-8", errors="replace", timeout=600)
-        return result.returncode, [line for line in result.stderr.splitlines() if not line.startswith("plan: ")]
+        return result.returncode, result.stderr.splitlines()
 
     def reached(self, command, api):
         """The functions of an API that a command calls where all goes well."""

@@ -137,7 +137,7 @@ SWEEP = ("sweep flow --axis resolution_px=32,64..96 --axis panes=mirror,glass --
 
 
 def check_sweep(runner):
-    """sweep plans, then measures each combination on each device, as a table that is printed, written and read like others"""
+    """a dry run of sweep plans; else it measures each combination on each device, as a table that is printed, written and read like others"""
     problems = []
     plan = r"plan: 6 rows on cpu, cpu:reference, 12 cells; about [\d.]+ s \(cpu [\d.]+ s, cpu:reference [\d.]+ s\), about \d+ MB with .*\n"
     dry = runner.run((SWEEP + "--dry-run").split())
@@ -152,7 +152,7 @@ def check_sweep(runner):
         brief = open(tmp + "/sweep-flow.md", encoding="utf-8").read()
     report = json.loads(run.stdout)
     problems += forms.problems("table", report)
-    if run.returncode or again != run.stdout or made != ["sweep-flow." + form for form in FORMATS] or not re.fullmatch(plan, run.stderr) or \
+    if run.returncode or again != run.stdout or made != ["sweep-flow." + form for form in FORMATS] or run.stderr or \
             run.closing != "raingauge: 12 cells measured on 2 devices\n" or dry.closing:
         problems.append("exit status %d, made %s, %s%s" % (run.returncode, made, run.stderr, run.closing))
     rows = [(px, panes) for px in (32, 64, 96) for panes in ("mirror", "glass")]

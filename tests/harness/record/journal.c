@@ -105,7 +105,7 @@ static json_t *run_table(struct rig *rig, struct rg_result *result, bool fresh)
     rg_interrupt_watch();
     rg_log_listen(hear, rig);
     struct rg_journal *journal = rg_journal_open(result, rig->folder, fresh, !rig->is_last);
-    assert_true(rg_table_measure(result, &table, &rig->kept, journal, NULL));
+    assert_true(rg_table_measure(result, &table, &rig->kept, journal, NULL, NULL));
     rg_log_listen(NULL, NULL);
     rg_journal_close(journal);
     return rg_result_json(result);
@@ -406,7 +406,7 @@ static void test_leaves_nothing(void **state)
         struct rg_result result;
         begin(rig, &result, 0);
         struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, is_followed);
-        assert_true(rg_table_measure(&result, &table, &rig->kept, journal, NULL));
+        assert_true(rg_table_measure(&result, &table, &rig->kept, journal, NULL, NULL));
         assert_int_equal(files_in(rig->folder), is_followed);
         assert_int_equal(rg_journal_path(journal) != NULL, is_followed);
         rg_journal_remove(journal);
@@ -430,7 +430,7 @@ static void test_quick_settings(void **state)
     free(quick);
     free(full);
     result.full = false;
-    assert_true(rg_table_measure(&result, &table, &rig->kept, NULL, NULL));
+    assert_true(rg_table_measure(&result, &table, &rig->kept, NULL, NULL, NULL));
     assert_true(rg_result_at(&result, bare)->counters[0].value == 25); // drops that landed
     rg_result_free(&result);
 }

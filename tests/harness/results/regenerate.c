@@ -92,7 +92,7 @@ static int measure(struct rig *rig, const struct rg_table *of, int count)
     rig->devices.devices[0]->backend = &changed;
     rg_table_begin(&rig->result, of, &part, &rig->devices);
     rg_log_listen(keep_quiet, &messages);
-    assert_true(rg_table_measure(&rig->result, of, &rig->kept, NULL, NULL));
+    assert_true(rg_table_measure(&rig->result, of, &rig->kept, NULL, NULL, NULL));
     rg_log_listen(NULL, NULL);
     return messages;
 }

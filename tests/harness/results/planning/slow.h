@@ -1,6 +1,6 @@
-// A technique whose frames take what its settings say, on fake devices that take so many times as
-// long, by a clock that only they move. It is all that rg_techniques has, in place of the build's
-// own list.
+// Techniques, "slow" and "other", whose frames take what their settings say, on fake devices that
+// take so many times as long, by a clock that only they move. They are all that rg_techniques has,
+// in place of the build's own list.
 #ifndef RG_TESTS_HARNESS_RESULTS_PLANNING_SLOW_H
 #define RG_TESTS_HARNESS_RESULTS_PLANNING_SLOW_H
 

@@ -1,0 +1,153 @@
+// What a dry run of a sweep learns of its cells by opening some of them: devices and a technique
+// that take time by a script, and a clock that only they move; and what a cell takes by what its
+// frames take.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "harness/console/clock.h"
+#include "harness/console/interrupt.h"
+#include "harness/tables/measuring/cell.h"
+#include "harness/tables/measuring/measure.h"
+#include "harness/tables/sweep/plan.h"
+#include "tests/harness/measuring/fake.h"
+#include "tests/harness/results/planning/slow.h"
+
+#define assert_ms(value, ms) assert_near(value, ms, 1e-6)
+
+static const struct rg_table_row rows[] = {
+    {"fixed_ms=2", {1}, "a"}, {"fixed_ms=4", {2}, "b"}, {"fixed_ms=10", {3}, "c"}};
+static const struct rg_table table = {.id = "slow-1",
+                                      .technique = "slow",
+                                      .columns = {"fixed_ms"},
+                                      .key_count = 1,
+                                      .variants = {{"full", "", NULL}},
+                                      .width = 1024,
+                                      .height = 512,
+                                      .check_frames = 5,
+                                      .row_count = 3,
+                                      .rows = rows,
+                                      .note = "a note"};
+
+// How many times as long as on cpu frames take, on each device.
+static const double slowness[] = {1, 10, 3};
+
+static const struct rg_table_row late_rows[] = {{"fixed_ms=2 late_ms=7 late_frame=4", {1}, "a"},
+                                                {"fixed_ms=10 late_ms=90 late_frame=4", {3}, "c"}};
+
+// Of three steps behind the second frame the last two are late.
+static struct rg_cell_frames late_frames(int row, int device)
+{
+    const double late_ms = row ? 90 : 7, slow = slowness[device];
+    const double drawn_ms = (row ? 10 : 2) + late_ms + 1.25e-4 * 1024 * 512;
+    return (struct rg_cell_frames){40 * slow, (1 + late_ms * 2 / 3) * slow,
+                                   (1 + late_ms + drawn_ms) * slow};
+}
+
+// Frames are expected to take what they do once rain has built up, and steps what they do on
+// average until then.
+static void a_sweep_is_of_rain_that_has_built_up(void **state)
+{
+    (void)state;
+    struct slow_rig rig;
+    struct rg_plan plan;
+    struct rg_table sweep = table;
+    sweep.rows = late_rows;
+    sweep.row_count = 2;
+    slow_begin(&rig);
+    assert_true(rg_plan_make(&sweep, NULL, true, &rig.kept, &plan));
+    for (int d = 0; d < 3; d++) {
+        double ms = 0;
+        for (int row = 0; row < 2; row++) {
+            const struct rg_cell_frames f = late_frames(row, d);
+            ms += rg_cell_ms(&sweep, &f, rg_table_options(true));
+        }
+        assert_ms(plan.device_s[d] * 1e3, ms);
+    }
+    slow_end(&rig);
+}
+
+// Plans a sweep with a hundred thousand steps before the frames that are timed, one opening of
+// which is interrupted, or none (0), and returns how long that takes.
+static double plan_many_steps(int interrupted, struct rg_plan *plan)
+{
+    struct slow_rig rig;
+    struct rg_table sweep = table;
+    sweep.check_frames = 100000;
+    slow_begin(&rig);
+    slow_interrupted = interrupted;
+    const double start_ms = rg_now_ms();
+    assert_true(rg_plan_make(&sweep, NULL, true, &rig.kept, plan) || interrupted);
+    const double taken_ms = rg_now_ms() - start_ms;
+    slow_end(&rig);
+    return taken_ms;
+}
+
+// They are not all simulated to tell what they take.
+static void looking_takes_a_moment(void **state)
+{
+    (void)state;
+    struct rg_plan plan;
+    const int looks = 2 * 3; // two rows on three devices
+    assert_true(plan_many_steps(0, &plan) < looks * 6000);
+    assert_true(plan.device_s[0] > 3 * 1e-3 * 100000); // three rows, a millisecond a step
+}
+
+// None of them is simulated once the command was interrupted.
+static void an_interrupted_look_ends(void **state)
+{
+    (void)state;
+    struct rg_plan plan;
+    rg_interrupt_watch();
+    assert_true(plan_many_steps(1, &plan) < 6000);
+    assert_true(rg_interrupted());
+}
+
+// By hand: frames that are long, short, and of a window of frames.
+static void a_cell_takes_what_its_frames_take(void **state)
+{
+    (void)state;
+    const struct rg_measure_options o = {.most_samples = 15,
+                                         .least_samples = 6,
+                                         .sample_ms = 15,
+                                         .job_ms = 1000,
+                                         .warm_up_ms = 200,
+                                         .warm_up_frames = 4,
+                                         .passes_ms = 400};
+    struct rg_measure_options few = o;
+    const struct rg_table plain = {.check_frames = 10}, alone = {.check_frames = 1};
+    const struct rg_table window = {.check_frames = 10, .window_frames = 5};
+    const struct rg_cell_frames slow = {7, 3, 500}, fast = {7, 0.25, 1}, middling = {7, 3, 60};
+    few.warm_up_frames = 1;
+    few.passes_ms = 0;
+    // The first and the last of 10, the one that is counted, one of warm-up, 6 samples, and 2
+    // frames of 1.5 for the passes; 8 steps.
+    assert_true(fabs(rg_cell_ms(&plain, &slow, &o) - (7 + 8 * 3 + 13 * 500)) < 1e-6);
+    // One of 1.5 for the passes.
+    assert_true(fabs(rg_cell_ms(&plain, &slow, &few) - (7 + 8 * 3 + 11.5 * 500)) < 1e-6);
+    assert_true(fabs(rg_cell_ms(&alone, &slow, &o) - (7 + 12 * 500)) < 1e-6);
+    // 3 + 4 + 4 + 15 samples of 15 + 1 frames + 40 frames of 1.5.
+    assert_true(fabs(rg_cell_ms(&plain, &fast, &o) - (7 + 8 * 0.25 + 311)) < 1e-6);
+    // 3, 4 of warm-up in 200 ms, 8 samples and a frame before each, 5 frames of 1.5.
+    assert_true(fabs(rg_cell_ms(&plain, &middling, &o) - (7 + 8 * 3 + (3 + 4 + 16 + 7.5) * 60)) <
+                1e-6);
+    // 11 frames in windows of 5: opened twice more, each with nine steps and a frame.
+    assert_true(fabs(rg_cell_ms(&window, &slow, &o) -
+                     (7 + 8 * 3 + 13 * 500 + 2 * (7 + 9 * 3 + 500))) < 1e-6);
+    assert_true(fabs(rg_cell_image_ms(&plain, &slow) - (7 + 9 * 3 + 500)) < 1e-6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_sweep_is_of_rain_that_has_built_up),
+        cmocka_unit_test(looking_takes_a_moment),
+        cmocka_unit_test(a_cell_takes_what_its_frames_take),
+        cmocka_unit_test(an_interrupted_look_ends), // last, for it stays interrupted
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,231 @@
+// In which order tables are measured, as a function of what is measured and of what that took; and
+// what curves and claims need.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <string.h>
+
+#include "harness/tables/claims/claim.h"
+#include "harness/tables/papers/papers.h"
+#include "harness/tables/runs/needed.h"
+#include "harness/tables/runs/order.h"
+
+enum { CPU = 1, GL = 2, REFERENCE = 4 };
+static const struct rg_order_devices devices = {
+    .all = CPU | GL | REFERENCE, .first = CPU, .last = REFERENCE};
+#define LEFT_S 1e6
+
+// Three tables of five rows, of which two techniques have two and one; claims are about the last.
+enum { TABLES = 3 };
+static const struct rg_table tables[TABLES] = {{.id = "a", .technique = "one"},
+                                               {.id = "b", .technique = "other"},
+                                               {.id = "c", .technique = "one"}};
+
+static void begin(struct rg_standing standings[TABLES])
+{
+    for (int i = 0; i < TABLES; i++)
+        standings[i] = (struct rg_standing){.table = &tables[i],
+                                            .has_claims = i == 2,
+                                            .needed_rows = 3,
+                                            .quick_rows = 5,
+                                            .needed_variants = 1,
+                                            .variants = 2,
+                                            .works = 3,
+                                            .share = {.divisor = 4}};
+}
+
+// The next step, which is taken as done: it took so long for each of its cells, on cpu, and twice
+// as long on others.
+static struct rg_step next(struct rg_standing standings[TABLES], double cell_s)
+{
+    struct rg_step step;
+    assert_true(rg_order_next(standings, TABLES, &devices, LEFT_S, &step));
+    struct rg_standing *s = &standings[step.table];
+    const int rows = step.turn == RG_TURN_FIRST    ? 2
+                     : step.turn == RG_TURN_NEEDED ? 1
+                     : step.turn == RG_TURN_ROWS   ? 2
+                                                   : 0;
+    const double times = step.devices == CPU ? 1 : 2;
+    rg_order_learn(standings, TABLES, &step, step.cells, step.cells * times * cell_s);
+    rg_order_tried(standings, &step);
+    s->share = step.share;
+    s->rows += rows;
+    return step;
+}
+
+static void expect(struct rg_standing standings[TABLES], enum rg_turn turn, int table, unsigned on,
+                   double cell_s)
+{
+    const struct rg_step step = next(standings, cell_s);
+    if (step.turn != turn || step.table != table || step.devices != on)
+        fail_msg("turn %d of table %d on %u, not turn %d of table %d on %u", step.turn, step.table,
+                 step.devices, turn, table, on);
+}
+
+// Each table has its first rows before one has more; then what is needed, claims first, and what is
+// cheap before what is dear.
+static void the_order_is_that_of_priority(void **state)
+{
+    (void)state;
+    struct rg_standing s[TABLES];
+    begin(s);
+    expect(s, RG_TURN_FIRST, 0, CPU, 5);
+    expect(s, RG_TURN_FIRST, 1, CPU, 1); // of another technique, so that nothing is known of it
+    expect(s, RG_TURN_FIRST, 2, CPU, 3);
+    expect(s, RG_TURN_NEEDED, 1, CPU, 1);
+    expect(s, RG_TURN_NEEDED, 2, CPU, 3);
+    expect(s, RG_TURN_NEEDED, 0, CPU, 5);
+    expect(s, RG_TURN_CLAIMED, 2, GL, 3);
+    expect(s, RG_TURN_DEVICES, 1, GL, 1);
+    expect(s, RG_TURN_DEVICES, 0, GL, 5);
+    expect(s, RG_TURN_BETTER, 1, CPU | GL, 1);
+    expect(s, RG_TURN_BETTER, 2, CPU | GL, 3);
+    expect(s, RG_TURN_BETTER, 0, CPU | GL, 5);
+    for (enum rg_turn turn = RG_TURN_ROWS; turn <= RG_TURN_WORKS; turn++)
+        for (int i = 0; i < TABLES; i++)
+            assert_int_equal(next(s, 1).turn, turn);
+    for (int i = 0; i < TABLES; i++)
+        assert_int_equal(next(s, 1).devices, REFERENCE);
+    struct rg_step none;
+    assert_false(rg_order_next(s, TABLES, &devices, LEFT_S, &none));
+    for (int i = 0; i < TABLES; i++) {
+        assert_int_equal(s[i].share.devices, devices.all);
+        assert_int_equal(s[i].share.divisor, 1);
+        assert_true(s[i].share.all_samples && s[i].share.all_rows && s[i].share.all_variants &&
+                    s[i].share.all_works && s[i].rows == 5);
+    }
+}
+
+// What was tried and is not there, is not tried again; nothing of a table without rows is refined.
+static void what_was_tried_is_not_tried_again(void **state)
+{
+    (void)state;
+    struct rg_standing s[TABLES];
+    struct rg_step step;
+    begin(s);
+    for (int i = 0; i < TABLES; i++) {
+        assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+        assert_int_equal(step.turn, RG_TURN_FIRST);
+        rg_order_tried(s, &step);
+    }
+    assert_false(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+}
+
+// By its own cells, or by those of its technique: by how a device compares with others there; else
+// by what it took elsewhere.
+static void what_cells_take_follows_from_others(void **state)
+{
+    (void)state;
+    struct rg_standing s[TABLES];
+    struct rg_step step;
+    begin(s);
+    next(s, 5);
+    assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+    assert_true(step.table == 1 && step.expected_s == 0);
+    next(s, 1);
+    assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+    assert_true(step.table == 2 && step.expected_s == 5);
+    for (int i = 0; i < 4; i++)
+        next(s, 3);
+    // Three rows on gl, of which nothing is known: no less than on cpu.
+    assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+    assert_true(step.turn == RG_TURN_CLAIMED && step.expected_s == 3 * 3);
+    next(s, 3);
+    // The other table of its technique takes twice as long there, too; its cells take 3 s now.
+    struct rg_step of = {.table = 0, .turn = RG_TURN_DEVICES};
+    for (int i = 0; i < 2; i++) {
+        assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+        of = step.table == 0 ? step : of;
+        rg_order_tried(s, &step);
+    }
+    assert_true(of.expected_s == 3 * 2 * 3);
+}
+
+// Whole pictures where there is time for those of all tables, and half of the size where there is
+// not.
+static void pictures_grow_as_far_as_there_is_time(void **state)
+{
+    (void)state;
+    for (int much = 0; much < 2; much++) {
+        struct rg_standing s[TABLES];
+        struct rg_step step;
+        begin(s);
+        for (int i = 0; i < 9; i++)
+            next(s, 1);
+        // Three rows on cpu and, which takes twice as long, on gl; 16 times the pixels and twice
+        // the samples, of three tables.
+        const double left_s = 3 * (9 * 16 * 2) * (much ? 1.01 : 0.99);
+        assert_true(rg_order_next(s, TABLES, &devices, left_s, &step));
+        assert_int_equal(step.turn, RG_TURN_BETTER);
+        assert_int_equal(step.share.divisor, much ? 1 : 2);
+        assert_true(step.expected_s == 9 * 2 * (much ? 16 : 4));
+    }
+}
+
+// A table's part of the time is what is left, by those that wait.
+static void time_is_shared_among_those_that_wait(void **state)
+{
+    (void)state;
+    struct rg_standing s[TABLES];
+    begin(s);
+    assert_true(rg_order_part_s(s, TABLES, 60) == 20);
+    next(s, 5);
+    assert_true(rg_order_part_s(s, TABLES, 60) == 30);
+}
+
+// The ends and the middle of each table, and what claims end without.
+static void rows_of_curves_and_claims_are_needed(void **state)
+{
+    (void)state;
+    bool rows[RG_TABLE_ROWS], variants[RG_TABLE_VARIANTS];
+    for (int i = 0; rg_tables[i]; i++) {
+        const struct rg_table *t = rg_tables[i];
+        int counted = 0;
+        const int count = rg_needed_rows(t, rows);
+        for (int row = 0; row < RG_TABLE_ROWS; row++)
+            counted += rows[row];
+        assert_int_equal(counted, count);
+        const int last = t->quick_rows ? t->quick_rows : t->row_count;
+        bool between = last < 3;
+        for (int row = 1; row < last - 1; row++)
+            between = between || rows[row];
+        assert_true(rows[0] && between && rows[last - 1]);
+        assert_true(count <= t->row_count && rg_needed_variants(t, variants) >= 1 && variants[0]);
+        for (const struct rg_claim *c = rg_claims; c->table; c++) {
+            if (strcmp(c->table, t->id) != 0)
+                continue;
+            const bool is_of_each = c->test == RG_CLAIM_FASTER || c->test == RG_CLAIM_RATE;
+            assert_true(rows[c->first - 1] &&
+                        rows[(is_of_each && c->last > last ? last : c->last) - 1]);
+            assert_true(!c->knee || rows[c->knee - 1]);
+            for (int v = 0; t->variants[v].name; v++)
+                if (!strcmp(t->variants[v].name, c->variant) ||
+                    (c->other && !strcmp(t->variants[v].name, c->other)))
+                    assert_true(variants[v]);
+        }
+    }
+    // The second camera's curve has ends and a middle of its own.
+    const struct rg_table *cameras = rg_table_find("creus-5.3");
+    static const int due[] = {1, 4, 8, 9, 10, 13, 17, 18};
+    assert_int_equal(rg_needed_rows(cameras, rows), 8);
+    for (int i = 0; i < 8; i++)
+        assert_true(rows[due[i] - 1]);
+    assert_int_equal(rg_most_divisor(rg_table_find("chin-timing")), 1);
+    assert_int_equal(rg_most_divisor(cameras), 4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_order_is_that_of_priority),
+        cmocka_unit_test(what_was_tried_is_not_tried_again),
+        cmocka_unit_test(what_cells_take_follows_from_others),
+        cmocka_unit_test(pictures_grow_as_far_as_there_is_time),
+        cmocka_unit_test(time_is_shared_among_those_that_wait),
+        cmocka_unit_test(rows_of_curves_and_claims_are_needed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
