@@ -99,7 +99,9 @@ bool rg_take_subject(struct rg_message *message, struct rg_subject *subject)
     if (!subject->technique)
         return rg_error("a message between processes names no technique");
     void *settings = rg_settings_create(subject->technique);
-    bool ok = settings;
+    if (!settings)
+        return false;
+    bool ok = true;
     for (int i = 0; ok && i < count && !message->failed; i++)
         ok = take_param(message, subject->technique->params, settings);
     subject->settings = settings;

@@ -14,7 +14,7 @@ COMMANDS = {
     "diff": "diff raster --device cpu,cpu:reference " + SMALL + "--json",
     "verify": "verify raster --device cpu --quick --size 16x16 --frame 1 --json",
     "stages": "verify shower --stages --device cpu --quick --size 16x16 --frame 1 --json",
-    "gate": "gate cpu cpu:reference --pictures --cells IN/cells.txt --json OUT/report.json --junit OUT/report.xml",
+    "gate": "gate cpu cpu:reference --pictures --cells IN/cells.txt --json --junit OUT/report.xml",
     "table": "table stuppacher-2 --rows 1-1 --quick --device cpu --work paper --json",
     "render": "render raster --device cpu " + SMALL + "-o OUT/a.png",
     "read": "diff IN/a.tif IN/a.png --json",
@@ -71,7 +71,7 @@ WANTS = {
     "no memory in a worker": (plain, lib("malloc", "worker")),
 }
 # What differs from run to run.
-TIMES = {"passport", "measured", "seconds", "created", "checksum", "seal", "date", "time_ms", "shapes", "host", "id", "notes"}
+TIMES = {"passport", "passport_text", "measured", "seconds", "created", "checksum", "seal", "date", "time_ms", "shapes", "host", "id", "notes"}
 
 
 def settled(value):
@@ -116,21 +116,23 @@ class Trial:
                     files[file] = inner.read()
         shutil.rmtree(out)
         report = files.pop("report.xml", b"").decode()
-        found = [told(done.stdout.replace(out, "OUT")), told(files.pop("report.json", b"{}").decode()), sorted(files.items())]
+        found = [told(done.stdout.replace(out, "OUT")), sorted(files.items())]
         return done.returncode, found, done.stderr, report
 
     def problems(self, name, wrap, variables):
         """What is wrong with a command under a want; None where it cannot be tried."""
         if name not in self.well:
             self.well[name] = self.run(name, plain, {})
+        if self.well[name][0]:
+            return ["fails without a want: status %d, %s" % (self.well[name][0], self.well[name][2])]
         status, found, err, report = self.run(name, wrap, variables)
         if re.match("unshare: |sh: .*mount|mount: ", err) or status in (98, 99, 127):
             return None
         problems = []
         self.lacking += status == LACKING
-        if status not in (self.well[name][0], LACKING):
+        if status not in (0, LACKING):
             problems.append("status %d" % status)
-        if status == self.well[name][0] and found != self.well[name][1]:
+        if status == 0 and found != self.well[name][1]:
             problems.append("another result")
         if status == LACKING and not err:
             problems.append("no line")

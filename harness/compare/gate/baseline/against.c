@@ -175,7 +175,7 @@ static bool note_keys(struct run *r)
             fprintf(out, "%s: key %s, and the baseline's is %s, so that times are advisory: %s\n",
                     was->name, now_key, was_key, text);
     }
-    return out && fclose(out) == 0;
+    return (out && fclose(out) == 0) || rg_harness_error("gate: no memory for its devices' lines");
 }
 
 // --- what is the same every time ---

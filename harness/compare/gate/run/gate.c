@@ -185,7 +185,7 @@ static bool note_drivers(struct run *r)
         rg_driver_line(&r->infos[i], line);
         fprintf(out, "%c  %s\n", "AB"[r->info_sides[i]], line);
     }
-    return out && fclose(out) == 0;
+    return (out && fclose(out) == 0) || rg_harness_error("gate: no memory for its devices' lines");
 }
 
 static void compare(struct run *r, struct rg_gate_case *c)
@@ -332,7 +332,8 @@ bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
         gate->report.idle_count +=
             (told.ending == RG_ENDING_FLAKE || told.ending == RG_ENDING_EXPECTED_FAILURE) &&
             !rg_gate_case_was_compared(c);
-        ok = rg_report_add(&gate->report, &told);
+        ok = (c->details || rg_harness_error("gate: no memory for what a case tells")) &&
+             rg_report_add(&gate->report, &told);
         if (asked->tell)
             asked->tell(&told, asked->user);
     }
@@ -418,7 +419,9 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     for (int side = 0; side < RG_SIDES; side++)
         if (r.sides[side].was_closed_badly)
             found = rg_exit_worse(found, RG_EXIT_FAIL);
-    return rg_exit_worse(found == RG_EXIT_PASS ? rg_gate_exit(request, gate) : found, kept);
+    found = found == RG_EXIT_PASS ? rg_gate_exit(request, gate) : found;
+    const bool was_lacking = r.sides[0].was_lacking || r.sides[1].was_lacking;
+    return rg_exit_worse(rg_exit_worse(found, kept), was_lacking ? RG_EXIT_HARNESS : RG_EXIT_PASS);
 }
 
 void rg_gate_free(struct rg_gate *gate)

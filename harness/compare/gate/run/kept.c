@@ -256,7 +256,7 @@ char *rg_kept_times_csv(const struct rg_kept_times *kept)
     json_t *row, *launch;
     FILE *file = open_memstream(&text, &size);
     if (!file)
-        return NULL;
+        return rg_harness_error_null("gate: no memory for the launches; close other programs");
     if (json_object_size(rows_of(kept)))
         fprintf(file, "case,launch,log_ratio,a_ms,b_ms,disturbed\n");
     json_object_foreach(rows_of(kept), name, row)

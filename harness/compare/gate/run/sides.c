@@ -12,6 +12,7 @@ bool rg_side_launch(struct rg_side *side)
 {
     rg_side_close(side);
     side->device = rg_devices_open_one(side->name);
+    side->was_lacking |= !side->device && rg_failure_take().outcome == RG_LACKING;
     return side->device != NULL;
 }
 

@@ -13,6 +13,7 @@ struct rg_side {
     const char *name;         // as --device takes one device; not owned
     struct rg_device *device; // NULL: not open
     bool was_closed_badly;    // once: something was left on it, or its driver crashed
+    bool was_lacking;         // once: raingauge itself lacked what opening it needs
 };
 
 // Closes the device, if one is open, and opens it again: its worker is another process then. False,
