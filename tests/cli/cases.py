@@ -48,7 +48,7 @@ COMMANDS = [
     Case("", 2, r"no command; `raingauge --help` lists them"),
     Case("--help", 0, None),
     Case("--version", 0, None),
-    Case("nonsense", 2, r"command 'nonsense': unknown; the nearest is 'bisect', and `raingauge --help` lists them"),
+    Case("nonsense", 2, r"command 'nonsense': unknown; the nearest is 'render', and `raingauge --help` lists them"),
     Case("tabel", 2, r"command 'tabel': unknown; the nearest is 'table', and `raingauge --help` lists them"),
     Case("help", 0, None),
     Case("help diff", 0, None),
@@ -222,7 +222,7 @@ COMMANDS = [
     Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
 
     # figures
-    Case("figures creus-4.41", 2, r"figure 'creus-4.41': unknown; the nearest is 'creus-4.14', and `raingauge list figures` prints them"),
+    Case("figures creus-4.41", 2, r"figure 'creus-4.41': unknown; the nearest is 'creus-4.1', and `raingauge list figures` prints them"),
     Case("figures creus-4.4 -o {tmp}/none/out", 2, r"none/out: its folder is not there; make it first"),
     Case("figures creus-4.4 --device nonsense", 2, UNKNOWN_DEVICE),
     Case("figures creus-4.1 --size 64x36 --memory 1M -o {tmp}/out", 2, r"streaks of 64x36 on cpu needs .* MiB, and 1\.0 MiB of --memory are left"),

@@ -27,7 +27,6 @@ struct budget {
     struct rg_left_why *whys;      // why the first of what is left out was
     double end_ms;                 // by rg_now_ms
     enum rg_turn told;             // the turn that was told last; RG_TURNS: none
-    double needed_s;               // where the first row does not fit, what it takes; else 0
 };
 
 static double left_s(const struct budget *b)
@@ -217,11 +216,11 @@ static bool first_fits(struct budget *b, const struct rg_step *step, double star
     const int parts = b->results[step->table].rows[0] ? 1 : step->cells;
     if (now_ms <= b->end_ms || rg_interrupted())
         return true;
-    b->needed_s = ceil((start_ms - begin_ms + parts * (now_ms - start_ms)) / 1000);
+    const double needed_s = ceil((start_ms - begin_ms + parts * (now_ms - start_ms)) / 1000);
     const struct rg_table *table = b->standings[step->table].table;
     return rg_error("--budget: a first row, of %s, is done %.0f s after the start, so that nothing "
                     "fits into %g s; give %.0fs or more, or name other tables",
-                    table->id, b->needed_s, b->options->budget_s, b->needed_s);
+                    table->id, needed_s, b->options->budget_s, needed_s);
 }
 
 // Measures until the time is over. False, with one logged line, without memory, or where nothing

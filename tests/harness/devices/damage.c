@@ -37,7 +37,8 @@ enum damage {
     LAYERS,
     WIDE,
     BYTES,
-    HALF_A_ROW
+    HALF_A_ROW,
+    LONG_TEXT
 };
 
 static enum damage damage(void)
@@ -101,6 +102,14 @@ static bool shut(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+// Fails and does not say why.
+static bool fall_silent(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    (void)reply;
+    return false;
+}
+
 static bool nod(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
@@ -134,11 +143,49 @@ static bool contents(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+// As rg_digests, whose rows have less room for a stage.
+struct long_digest {
+    int64_t frame;
+    int stages_run;
+    char stage[RG_ASSET_NAME + 1], asset[RG_ASSET_NAME];
+    uint64_t hash;
+    int64_t weight;
+};
+struct long_digests {
+    int count;
+    int64_t room;
+    struct long_digest *rows;
+};
+
+static void put_long_text(struct rg_message *reply)
+{
+    static const struct rg_field row_fields[] = {
+        RG_FIELD_INTEGER(struct long_digest, frame, 0, INT64_MAX),
+        RG_FIELD_INTEGER(struct long_digest, stages_run, 0, INT32_MAX),
+        RG_FIELD_TEXT(struct long_digest, stage),
+        RG_FIELD_TEXT(struct long_digest, asset),
+        RG_FIELD_BYTES(struct long_digest, hash),
+        RG_FIELD_INTEGER(struct long_digest, weight, 0, INT64_MAX),
+        RG_FIELDS_END,
+    };
+    static const struct rg_field fields[] = {
+        RG_FIELD_LIST(struct long_digests, rows, row_fields, INT32_MAX),
+        RG_FIELDS_END,
+    };
+    struct long_digest row = {.frame = 1};
+    memset(row.stage, 's', RG_ASSET_NAME);
+    rg_put_fields(reply, fields, &(struct long_digests){.count = 1, .rows = &row});
+}
+
 static bool digests(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_digest row = {.frame = 1};
     const struct rg_digests told = {.count = 1, .rows = &row};
     (void)request;
+    if (damage() == LONG_TEXT) {
+        put_long_text(reply);
+        return true;
+    }
     rg_put_fields(reply, rg_told_digests_fields, &told);
     reply->size -= damage() == HALF_A_ROW ? reply->size / 2 : 0;
     return true;
@@ -186,7 +233,7 @@ static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
     [RG_CALL_SYNC] = nod,          [RG_CALL_FRAMES] = run_frames,
     [RG_CALL_COUNT] = count,       [RG_CALL_TELL] = tell,
     [RG_CALL_CONTENTS] = contents, [RG_CALL_DIGESTS] = digests,
-    [RG_CALL_PROBE] = chatter,
+    [RG_CALL_PROBE] = chatter,     [RG_CALL_AUDIT] = fall_silent,
 };
 
 // --- in the harness ---
@@ -293,14 +340,15 @@ static void digests_are_whole_rows(void **state)
     void *settings = rg_settings_create(technique);
     const struct rg_digest_run run = {{technique, settings, 8, 8}, 1};
     (void)state;
-    for (int half = 0; half < 2; half++) {
+    static const enum damage all[] = {NOTHING, HALF_A_ROW, LONG_TEXT};
+    for (int i = 0; i < 3; i++) {
         struct rg_digests taken = {0};
-        set_damage(half ? HALF_A_ROW : NOTHING);
+        set_damage(all[i]);
         struct rg_device *device = rg_devices_open_one("toy");
         assert_non_null(device);
-        assert_int_equal(rg_digests_take(&run, device, &taken), !half);
-        assert_int_equal(taken.count, !half);
-        assert_int_equal(lines, half);
+        assert_int_equal(rg_digests_take(&run, device, &taken), !i);
+        assert_int_equal(taken.count, !i);
+        assert_int_equal(lines, i > 0);
         rg_digests_free(&taken);
         assert_true(rg_device_close(device));
     }
@@ -332,6 +380,24 @@ static void lines_are_bounded_and_the_error_is_kept(void **state)
     assert_in_range(lines, 2, 1000);
     assert_non_null(strstr(rg_last_error(), "the end"));
     assert_true(rg_device_close(device));
+}
+
+// A call that fails says why in its reply, whatever an earlier one said.
+static void a_call_that_fails_says_why(void **state)
+{
+    (void)state;
+    for (int was_told = 0; was_told < 2; was_told++) {
+        set_damage(NOTHING);
+        struct rg_device *device = rg_devices_open_one("toy");
+        assert_non_null(device);
+        if (was_told)
+            assert_false(rg_worker_ask(rg_remote_worker(device), RG_CALL_PROBE, NULL));
+        lines = 0;
+        assert_false(rg_worker_ask(rg_remote_worker(device), RG_CALL_AUDIT, NULL));
+        assert_int_equal(lines, 1);
+        assert_non_null(strstr(rg_last_error(), "a message between processes is damaged"));
+        assert_true(rg_device_close(device));
+    }
 }
 
 // A worker that ends while it tells of a session leaves no record that is well and counts nothing.
@@ -371,6 +437,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(digests_are_whole_rows),
         cmocka_unit_test(what_closed_badly_has_not_closed),
         cmocka_unit_test(lines_are_bounded_and_the_error_is_kept),
+        cmocka_unit_test(a_call_that_fails_says_why),
         cmocka_unit_test(what_is_not_told_ends_a_record),
     };
     rg_workers.program = "/proc/self/exe";

@@ -99,6 +99,11 @@ static void integers_are_no_floats(void **state)
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     words.words = NULL;
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+    memcpy(now, &(uint32_t){8}, 4);
+    memcpy(due, &(uint32_t){7}, 4);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+    words.words = "u";
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     words.words = "f";
     assert_int_equal(found(), RG_DIFFERENCE_LAST_BITS);
     words.words = "uf"; // the first word of each element

@@ -12,6 +12,7 @@ REPLAY = "harness/compare/shrink/replay.c"
 CULPRIT, FOLDER = "harness/compare/shrink/culprit.c", "harness/compare/shrink/folder.c"
 SEARCH, ENTRIES, FILES = "harness/compare/shrink/search.c", "harness/compare/shrink/entries.c", "harness/compare/shrink/files.c"
 RECORDER = "harness/frames/recorder.c"
+CONTENTS, STAGES = "core/techniques/stages/contents.c", "core/techniques/stages/stages.c"
 BLAME, DIFFERENCE = "harness/compare/blame/blame.c", "harness/compare/blame/difference.c"
 
 SHRINKING = ("command line, shrinking",)
@@ -23,8 +24,14 @@ ROWS = [
     Fault(SNAPSHOT, "for (int i = 0; equal && i < «a->state_count»; i++)", "0", "states are never compared"),
     Fault(SNAPSHOT, "return a_bytes == b_bytes && «!memcmp(a, b, a_bytes)»;", "true", "states of one size are the same"),
     Fault(SNAPSHOT, "return «same(a->texels, a->texels_bytes, b->texels, b->texels_bytes)»;", "true", "images are never compared"),
-    Fault(SNAPSHOT, "(int)(i % (size_t)layout->row) «- layout->margin»,", "+ 0", "an element's place is told with the margin"),
-    Fault(SNAPSHOT, "if (!memcmp(p + 4 * i, q + 4 * i, 4))\n                continue;", "if (i + 4 < a->state_bytes[s] / 4) continue;", "the last element is told as the first that differs"),
+    Fault(CONTENTS, "(int)(word % (size_t)state->row) «- state->margin»,", "+ 0", "an element's place is told with the margin"),
+    Fault(CONTENTS, "first = «differing ? first : i»;", "i", "the last element is told as the first that differs"),
+    Fault(CONTENTS, "const char letter = *words ? words[«word % (int64_t)strlen(words)»] : RG_WORD_UINT;", "0", "all words of a struct are as its first"),
+    Fault(CONTENTS, "words[word % (int64_t)strlen(words)] : «RG_WORD_UINT»;", "RG_WORD_FLOAT", "words that nobody tells of are floats"),
+    Fault(CONTENTS, "(uint16_t)(value << «(15 - bits)»)", "4", "all small floats have 11 bits"),
+    Fault(STAGES, "const char *words = by && asset->buf ? words_of(by, asset->buf) : NULL;\n    for (int i = 0; «!words» && asset->buf", "false", "no other stage tells of the words"),
+    Fault(CULPRIT, "const bool keeps = «differs(p)»;", "true", "a kernel's inputs are zeroed whether it needs them or not", tests=SHRINKING),
+    Fault(CULPRIT, "    culprit->items = items_of(p->due);\n    «shrink_inputs(p);»", "", "a kernel's inputs stay whole", tests=SHRINKING),
     Fault(DEVICES, "if («rg_snapshot_same_state(now, &c->expected)»)", "true", "a state that differs passes"),
     Fault(DEVICES, "if («row->tier != RG_T0») {\n        tally->unlike++;", "true", "a state that differs is left to the image on every tier"),
     Fault(DEVICES, "if («rg_snapshot_same_image(now, &c->expected)»)", "true", "an image that differs passes"),
@@ -64,7 +71,7 @@ ROWS = [
     Fault(BLAME, "(int)d->frame «+ 1» : run->frames", "- 1", "a second run ends before what is asked for"),
     Fault(BLAME, "if (part.frames == run->frames)\n            break;", "break;", "only the first frame is blamed"),
     Fault(DIFFERENCE, "if («any(&p, has_nan)»)", "false", "a NaN is another value"),
-    Fault(DIFFERENCE, "return size > 8 && «(bits & exponent) == exponent»;", "false", "no float is endless"),
+    Fault(DIFFERENCE, "number != RG_NUMBER_CODE && «(bits & exponent) == exponent»;", "false", "no float is endless"),
     Fault(DIFFERENCE, "if (has_before && «all(&p, is_left)»)", "any(&p, is_left)", "one missing item makes all missing"),
     Fault(DIFFERENCE, "if (has_before && «all(&p, was_due_so)»)", "false", "surplus is not told"),
     Fault(DIFFERENCE, "const bool same = count && «!memcmp(now, due, (size_t)(count * element_bytes))»;", "true", "all elements are the same"),
@@ -73,7 +80,8 @@ ROWS = [
     Fault(DIFFERENCE, "if («all(&p, is_in_last_bits)»)", "any(&p, is_in_last_bits)", "one float in the last bits makes all so"),
     Fault(DIFFERENCE, "«!has_near(p->due, a, x, y)» || !has_near(p->now, b, x, y)", "false", "a value that the truth has nowhere lies at an edge"),
     Fault(DIFFERENCE, "for (int v = y > 0 ? y - 1 : 0; «v <= y + 1» && v < c->desc.height; v++)", "true", "an edge may lie anywhere below"),
-    Fault(DIFFERENCE, "return size && «is_made_endless(a) != is_made_endless(b)»;", "is_endless(a, 32) != is_endless(b, 32)", "an integer is taken for a NaN"),
+    Fault(DIFFERENCE, "bool is = «!is_whole(number)»;", "true", "integers are last bits from each other"),
+    Fault(DIFFERENCE, "return «state->words ? 4 * (int)strlen(state->words) : 4»;", "4", "an element is a word"),
     Fault(SHRINK, "run.frames = «s->blame.first.frame > 1 ? (int)s->blame.first.frame : 1»;", "s->best.frames", "frames are not shrunk", tests=SHRINKING),
     Fault(REPLAY, "const bool is_same = «hash == c->expected»;", "true", "every device leaves what is expected", tests=SHRINKING),
     Fault(REPLAY, "return «knows_asset(digests, c->asset)» ||", "true", "a case of an asset that is no more is a device that draws otherwise", tests=SHRINKING),
