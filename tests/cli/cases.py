@@ -199,6 +199,8 @@ COMMANDS = [
     Case("diff {data}/a.png {data}/half.png", 2, r"half\.png: "),
     Case("diff {data}/half.exr {data}/a.exr", 2, r"half\.exr: "),
     Case("diff {data}/short.exr {data}/a.exr", 2, r"short\.exr: "),
+    Case("diff {data}/large.hdr {data}/large.hdr --memory 48M", 2,
+         r"large\.hdr: no memory for 2048 x 1536 pixels \(36 MiB, and as much while it is read\); crop it, or allow more with --memory"),
     Case("diff {data}/folder.exr {data}/a.exr", 2, r"diff: '.*/folder\.exr' is a folder; name two pictures, and call diff once for each pair"),
     Case("diff {data}/a.exr {data}", 2, r"diff: '.*' is a folder; name two pictures"),
     Case("diff {data}", 2, r"diff: '.*' is a folder; name two pictures"),
@@ -530,7 +532,9 @@ def write_inputs(runner, data):
         os.symlink(os.path.join(data, "a.png"), os.path.join(data, link))
     packaged = "/usr/share/open3d-gui/resources/crossroads_skybox.ktx"
     start = open(packaged, "rb").read(4096) if os.path.exists(packaged) else b"\xabKTX 11\xbb\r\n\x1a\n" + bytes(52)
-    for name, content in (("short.ktx", start[:20]), ("half.ktx", start), ("short.exr", b"\x76\x2f\x31\x01\x02")):
+    runs = b"\2\2\x08\0" + 4 * (16 * b"\xff\x80" + b"\x90\x80")  # a line of 2048 pixels
+    large = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1536 +X 2048\n" + 1536 * runs
+    for name, content in (("short.ktx", start[:20]), ("half.ktx", start), ("short.exr", b"\x76\x2f\x31\x01\x02"), ("large.hdr", large)):
         with open(os.path.join(data, name), "wb") as file:
             file.write(content)
     os.mkdir(os.path.join(data, "folder.exr"))

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/base/cage/cage.h"
+#include "core/base/memory.h"
 #include "core/base/program.h"
 #include "core/image/files/format.h"
 #include "core/image/reader/reply.h"
@@ -64,7 +65,7 @@ static bool take_extras(const char *extras, uint32_t bytes, struct rg_picture *p
 static bool take_rest(const char *rest, size_t bytes, const struct rg_picture_reply *header,
                       struct rg_picture *picture, struct rg_why *why)
 {
-    const size_t texels_bytes = (size_t)rg_picture_reply_values(header) * sizeof(float);
+    const size_t texels_bytes = (size_t)rg_picture_reply_texel_bytes(header);
     if (header->extras_bytes > RG_PICTURE_EXTRAS_BYTES ||
         bytes != texels_bytes + header->extras_bytes)
         return rg_why_set(why, "raingauge_picture_reader handed back a part of it; build "
@@ -75,7 +76,7 @@ static bool take_rest(const char *rest, size_t bytes, const struct rg_picture_re
     return take_extras(rest + texels_bytes, header->extras_bytes, picture, why);
 }
 
-bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes,
+bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes, int64_t most_bytes,
                         struct rg_picture *picture, struct rg_why *why)
 {
     struct rg_picture_reply header;
@@ -92,25 +93,40 @@ bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes,
         return rg_why_set(
             why, "promises %.0f values, more than its %lld bytes can hold; write it again",
             (double)header.width * header.height * header.channels, (long long)file_bytes);
+    if (rg_picture_reply_texel_bytes(&header) > most_bytes)
+        return rg_why_set(why,
+                          "no memory for %d x %d pixels (%lld MiB, and as much while it is read); "
+                          "crop it, or allow more with --memory",
+                          header.width, header.height,
+                          (long long)(rg_picture_reply_texel_bytes(&header) >> 20));
     return rg_why_allocate(picture, header.width, header.height, header.channels, why) &&
            take_rest((const char *)reply + sizeof(header), bytes - sizeof(header), &header, picture,
                      why);
 }
 
+// Bytes of texels that there is memory for, which are held twice for a while: as the reply, and as
+// the picture. Few are nobody's matter.
+static int64_t most_texels(void)
+{
+    const int64_t few = (int64_t)32 << 20, left = rg_memory_left() / 2;
+    return left < few ? few : left < RG_PICTURE_MAX_BYTES ? left : RG_PICTURE_MAX_BYTES;
+}
+
 static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg_picture *picture,
                        struct rg_why *why)
 {
-    char program[PATH_MAX], name[32];
+    const int64_t most_bytes = most_texels();
+    char program[PATH_MAX], name[32], most[24];
     struct rg_caged caged;
     if (!rg_caged_find("raingauge_picture_reader", program, sizeof(program)))
         return rg_why_set(why,
                           "raingauge_picture_reader is not beside raingauge; install it again");
     const char *extension = strrchr(path, '.');
     snprintf(name, sizeof(name), "picture%s", extension ? extension : "");
+    snprintf(most, sizeof(most), "%lld", (long long)most_bytes);
     const int error = rg_caged_run(
-        (const char *const[]){program, name, NULL}, file, (int)(60 + file_bytes / 1000000),
-        (int64_t)sizeof(struct rg_picture_reply) + RG_PICTURE_MAX_BYTES + RG_PICTURE_EXTRAS_BYTES,
-        &caged);
+        (const char *const[]){program, name, most, NULL}, file, (int)(60 + file_bytes / 1000000),
+        (int64_t)sizeof(struct rg_picture_reply) + most_bytes + RG_PICTURE_EXTRAS_BYTES, &caged);
     const enum rg_caged_end end =
         error ? RG_CAGED_LACKING
               : rg_caged_end(&caged, "OpenImageIO", why->text, sizeof(why->text));
@@ -120,8 +136,9 @@ static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg
     why->fault = end == RG_CAGED_LACKING ? RG_FAULT_HARNESS
                  : end == RG_CAGED_FILE  ? RG_FAULT_INPUT
                                          : RG_FAULT_NONE;
-    const bool good = end == RG_CAGED_SOUND &&
-                      rg_oiio_take_reply(caged.reply, caged.bytes, file_bytes, picture, why);
+    const bool good =
+        end == RG_CAGED_SOUND &&
+        rg_oiio_take_reply(caged.reply, caged.bytes, file_bytes, most_bytes, picture, why);
     free(caged.reply);
     return good;
 }

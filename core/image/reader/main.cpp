@@ -7,6 +7,7 @@
 #include <OpenImageIO/filesystem.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -74,8 +75,7 @@ bool put_reply(Reading &reading)
         return rg_cage_reply(&reading.reply, sizeof(reading.reply));
     reading.reply.extras_bytes = (uint32_t)reading.extras.size();
     return rg_cage_reply(&reading.reply, sizeof(reading.reply)) &&
-           rg_cage_reply(reading.texels,
-                         (size_t)rg_picture_reply_values(&reading.reply) * sizeof(float)) &&
+           rg_cage_reply(reading.texels, (size_t)rg_picture_reply_texel_bytes(&reading.reply)) &&
            rg_cage_reply(reading.extras.data(), reading.extras.size());
 }
 
@@ -84,13 +84,14 @@ bool put_reply(Reading &reading)
 int main(int argc, char **argv)
 {
     struct stat st;
-    if (argc != 2 || fstat(RG_CAGE_FILE, &st)) {
+    if (argc != 3 || fstat(RG_CAGE_FILE, &st)) {
         fputs("raingauge_picture_reader is started by raingauge\n", stderr);
         return 2;
     }
     Reading reading = {};
     reading.reply.magic = RG_PICTURE_REPLY_MAGIC;
     reading.pages = 1;
+    reading.most_bytes = strtoll(argv[2], nullptr, 10);
     const char *extension = strrchr(argv[1], '.');
     for (const char *c = extension ? extension + 1 : ""; *c; c++)
         reading.extension += (char)tolower((unsigned char)*c);

@@ -15,8 +15,8 @@ extern "C" {
 }
 
 struct Reading {
-    std::string extension; // lower case, without its dot
-    int64_t file_bytes;
+    std::string extension;          // without its dot, in small letters
+    int64_t file_bytes, most_bytes; // most: that texels may have
     rg_picture_reply reply;
     float *texels;      // NULL: none, where the header alone shows that the picture is refused
     std::string extras; // core/image/extras.h

@@ -1,10 +1,11 @@
 // The request to raingauge_picture_reader in its cage (core/base/cage/cage.h), and its reply.
 //
-// Command line: raingauge_picture_reader NAME, of which only the extension counts: the file is the
-// descriptor that the program is given. The reply is this header, then the texels as floats, as in
-// picture.h, then the extras (core/image/extras.h), of at most RG_PICTURE_EXTRAS_BYTES. `why` is ""
-// or a sentence that says what is wrong; then nothing follows. Nothing follows either where the
-// header alone shows an impossible picture. The receiver trusts none of it.
+// Command line: raingauge_picture_reader NAME BYTES. Of NAME only the extension counts: the file is
+// the descriptor that it is given. BYTES is what the receiver has memory for. The reply is this
+// header, then the texels as floats, as in picture.h, then the extras (core/image/extras.h), which
+// are no longer than RG_PICTURE_EXTRAS_BYTES. `why` is "" or a sentence that says what is wrong,
+// and then nothing follows; nothing follows either where the header alone shows a picture that
+// cannot be, or one of more than BYTES. The receiver trusts none of it.
 #ifndef RG_CORE_IMAGE_READER_REPLY_H
 #define RG_CORE_IMAGE_READER_REPLY_H
 
@@ -42,8 +43,13 @@ static inline int64_t rg_picture_reply_values(const struct rg_picture_reply *rep
     return (int64_t)reply->width * reply->height * reply->channels;
 }
 
-// Whether a file of this many bytes can hold the picture: only EXR codes more than 1040 values in a
-// byte.
+static inline int64_t rg_picture_reply_texel_bytes(const struct rg_picture_reply *reply)
+{
+    return rg_picture_reply_values(reply) * (int64_t)sizeof(float);
+}
+
+// Whether a file of so many bytes can hold the picture: no format but EXR codes more than 1040
+// values in a byte.
 static inline bool rg_picture_reply_fits(const struct rg_picture_reply *reply, int64_t file_bytes)
 {
     return (double)reply->width * reply->height * reply->channels / 1040 <= (double)file_bytes;

@@ -197,8 +197,9 @@ bool read_all(Reading &reading, ImageInput &input)
     reading.reply.is_associated =
         p.channels > p.colours && !p.spec.get_int_attribute("oiio:UnassociatedAlpha", 0);
     if (!rg_picture_reply_is_possible(&reading.reply) ||
-        !rg_picture_reply_fits(&reading.reply, reading.file_bytes))
-        return true; // the receiver reports it
+        !rg_picture_reply_fits(&reading.reply, reading.file_bytes) ||
+        rg_picture_reply_texel_bytes(&reading.reply) > reading.most_bytes)
+        return true; // the receiver says so
     take_memory(reading, p);
     return read_picture(reading, input, p) && tell_parts(reading, input);
 }
