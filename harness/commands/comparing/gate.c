@@ -17,6 +17,7 @@
 #include "harness/compare/gate/run/strays.h"
 #include "harness/console/duration.h"
 #include "harness/devices/drivers/side.h"
+#include "harness/devices/names.h"
 #include "harness/devices/workers/worker.h"
 #include "harness/record/disk/hold.h"
 #include "harness/record/output.h"
@@ -310,6 +311,24 @@ static bool can_search(const struct gate_input *in)
     return ok;
 }
 
+// A baseline keeps the short name of a device alone, and what it stands for is said by --device.
+static bool knows_devices(const struct gate_options *o, const struct rg_baseline *baseline)
+{
+    for (int i = 0; i < baseline->device_count; i++) {
+        const char *name = baseline->devices[i].name, *full = rg_device_name_full(name);
+        const size_t api = strcspn(full, ":@");
+        int b = 0;
+        while (rg_backends[b] &&
+               (strlen(rg_backends[b]->name) != api || strncmp(full, rg_backends[b]->name, api)))
+            b++;
+        if (!rg_backends[b] && rg_baseline_asks(o->devices.names, name))
+            return rg_error("%s: its device '%s' is a short name, and the file does not say of "
+                            "what; add --device %s=DEVICE with all that are to run",
+                            o->baseline, name, name);
+    }
+    return true;
+}
+
 static bool read_input(const struct gate_options *o, struct gate_input *in)
 {
     const bool is_read =
@@ -318,11 +337,12 @@ static bool read_input(const struct gate_options *o, struct gate_input *in)
         rg_gate_warn_of_strays(&in->known, &in->cells);
         rg_gate_warn_of_days(&in->known, today());
     }
-    return is_read && (!o->baseline || (rg_baseline_read(&in->baseline, o->baseline) &&
-                                        rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
-                                                         o->cells ? o->cells : "built-in cells",
-                                                         o->devices.names) &&
-                                        has_times(o, &in->baseline)));
+    return is_read &&
+           (!o->baseline ||
+            (rg_baseline_read(&in->baseline, o->baseline) &&
+             rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
+                              o->cells ? o->cells : "built-in cells", o->devices.names) &&
+             knows_devices(o, &in->baseline) && has_times(o, &in->baseline)));
 }
 
 static int gate(const void *values, const struct rg_words *arguments)

@@ -459,5 +459,21 @@ def check_kept(runner):
     return []
 
 
-CHECKS = [check_same, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_fallen, check_meanwhile, check_forms,
+def check_short_names(runner):
+    """what a baseline's short name stands for is said by the command line, and without that nothing runs"""
+    problems = []
+    with Files(TORUS) as files:
+        path, _ = make(runner, files, "--pictures", device="g=cpu@OMP_NUM_THREADS=1")
+        for args in ([], ["--device", "all"]):
+            result = gate(runner, files, path, *args)
+            says = "its device 'g' is a short name, and the file does not say of what; add --device g=DEVICE with all that are to run\n"
+            if result.returncode != 2 or result.stdout or not result.stderr.endswith(says) or result.stderr.count("\n") != 1:
+                problems.append("%s: exit status %d, %s%s" % (args, result.returncode, result.stdout, result.stderr))
+        result = gate(runner, files, path, "--device", "g=cpu@OMP_NUM_THREADS=1")
+        if result.returncode or endings(json.loads(result.stdout)) != {"raster/torus.g": "pass"}:
+            problems.append("named: exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
+    return problems
+
+
+CHECKS = [check_same, check_short_names, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_fallen, check_meanwhile, check_forms,
           check_absent, check_untimed, check_spared, check_kept]
