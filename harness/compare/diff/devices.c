@@ -257,9 +257,10 @@ static int compare_pair(struct session *s, const struct shot *a, const struct sh
 // Prints the number of pairs; none is no proof.
 static void tell_count(const struct session *s)
 {
-    printf("%d pairs of %d devices compared", s->compared, s->shot_count);
+    printf("%d pair%s of %d devices compared", s->compared, s->compared == 1 ? "" : "s",
+           s->shot_count);
     if (s->failed)
-        printf("; %d more devices gave no picture", s->failed);
+        printf("; %d more device%s gave no picture", s->failed, s->failed == 1 ? "" : "s");
     printf("\n");
 }
 

@@ -179,11 +179,6 @@ static bool write_manifest(struct folder *f, FILE *out, size_t block_size)
     return add_slots(f, out);
 }
 
-static bool takes_opencl(const struct rg_device_info *device)
-{
-    return !strncmp(device->name, "opencl", strlen("opencl"));
-}
-
 static void write_readme(const struct folder *f, FILE *out, const char *note,
                          const struct rg_device_info *device, const struct rg_device_info *truth)
 {
@@ -209,10 +204,8 @@ static void write_readme(const struct folder *f, FILE *out, const char *note,
         "77 there is no such device.\n\n"
         "kernel.txt says what is bound where; kernel.comp is the shader's text, of which\n\n"
         "    glslc -fshader-stage=compute --target-env=vulkan1.2 -O kernel.comp -o kernel.spv\n\n"
-        "makes kernel.spv.%s\n",
-        takes_opencl(device) ? " kernel.cl is the same kernel in OpenCL C, which has its slots and "
-                               "parameters as arguments."
-                             : "");
+        "makes kernel.spv. kernel.cl is the same kernel in OpenCL C, which has its slots and "
+        "parameters as arguments.\n");
 }
 
 // --- writing ---
@@ -223,8 +216,8 @@ static bool fill(struct folder *f, const char *note, struct rg_device *device,
     size_t size, block_size;
     char *texts[2] = {NULL, NULL};
     if (!add_code(f, device, RG_CODE_SPIRV, "kernel.spv", &size) ||
-        !add_code(f, device, RG_CODE_GLSL, "kernel.comp", &size) || !add_block(f, &block_size) ||
-        (takes_opencl(&device->info) && !add_code(f, device, RG_CODE_OPENCL, "kernel.cl", &size)))
+        !add_code(f, device, RG_CODE_GLSL, "kernel.comp", &size) ||
+        !add_code(f, device, RG_CODE_OPENCL, "kernel.cl", &size) || !add_block(f, &block_size))
         return false;
     bool ok = true;
     for (int i = 0; ok && i < 2; i++) {

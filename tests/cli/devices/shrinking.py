@@ -115,7 +115,7 @@ def folder_problems(runner, folder):
     problems, slots = [], slots_of(folder)
     named = {name for slot in slots.values() for name in slot[2:] if name != "-"}
     there = set(os.listdir(folder))
-    if there != named | {"README", "kernel.txt", "kernel.spv", "kernel.comp", "run.c"}:
+    if there != named | {"README", "kernel.txt", "kernel.spv", "kernel.comp", "kernel.cl", "run.c"}:
         problems.append("files: %s" % sorted(there))
     if {at: slot[0] for at, slot in slots.items()} != {0: 6, 1: 7, 2: 7} or slots[1][3] != "-" or slots[2][3] == "-":
         problems.append("slots: %s" % slots)
@@ -127,8 +127,8 @@ def folder_problems(runner, folder):
     changed = {i // 12 for i in range(0, len(due), 4) if before[i:i + 4] != due[i:i + 4]}
     if len(changed) > 1:
         problems.append("%d elements are due to change, of one item's" % len(changed))
-    if read(folder, "kernel.spv") != read(runner.kernels, STAGE + ".spv") or read(folder, "kernel.comp") != read(runner.kernels, STAGE + ".glsl"):
-        problems.append("the shader is another")
+    problems += ["%s is another kernel's" % name for name, code in (("kernel.spv", ".spv"), ("kernel.comp", ".glsl"), ("kernel.cl", ".cl"))
+                 if read(folder, name) != read(runner.kernels, STAGE + code)]
     return problems
 
 

@@ -184,7 +184,7 @@ def check_something(runner):
         i = Inputs(runner, folder)
         for args, says in ((["gate", "cpu", "cpu", "--pictures", "--cells", i.cells] + i.known["flake"], "1 case, 1 flake\n"),
                            (["gate", "--baseline", i.baseline, "--pictures", "--cells", i.cells], "1 case, 1 pass\n"),
-                           (["diff", "drops", "--frame", "60", "--size", "64x48", "--device", "cpu,cpu:reference"], "1 pairs of 2 devices compared\n"),
+                           (["diff", "drops", "--frame", "60", "--size", "64x48", "--device", "cpu,cpu:reference"], "1 pair of 2 devices compared\n"),
                            (["verify", "raster", "--stages", "--frame", "1", "--size", "32x32", "--device", "cpu"], "6 checks, 6 ok\n")):
             ran = runner.run(args)
             if ran.returncode or not ran.stdout.endswith(says):
