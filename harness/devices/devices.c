@@ -37,7 +37,7 @@ static void add_told(const struct rg_told_list *told, int backend, struct rg_dev
     char limits[RG_LIMITS_TEXT];
     const bool is_limited = rg_limits_low(limits);
     *missing = (struct rg_missing){.backend = rg_backends[backend],
-                                   .outcome = is_limited ? RG_UNSUPPORTED : told->outcome};
+                                   .outcome = is_limited ? RG_LACKING : told->outcome};
     if (is_limited)
         snprintf(missing->why, sizeof(missing->why),
                  "%s: its driver gives no device %s; allow more", rg_backends[backend]->name,

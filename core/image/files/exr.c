@@ -338,10 +338,14 @@ bool rg_exr_write(const char *path, const struct rg_picture *picture,
     bool started = code == EXR_ERR_SUCCESS;
     for (int y = 0; code == EXR_ERR_SUCCESS && y < picture->height; y += lines)
         code = write_chunk(exr, picture, y, &encode);
+    int error = errno;
     if (started)
         exr_encoding_destroy(exr, &encode);
     exr_result_t finished = exr_finish(&exr);
-    if (code == EXR_ERR_SUCCESS)
+    if (code == EXR_ERR_SUCCESS) {
         code = finished;
+        error = errno;
+    }
+    errno = rg_is_want(error) ? error : EIO; // it was opened, so that the disk is at fault
     return code == EXR_ERR_SUCCESS || rg_why_unwritten(why, exr_get_default_error_message(code));
 }
