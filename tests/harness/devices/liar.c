@@ -108,7 +108,7 @@ static void begin_reply(struct rg_message *reply)
 
 static void keep_sound(const struct rg_message *reply)
 {
-    static const int64_t head[] = {true, 0, 0}; // no lines
+    static const int64_t head[] = {true, RG_FAULT_NONE, RG_OK, 0}; // no lines
     if (reply->size < (int64_t)sizeof(head) || memcmp(reply->bytes, head, sizeof(head)) != 0)
         return;
     begin_reply(&known[asked]);
