@@ -154,14 +154,14 @@ static int run_grid(struct rg_grid *grid, const struct sweep_options *o,
     char *names = NULL, *set = NULL;
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     const struct rg_table *const table = &grid->table;
+    bool ok = technique && read_axes(&o->axes, grid, &names) && rg_grid_make(grid, technique) &&
+              rg_sets_join(&o->sets, &set) &&
+              rg_grid_keeps_axes(grid, technique, o->sets.items, o->sets.count);
     grid->table.width = o->size.width;
     grid->table.height = o->size.height;
     grid->table.check_frames = o->frame;
-    const bool ok = technique && read_axes(&o->axes, grid, &names) &&
-                    rg_grid_make(grid, technique) && rg_sets_join(&o->sets, &set) &&
-                    rg_grid_keeps_axes(grid, technique, o->sets.items, o->sets.count) &&
-                    rg_inputs_are_spared(&table, 1, set, o->output) &&
-                    (!o->output || rg_results_can_be_written(&table, 1, o->output));
+    ok = ok && rg_inputs_are_spared(&table, 1, set, o->output) &&
+         (!o->output || rg_results_can_be_written(&table, 1, o->output));
     const int exit = ok ? open_and_run(grid, o, names, set) : rg_exit_of_error();
     free(settings);
     free(names);
