@@ -5,8 +5,7 @@
 // it in a thread of their own, once somebody waits for what ran (wait); abort, fault, exit, hang,
 // or report an error. All else goes to the real driver. For Vulkan this library is a driver of its
 // own in front of lavapipe; for OpenGL and OpenCL it is loaded before others (LD_PRELOAD).
-#define _GNU_SOURCE // RTLD_NEXT, dlvsym, memmem
-#include <dlfcn.h>
+#define _GNU_SOURCE // for hooks.h, memmem
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,8 +18,8 @@
 #include <CL/cl.h>
 #include <GL/gl.h>
 #include <GL/glext.h>
-#include <vulkan/vk_icd.h>
-#include <vulkan/vulkan.h>
+
+#include "tests/cli/drivers/hooks.h"
 
 // --- failing ---
 
@@ -85,8 +84,6 @@ static bool waits(void)
 }
 
 // --- Vulkan and OpenGL: functions that are asked for by name ---
-
-typedef void (*any_function)(void);
 
 static PFN_vkCreateShaderModule real_vkCreateShaderModule;
 static PFN_vkCreateComputePipelines real_vkCreateComputePipelines;
@@ -204,8 +201,6 @@ static void hooked_glGetTextureSubImage(GLuint texture, GLint level, GLint x, GL
     real_glGetTextureSubImage(texture, level, x, y, z, w, h, d, format, type, size, data);
 }
 
-static any_function hook_of(const char *name, any_function real);
-
 static PFN_vkVoidFunction hooked_vkGetDeviceProcAddr(VkDevice device, const char *name)
 {
     return hook_of(name, real_vkGetDeviceProcAddr(device, name));
@@ -216,15 +211,9 @@ static any_function hooked_eglGetProcAddress(const char *name)
     return hook_of(name, real_eglGetProcAddress(name));
 }
 
-// clang-format off
-#define HOOK(function) {#function, (any_function)hooked_##function, (any_function *)(void *)&real_##function}
-// clang-format on
 static any_function hook_of(const char *name, any_function real)
 {
-    static const struct {
-        const char *name;
-        any_function hooked, *real;
-    } hooks[] = {
+    static const struct hook hooks[] = {
         HOOK(vkCreateShaderModule),
         HOOK(vkCreateComputePipelines),
         HOOK(vkCmdBindPipeline),
@@ -241,58 +230,10 @@ static any_function hook_of(const char *name, any_function real)
         HOOK(glGetNamedBufferSubData),
         HOOK(glGetTextureSubImage),
     };
-    for (size_t i = 0; real && name && i < sizeof(hooks) / sizeof(hooks[0]); i++) {
-        if (strcmp(hooks[i].name, name) != 0)
-            continue;
-        *hooks[i].real = real;
-        return hooks[i].hooked;
-    }
-    return real;
-}
-
-// --- Vulkan: a driver in front of lavapipe ---
-
-static void *lavapipe(const char *function)
-{
-    static void *library;
-    if (!library)
-        library = dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_LOCAL);
-    return library ? dlsym(library, function) : NULL;
-}
-
-VKAPI_ATTR VkResult VKAPI_CALL vk_icdNegotiateLoaderICDInterfaceVersion(uint32_t *version)
-{
-    PFN_vkNegotiateLoaderICDInterfaceVersion real =
-        (PFN_vkNegotiateLoaderICDInterfaceVersion)lavapipe(
-            "vk_icdNegotiateLoaderICDInterfaceVersion");
-    return real ? real(version) : VK_ERROR_INCOMPATIBLE_DRIVER;
-}
-
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vk_icdGetInstanceProcAddr(VkInstance instance,
-                                                                   const char *name)
-{
-    PFN_vkGetInstanceProcAddr real =
-        (PFN_vkGetInstanceProcAddr)lavapipe("vk_icdGetInstanceProcAddr");
-    return real ? hook_of(name, real(instance, name)) : NULL;
-}
-
-// --- OpenGL: libepoxy asks the dynamic linker for each function ---
-
-void *dlsym(void *handle, const char *name)
-{
-    static void *(*real)(void *, const char *);
-    if (!real)
-        real = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.34");
-    if (!real)
-        real = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.2.5");
-    void *found = real(handle, name);
-    const bool is_ours = !strncmp(name, "gl", 2) || !strncmp(name, "egl", 3);
-    return is_ours ? (void *)hook_of(name, (any_function)found) : found;
+    return hook_among(hooks, sizeof(hooks) / sizeof(hooks[0]), name, real);
 }
 
 // --- OpenCL: linked functions ---
-
-#define REAL(function) ((__typeof__(&(function)))dlsym(RTLD_NEXT, #function))
 
 cl_program clCreateProgramWithSource(cl_context context, cl_uint n, const char **texts,
                                      const size_t *lengths, cl_int *code)

@@ -6,8 +6,7 @@
 // library is a driver of its own in front of lavapipe, which the loader finds by a manifest
 // (VK_DRIVER_FILES), and may change a constant of a shader; for EGL, OpenGL and OpenCL it is loaded
 // before others (LD_PRELOAD). faults.c has any function fail, and none of a driver's own.
-#define _GNU_SOURCE // RTLD_NEXT, dlvsym
-#include <dlfcn.h>
+#define _GNU_SOURCE // for hooks.h
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -19,9 +18,8 @@
 #include <EGL/egl.h>
 #include <GL/gl.h>
 #include <GL/glext.h>
-#include <vulkan/vk_icd.h>
-#include <vulkan/vulkan.h>
 
+#include "tests/cli/drivers/hooks.h"
 #include "tests/cli/drivers/ways.h"
 
 // --- misbehaving ---
@@ -62,9 +60,6 @@ static bool has_vanished(void)
 
 // --- functions that are asked for by name ---
 
-typedef void (*any_function)(void);
-
-// Each has the real function once it was asked for.
 static PFN_vkEnumeratePhysicalDevices real_vkEnumeratePhysicalDevices;
 static PFN_vkGetPhysicalDeviceProperties2 real_vkGetPhysicalDeviceProperties2;
 static PFN_vkCreateDevice real_vkCreateDevice;
@@ -177,8 +172,6 @@ static VkResult hooked_vkCreateShaderModule(VkDevice d, const VkShaderModuleCrea
     return result;
 }
 
-static any_function hook_of(const char *name, any_function real);
-
 static PFN_vkVoidFunction hooked_vkGetDeviceProcAddr(VkDevice device, const char *name)
 {
     return hook_of(name, real_vkGetDeviceProcAddr(device, name));
@@ -223,15 +216,9 @@ static GLenum hooked_glGetError(void)
     return misbehaves("glGetError") ? GL_CONTEXT_LOST : real_glGetError();
 }
 
-// clang-format off
-#define HOOK(function) {#function, (any_function)hooked_##function, (any_function *)(void *)&real_##function}
-// clang-format on
 static any_function hook_of(const char *name, any_function real)
 {
-    static const struct {
-        const char *name;
-        any_function hooked, *real;
-    } hooks[] = {
+    static const struct hook hooks[] = {
         HOOK(vkEnumeratePhysicalDevices),
         HOOK(vkGetPhysicalDeviceProperties2),
         HOOK(vkCreateDevice),
@@ -250,58 +237,10 @@ static any_function hook_of(const char *name, any_function real)
         HOOK(glFinish),
         HOOK(glGetError),
     };
-    for (size_t i = 0; real && name && i < sizeof(hooks) / sizeof(hooks[0]); i++) {
-        if (strcmp(hooks[i].name, name) != 0)
-            continue;
-        *hooks[i].real = real;
-        return hooks[i].hooked;
-    }
-    return real;
-}
-
-// --- Vulkan: a driver in front of lavapipe ---
-
-static void *lavapipe(const char *function)
-{
-    static void *library;
-    if (!library)
-        library = dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_LOCAL);
-    return library ? dlsym(library, function) : NULL;
-}
-
-VKAPI_ATTR VkResult VKAPI_CALL vk_icdNegotiateLoaderICDInterfaceVersion(uint32_t *version)
-{
-    PFN_vkNegotiateLoaderICDInterfaceVersion real =
-        (PFN_vkNegotiateLoaderICDInterfaceVersion)lavapipe(
-            "vk_icdNegotiateLoaderICDInterfaceVersion");
-    return real ? real(version) : VK_ERROR_INCOMPATIBLE_DRIVER;
-}
-
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vk_icdGetInstanceProcAddr(VkInstance instance,
-                                                                   const char *name)
-{
-    PFN_vkGetInstanceProcAddr real =
-        (PFN_vkGetInstanceProcAddr)lavapipe("vk_icdGetInstanceProcAddr");
-    return real ? hook_of(name, real(instance, name)) : NULL;
-}
-
-// --- EGL and OpenGL: libepoxy asks the dynamic linker for each function ---
-
-void *dlsym(void *handle, const char *name)
-{
-    static void *(*real)(void *, const char *);
-    if (!real)
-        real = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.34");
-    if (!real)
-        real = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.2.5");
-    void *found = real(handle, name);
-    const bool is_ours = !strncmp(name, "gl", 2) || !strncmp(name, "egl", 3);
-    return is_ours ? (void *)hook_of(name, (any_function)found) : found;
+    return hook_among(hooks, sizeof(hooks) / sizeof(hooks[0]), name, real);
 }
 
 // --- OpenCL: linked functions ---
-
-#define REAL(function) ((__typeof__(&(function)))dlsym(RTLD_NEXT, #function))
 
 cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type type, cl_uint room,
                       cl_device_id *devices, cl_uint *count)

@@ -59,7 +59,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mend_header(reply, size - 1);
     struct rg_picture picture = {0};
     struct rg_why why = {.text = ""};
-    if (rg_oiio_take_reply(reply, size - 1, (int64_t)data[0] << 10, RG_PICTURE_MAX_BYTES, &picture, &why))
+    if (rg_oiio_take_reply(reply, size - 1, (int64_t)data[0] << 10, RG_PICTURE_MAX_BYTES, &picture,
+                           &why))
         judge(&picture, reply, size - 1);
     else if (!*why.text)
         fuzz_complain("refused without a word");
