@@ -1,6 +1,7 @@
 // Reads a picture's texels, and digests what is left out of them.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <unistd.h>
 #include <vector>
@@ -30,6 +31,7 @@ struct Picture {
     double largest = 0;
     Digests outside{4}; // digests of texels outside the window
     bool loses = false;
+    double beyond = 0; // a value that is finite, and larger than any float
     int64_t values_outside = 0;
 };
 
@@ -95,7 +97,9 @@ void prepare_codes(Reading &reading, Picture &p)
 float texel_of(Picture &p, double value, int slot)
 {
     const float nearest = (float)value;
-    if (p.largest == 0 || p.largest > 65535) // smaller integers are exact as floats
+    if (std::isinf(nearest) && std::isfinite(value))
+        p.beyond = value;
+    if (p.largest == 0 || p.largest > 65535) // less are told apart as floats
         p.loses = p.loses || (double)nearest < value || (double)nearest > value;
     if (slot >= p.colours || p.largest == 0)
         return nearest;
@@ -164,6 +168,11 @@ bool read_picture(Reading &reading, ImageInput &input, Picture &p)
                 digests.add(p.spec, band);
         }))
         return false;
+    if (p.beyond != 0) {
+        char why[80];
+        snprintf(why, sizeof(why), "a value is %.3g, and the largest float is 3.4e38", p.beyond);
+        return reading.refuse(why);
+    }
     std::string exact;
     for (size_t c = 0; c < p.slots.size(); c++)
         if (p.slots[c] < 0)

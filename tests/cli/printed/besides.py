@@ -199,6 +199,7 @@ REFUSED = [
     ("a subsampled channel", "exr", w.exr(w.Part(w.colours(), sampling=2)), "channel B is subsampled"),
     ("a part of deep data", "exr", w.exr(named("a", 1), w.Part(w.colours(), name="b", kind=b"deepscanline")), "deep data"),
     ("no colours", "exr", w.exr(w.Part([("Z", w.FLOAT, lambda x, y: 1)])), "no channels R, G and B, nor Y"),
+    ("doubles beyond floats", "tif", tiff("d", [1e308 if n else n for n in w.codes()]), "a value is 1e+308, and the largest float is 3.4e38"),
     ("L*a*b*", "tif", tiff(t262=(3, [8])), "L*a*b*"),
     ("a page that is cut off", "tif", w.tiff(("B", w.codes(), {}), ("B", w.codes(), {}))[:-100], "page 2 cannot be read"),
     ("a chunk that is damaged", "png", w.png(before=[gama(100000)]).replace(b"gAMA\0\1\x86\xa0", b"gAMA\0\1\x86\xa1"), "CRC error"),
