@@ -20,7 +20,6 @@ enum {
 
 struct rg_regex {
     pcre2_code *code;
-    pcre2_match_data *data;
     pcre2_match_context *limits;
 };
 
@@ -181,9 +180,8 @@ static pcre2_code *compile(const char *place, const char *text, const char *tran
 
 static bool add_limits(const char *place, struct rg_regex *regex)
 {
-    regex->data = pcre2_match_data_create(1, NULL);
     regex->limits = pcre2_match_context_create(NULL);
-    if (!regex->data || !regex->limits)
+    if (!regex->limits)
         return rg_error("%s: no memory for a regular expression; close other programs", place);
     pcre2_set_match_limit(regex->limits, MOST_STEPS);
     pcre2_set_depth_limit(regex->limits, MOST_STEPS);
@@ -217,7 +215,6 @@ void rg_regex_free(struct rg_regex *regex)
     if (!regex)
         return;
     pcre2_code_free(regex->code);
-    pcre2_match_data_free(regex->data);
     pcre2_match_context_free(regex->limits);
     free(regex);
 }
@@ -225,14 +222,17 @@ void rg_regex_free(struct rg_regex *regex)
 enum rg_regex_found rg_regex_search(const struct rg_regex *regex, const char *text)
 {
     const PCRE2_SPTR in = (PCRE2_SPTR)text;
-    int states[STATES];
-    int found =
-        pcre2_match(regex->code, in, PCRE2_ZERO_TERMINATED, 0, 0, regex->data, regex->limits);
+    const PCRE2_SIZE length = PCRE2_ZERO_TERMINATED;
+    pcre2_match_data *data = pcre2_match_data_create(1, NULL); // keeps 20 kB once it was used
+    int found = data ? pcre2_match(regex->code, in, length, 0, 0, data, regex->limits)
+                     : PCRE2_ERROR_NOMEMORY;
     // One way after the other takes too many steps: all ways side by side take fewer, and each
     // step longer.
-    if (found < 0 && found != PCRE2_ERROR_NOMATCH)
-        found = pcre2_dfa_match(regex->code, in, PCRE2_ZERO_TERMINATED, 0, PCRE2_DFA_SHORTEST,
-                                regex->data, regex->limits, states, STATES);
+    int states[STATES];
+    if (data && found < 0 && found != PCRE2_ERROR_NOMATCH)
+        found = pcre2_dfa_match(regex->code, in, length, 0, PCRE2_DFA_SHORTEST, data, regex->limits,
+                                states, STATES);
+    pcre2_match_data_free(data);
     return found >= 0                     ? RG_REGEX_FOUND
            : found == PCRE2_ERROR_NOMATCH ? RG_REGEX_ABSENT
                                           : RG_REGEX_TOO_LONG;
