@@ -458,6 +458,7 @@ def check_apart(runner):
         rows = [(["--junit", one, "--bmf", two], None) for one in (a, other) for two in (a, other, os.path.join(link, "a"))]
         rows += [([option, a, "--github"], other) for option in ("--junit", "--bmf")] + [(["--github"], cells)]
         rows += [(["--github", "-o", files.folder.name], files.path("launches.csv"))]
+        rows += [([option, files.path(name), "-o", files.folder.name], None) for option in ("--junit", "--bmf") for name in ("launches.csv", "gate.journal")]
         for more, summary in rows:
             result = runner.run(["gate", "cpu", "cpu", "--pictures", "--cells", files.cells] + more, {"GITHUB_STEP_SUMMARY": summary})
             if result.returncode != 2 or result.stderr.count("\n") != 1 or "would be overwritten with a report" not in result.stderr or os.path.exists(a):

@@ -22,6 +22,7 @@ ROWS = [
     Fault(FILE, "return name_a && name_b && «!strcmp(name_a, name_b)» && lead", "false", "a report replaces another whose file was not there yet", tests=("command line, gates",)),
     Fault(FILE, "&& «lead_to_one(folder_a, folder_b)»;", "true", "files of one name in two folders are one", tests=("command line, gates",)),
     Fault(OUTPUTS, "ok = «spares(outputs->files[i], file)»;", "true", "a report replaces what the gate reads", tests=("command line, gates",)),
+    Fault(OUTPUTS, "ok = ok && «spares_kept(outputs->pictures, file)»;", "true", "a report replaces a gate's journal", tests=("command line, gates",)),
     Fault(OUTPUTS, "ok = «spares(file, outputs->files[other])»;", "true", "a summary is appended to a report", tests=("command line, gates",)),
     Fault(OUTPUTS, "if (form->where == RG_WHERE_APPENDED && «outputs->are_written[i - 1]»)", "true", "a summary is appended that nobody asked for", tests=("command line, gates",)),
     Fault(OUTPUTS, "(form->where == RG_WHERE_DEFAULT && «!is_printed» &&", "true", "text stands below JSON", tests=("command line, gates",)),
