@@ -66,8 +66,10 @@ static const struct rg_option options[] = {
      .offset = AT(sets)},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "measures what fits into this time, as 90s or 4m: the rows that curves and claims "
-              "need first, on small pictures, then more; says before what, and after what not",
+     .about =
+         "measures what fits into this time from the command's start, as 90s or 4m: the rows "
+         "that curves and claims need first, on small pictures, then more; says in the end what "
+         "was left out",
      .offset = AT(budget), .excludes = "full rows work variant set from fresh"},
     {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a run that was interrupted",
      .offset = AT(fresh)},

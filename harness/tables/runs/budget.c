@@ -121,9 +121,9 @@ static int rows_of(const struct rg_result *result)
 static bool measure(struct budget *b, const struct rg_step *step, const struct rg_table *seen,
                     struct rg_result *part)
 {
-    const double part_s = step->turn == RG_TURN_FIRST
-                              ? rg_order_part_s(b->standings, b->count, left_s(b))
-                              : left_s(b);
+    // Levels of a texture take nothing once one is open.
+    const bool has_part = step->turn == RG_TURN_FIRST && !seen->is_of_textures;
+    const double part_s = has_part ? rg_order_part_s(b->standings, b->count, left_s(b)) : left_s(b);
     const struct rg_table_deadline deadline = {rg_now_ms() + 1000 * part_s, b->end_ms,
                                                rg_turn_is_whole(step->turn)};
     begin_result(b, seen, &step->share, step->devices, part);
