@@ -1,6 +1,7 @@
 #include "harness/tables/measuring/batch.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/base/alloc.h"
 
@@ -25,7 +26,11 @@ void rg_batch_close(struct rg_batch *batch)
 
 struct rg_device *rg_batch_device(const struct rg_batch *batch, int device)
 {
-    return rg_kept_device(batch->kept, batch->result->devices[device].name);
+    const struct rg_devices *all = batch->kept->devices;
+    const char *name = batch->result->devices[device].name;
+    if (device < all->count && !strcmp(all->devices[device]->info.name, name))
+        return all->devices[device]; // one may be given twice
+    return rg_kept_device(batch->kept, name);
 }
 
 const void *rg_batch_settings(struct rg_batch *batch, struct rg_place at)

@@ -39,12 +39,12 @@ void rg_left_why(struct rg_left_why *why, const struct rg_devices *devices,
     if (*why->text)
         return;
     name_devices(devices, step->devices, on, sizeof(on));
+    const char *what = rg_turn_is_of_devices(step->turn) ? on : rg_turn_about(step->turn);
     if (left_s < 0)
-        snprintf(why->text, sizeof(why->text), "%s on %s did not end in time",
-                 rg_turn_about(step->turn), on);
+        snprintf(why->text, sizeof(why->text), "%s did not end in time", what);
     else
-        snprintf(why->text, sizeof(why->text), "%s on %s would take %.1f s, and %.1f s were left",
-                 rg_turn_about(step->turn), on, expected_s, left_s);
+        snprintf(why->text, sizeof(why->text), "%s would take %.1f s, and %.1f s were left", what,
+                 expected_s, left_s);
 }
 
 // What of a table is not measured; false where it is whole.

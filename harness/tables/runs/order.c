@@ -10,7 +10,7 @@ static const struct {
     bool of_devices, is_whole;
 } turns[] = {
     [RG_TURN_FIRST] = {"the first rows of each table", false, false},
-    [RG_TURN_NEEDED] = {"the other rows that curves and claims need", false, false},
+    [RG_TURN_NEEDED] = {"the other rows that are needed", false, false},
     [RG_TURN_CLAIMED] = {"the other devices of tables that claims are about", true, true},
     [RG_TURN_DEVICES] = {"the other devices", true, true},
     [RG_TURN_BETTER] = {"larger pictures and more samples", false, true},
@@ -23,6 +23,11 @@ static const struct {
 const char *rg_turn_about(enum rg_turn turn)
 {
     return turns[turn].about;
+}
+
+bool rg_turn_is_of_devices(enum rg_turn turn)
+{
+    return turns[turn].of_devices;
 }
 
 bool rg_turn_is_whole(enum rg_turn turn)

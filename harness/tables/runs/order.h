@@ -22,6 +22,8 @@ enum rg_turn {
 };
 // "all rows"
 const char *rg_turn_about(enum rg_turn turn);
+// Whether a step of it is a device more.
+bool rg_turn_is_of_devices(enum rg_turn turn);
 // Whether a step of it is worth nothing unless all of its cells are measured: a result has the same
 // rows on each device.
 bool rg_turn_is_whole(enum rg_turn turn);
