@@ -94,14 +94,14 @@ static bool is_well_begun(const struct rg_progress *p, double now_ms, double lef
     return 10 * (now_ms - p->start_ms) >= now_ms - p->start_ms + left_ms;
 }
 
-// By what units took: all of them, and those that were done last.
+// By what units took: all but the first of them, and those that were done last.
 static double left_by_units_ms(const struct rg_progress *p, double now_ms)
 {
     const struct rg_progress_mark *mark = &p->marks[0];
     const double left = (double)(p->total - p->done);
-    if (!mark->done || p->done <= mark->done)
+    if (!mark->done || p->done <= mark->done || p->done <= p->first.done)
         return 0;
-    const double by_all_ms = left * rg_progress_unit_ms(p, now_ms);
+    const double by_all_ms = left * (now_ms - p->first.ms) / (double)(p->done - p->first.done);
     const double by_last_ms = left * (now_ms - mark->ms) / (double)(p->done - mark->done);
     const double low_ms = fmin(by_all_ms, by_last_ms), high_ms = fmax(by_all_ms, by_last_ms);
     return high_ms <= 2 * low_ms && is_well_begun(p, now_ms, high_ms) ? sqrt(low_ms * high_ms) : 0;
@@ -142,6 +142,8 @@ void rg_progress_add(struct rg_progress *p, int64_t units)
 {
     const double now_ms = rg_now_ms();
     p->done += units;
+    if (!p->marks[1].done)
+        p->first = (struct rg_progress_mark){p->done, now_ms};
     if (p->done > 0 && p->done >= 2 * p->marks[1].done) {
         p->marks[0] = p->marks[1];
         p->marks[1] = (struct rg_progress_mark){p->done, now_ms};

@@ -18,8 +18,9 @@ struct rg_progress {
         int64_t done;
         double ms;
     } marks[2];
-    double told_ms, told_at_ms; // how long it takes, as was told last, and when; 0: it was not
-    bool is_unlike;             // what is left is unlike what is done, so that nothing follows
+    struct rg_progress_mark first; // when the first units were done, in which drivers compile
+    double told_ms, told_at_ms;    // how long it takes, as was told last, and when; 0: it was not
+    bool is_unlike;                // what is left is unlike what is done, so that nothing follows
     double due_ms; // when it ends, as who measures knows; -1: nobody does; 0: nobody said
     char label[64];
 };

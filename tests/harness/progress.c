@@ -43,8 +43,11 @@ static void durations_have_two_digits(void **state)
 // 100 of 1000 units took 10 s, by those of which 60 came last.
 static struct rg_progress after(double last_ms)
 {
-    return (struct rg_progress){
-        .total = 1000, .done = 100, .start_ms = 500, .marks = {{40, 500 + 10000 - last_ms}}};
+    return (struct rg_progress){.total = 1000,
+                                .done = 100,
+                                .start_ms = 500,
+                                .first = {0, 500},
+                                .marks = {{40, 500 + 10000 - last_ms}}};
 }
 
 // What is left follows from all units and from the last ones, once a tenth of it is behind.
@@ -57,6 +60,11 @@ static void what_is_left_follows_from_what_was_done(void **state)
     assert_about(rg_progress_unit_ms(&p, now_ms), 100);
     p.total = 1001; // of which less than a tenth is behind
     assert_true(rg_progress_left_ms(&p, now_ms) == 0);
+    p = after(6000);
+    p.first = (struct rg_progress_mark){20, 500 + 4000}; // which took half as long again
+    p.total = 800;
+    p.marks[0] = (struct rg_progress_mark){40, 500 + 5500};
+    assert_about(rg_progress_left_ms(&p, now_ms), 700 * 75);
     p = after(6000);
     p.marks[0].done = 0; // too few are done to be told apart
     assert_true(rg_progress_left_ms(&p, now_ms) == 0);

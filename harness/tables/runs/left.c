@@ -65,8 +65,7 @@ static bool print_left_out(const struct rg_standing *s, const struct rg_result *
                      ? "; variants that no claim is about"
                      : "",
                  share->divisor > 1 ? "; whole pictures" : "",
-                 share->all_samples || s->table->is_of_textures ? "" : "; more than 6 samples",
-                 *devices ? "; " : "", devices);
+                 share->all_samples ? "" : "; more than 6 samples", *devices ? "; " : "", devices);
     if (*text)
         fprintf(out, "  %-16s %s%s%s%s\n", s->table->id, text + 2, *why->text ? " (" : "",
                 why->text, *why->text ? ")" : "");

@@ -38,12 +38,13 @@ bool rg_turn_is_whole(enum rg_turn turn)
 struct rg_standing rg_standing_of(const struct rg_table *table)
 {
     bool rows[RG_TABLE_ROWS], variants[RG_TABLE_VARIANTS];
-    struct rg_standing s = {.table = table,
-                            .has_claims = rg_has_claims(table),
-                            .needed_rows = rg_needed_rows(table, rows),
-                            .quick_rows = rg_quick_rows(table, rows),
-                            .needed_variants = rg_needed_variants(table, variants),
-                            .share = {.divisor = rg_most_divisor(table)}};
+    struct rg_standing s = {
+        .table = table,
+        .has_claims = rg_has_claims(table),
+        .needed_rows = rg_needed_rows(table, rows),
+        .quick_rows = rg_quick_rows(table, rows),
+        .needed_variants = rg_needed_variants(table, variants),
+        .share = {.divisor = rg_most_divisor(table), .all_samples = table->is_of_textures}};
     while (s.variants < RG_TABLE_VARIANTS && table->variants[s.variants].name)
         s.variants++;
     while (s.works < RG_TABLE_WORKS && table->works[s.works].name)

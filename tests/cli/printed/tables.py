@@ -85,6 +85,23 @@ def check_changed(runner):
     return problems
 
 
+def check_budget(runner):
+    """table within a budget that is enough for all measures all, in turns, and leaves nothing out; its record is read like others"""
+    with tempfile.TemporaryDirectory() as tmp:
+        run = runner.run(["table", "creus-5.2", "--device", "cpu,cpu:reference", "--budget", "9h", "--json", "-o", tmp])
+        again = runner.run(["table", "--from", tmp, "--json"]).stdout
+    report = json.loads(run.stdout)
+    problems = forms.problems("table", report)
+    wanted = {"seconds": 32400, "size_divisor": 1, "few_samples": False, "left_out": []}
+    cells = [(cell["row"]["level"], cell["device"]) for cell in report["cells"]]
+    if run.returncode or again != run.stdout or report.get("budget") != wanted or \
+            cells != [(level, device) for level in range(6) for device in ("cpu", "cpu:reference")]:
+        problems.append("exit status %d, %s, %s" % (run.returncode, report.get("budget"), cells))
+    if not re.search(r"the first rows of each table\n.*: cpu:reference\ntook \d+ s, of a budget of 32400 s; left out, for time:\n  nothing\n", run.stderr):
+        problems.append(run.stderr)
+    return problems
+
+
 def check_no_rain(runner):
     """a cell whose picture is the same without rain proves nothing on any device and has no number, in the table and before the claims"""
     problems = []
@@ -167,7 +184,7 @@ def check_sweep(runner):
         problems.append("%s" % [report[name] for name in ("hardware", "size_px", "check_frames")])
     if "| resolution, px |  panes |" not in brief or max(map(len, brief.split("\n"))) > 110:
         problems.append(brief)
-    told = float(re.search(r"about ([\d.]+) s", run.stderr).group(1))
+    told = float(re.search(r"about ([\d.]+) s", dry.stdout).group(1))
     if not told / 4 < took < 4 * told + 5:  # a busy machine's speed varies as much
         problems.append("%s s were planned, and %.1f s taken" % (told, took))
     return problems
@@ -274,4 +291,4 @@ def check_compile(runner):
 
 
 CHECKS = [check_forms, check_table_json, check_table_files]
-LONG = [check_compile, check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row]
+LONG = [check_compile, check_budget, check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row]
