@@ -202,7 +202,7 @@ def check_strange(runner):
     with Files(TORUS) as files:
         path = files.path("baseline.json")
         runner.run(["baseline", "--device", "vulkan", "--pictures", "--cells", files.cells, "-o", path])
-        driver = json.loads(runner.run(["doctor", "--json"]).stdout)
+        driver = json.loads(runner.run(["list", "devices", "--json"]).stdout)
         driver = next(device["driver"] for device in driver["devices"] if device["name"] == "vulkan")
         with open(os.path.join(root, "docs", "expectations.md")) as page, open(os.path.join(root, "results", "expectations.txt")) as own:
             shown = [re.search(r"^(?:#| )  +driver +(\S.*)$", text.read(), re.M)[1].replace("22.3", re.search(r"Mesa (\d+\.\d+)", driver)[1]) for text in (page, own)]

@@ -5,6 +5,7 @@ import json
 import os
 import re
 import resource
+import shutil
 import signal
 import tempfile
 import time
@@ -222,12 +223,14 @@ def check_sweep_unprinted(runner):
     problems = []
     sweep = "sweep flow --axis resolution_px=%s --set environment=sky --set environment_px=16 --size 32x32 --device cpu --quick"
     resumed = "2 of 2 rows are those of a run that was interrupted"
-    for axes, more, goes_on in (("32,64", "", True), ("32,48", "", False), ("32,64", " --fresh", False), ("32,64", " --frame 3", False)):
-        with tempfile.TemporaryDirectory() as state:
-            with open("/dev/full", "w") as full:
-                lost = runner.run((sweep % "32,64").split(), {"XDG_STATE_HOME": state}, stdout=full)
-            if lost.returncode != 71 or "the same command goes on" not in lost.stderr:
-                problems.append("exit status %d, %s" % (lost.returncode, lost.stderr))
+    with tempfile.TemporaryDirectory() as tmp:
+        with open("/dev/full", "w") as full:
+            lost = runner.run((sweep % "32,64").split(), {"XDG_STATE_HOME": tmp + "/lost"}, stdout=full)
+        if lost.returncode != 71 or "the same command goes on" not in lost.stderr:
+            problems.append("exit status %d, %s" % (lost.returncode, lost.stderr))
+        for axes, more, goes_on in (("32,64", "", True), ("32,48", "", False), ("32,64", " --fresh", False), ("32,64", " --frame 3", False)):
+            state = tmp + "/" + axes + more
+            shutil.copytree(tmp + "/lost", state)
             again = runner.run((sweep % axes + more).split(), {"XDG_STATE_HOME": state})
             left = os.listdir(state + "/raingauge")
             if again.returncode or (resumed in again.stderr) != goes_on or (goes_on and left) or not re.search("combination of resolution_px=" + axes, again.stdout):
