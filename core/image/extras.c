@@ -61,19 +61,19 @@ static bool find(const char *extras, const struct rg_extra *like, struct rg_extr
     return false;
 }
 
-int rg_extras_compare(const char *a, const char *b, rg_extras_hear *hear, void *user)
+int rg_extras_compare(const char *a, const char *b, rg_extras_differ *differ, void *user)
 {
     struct rg_extra one, other;
     int count = 0;
     for (const char *at = a; rg_extras_next(&at, &one);)
         if (!find(b, &one, &other) || one.value_length != other.value_length ||
             memcmp(one.value, other.value, (size_t)one.value_length) != 0) {
-            hear(user, &one, &other);
+            differ(user, &one, &other);
             count++;
         }
     for (const char *at = b; rg_extras_next(&at, &one);)
         if (!find(a, &one, &other)) {
-            hear(user, &other, &one);
+            differ(user, &other, &one);
             count++;
         }
     return count;

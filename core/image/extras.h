@@ -26,9 +26,9 @@ struct rg_extra {
 // Steps through the extras; at first `at` is the text. False after the last.
 bool rg_extras_next(const char **at, struct rg_extra *extra);
 
-// Calls `hear` for each extra that only one text has, or whose values differ, in the order of A,
+// Calls `differ` for each extra that only one text has, or whose values differ, in the order of A,
 // then of B. A missing extra has the value "none". Returns their number.
-typedef void rg_extras_hear(void *user, const struct rg_extra *a, const struct rg_extra *b);
-int rg_extras_compare(const char *a, const char *b, rg_extras_hear *hear, void *user);
+typedef void rg_extras_differ(void *user, const struct rg_extra *a, const struct rg_extra *b);
+int rg_extras_compare(const char *a, const char *b, rg_extras_differ *differ, void *user);
 
 #endif

@@ -16,7 +16,7 @@ enum { NUMBERS = sizeof(numbers) / sizeof(numbers[0]) };
 static volatile sig_atomic_t noted, is_watched, patience_s;
 
 // SIGALRM is the end of the patience, or another program's timer for this one.
-static void hear(int number)
+static void on_signal(int number)
 {
     static const char line[] = "raingauge: what it was at did not stop within a second, and is not "
                                "waited for\n";
@@ -26,7 +26,7 @@ static void hear(int number)
         return;
     }
     if (noted && number == SIGALRM && write(STDERR_FILENO, line, strlen(line)) < 0)
-        number = noted; // nobody waits for the signal
+        number = noted; // a failed write changes nothing
     rg_program_end_by(noted ? noted : number);
 }
 
@@ -48,7 +48,7 @@ void rg_interrupt_hold(void)
 void rg_interrupt_heed(void)
 {
     // SA_RESTART, so that drivers' system calls continue.
-    struct sigaction action = {.sa_handler = hear, .sa_flags = SA_RESTART}, before;
+    struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART}, before;
     sigemptyset(&action.sa_mask);
     for (int i = 0; i < NUMBERS; i++) {
         const bool is_nohup = numbers[i] == SIGHUP && !sigaction(SIGHUP, NULL, &before) &&

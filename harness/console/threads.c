@@ -52,36 +52,36 @@ static bool limit_threads(void)
 }
 
 // libgomp complained when this process was loaded; the reloaded one would repeat it, so its stderr
-// is silenced. A variable tells the next process the right file.
-static void silence(void)
+// is silenced. A variable tells that process which descriptor is the real stderr.
+static void silence_stderr(void)
 {
     char number[16];
-    const int heard = dup(STDERR_FILENO), nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    snprintf(number, sizeof(number), "%d", heard);
-    if (heard >= 0 && nothing >= 0 && !setenv(stderr_name, number, 1))
+    const int saved = dup(STDERR_FILENO), nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    snprintf(number, sizeof(number), "%d", saved);
+    if (saved >= 0 && nothing >= 0 && !setenv(stderr_name, number, 1))
         dup2(nothing, STDERR_FILENO);
     if (nothing >= 0)
         close(nothing);
 }
 
-static void hear_again(void)
+static void restore_stderr(void)
 {
     const char *number = getenv(stderr_name);
-    const int heard = number ? atoi(number) : -1;
-    if (heard > STDERR_FILENO && dup2(heard, STDERR_FILENO) >= 0)
-        close(heard);
+    const int saved = number ? atoi(number) : -1;
+    if (saved > STDERR_FILENO && dup2(saved, STDERR_FILENO) >= 0)
+        close(saved);
     unsetenv(stderr_name);
 }
 
 void rg_threads_settle(char **argv)
 {
-    hear_again();
+    restore_stderr();
     const bool spins = spin_briefly();
     if (!limit_threads() && !spins)
         return;
-    silence();
+    silence_stderr();
     execv(rg_program_self(), argv);
-    hear_again();
+    restore_stderr();
     if (spins)
         unsetenv("GOMP_SPINCOUNT"); // the passport must not claim a value that libgomp never read
 }

@@ -2,16 +2,16 @@
 #include "backends/vulkan/vulkan.h"
 
 // A draw state.
-struct look {
+struct draw_state {
     struct vk_target target;
     enum rg_blend blend;
     enum rg_depth_mode depth_mode;
 };
 
-static struct look look_of(const struct rg_draw *draw)
+static struct draw_state draw_state_of(const struct rg_draw *draw)
 {
     const struct vk_target target = vk_target_of(draw);
-    return (struct look){
+    return (struct draw_state){
         .target = target,
         .blend = target.colour == RG_FORMAT_NONE ? RG_BLEND_OFF : draw->blend,
         .depth_mode = target.depth ? draw->depth_mode : RG_DEPTH_OFF,
@@ -90,27 +90,27 @@ static VkGraphicsPipelineCreateInfo plain_pipeline(void)
     };
 }
 
-static bool create_pipeline(struct vk_device *device, struct vk_pass *pass, const struct look *look,
-                            VkPipeline *pipeline)
+static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
+                            const struct draw_state *state, VkPipeline *pipeline)
 {
     const char *name = pass->pub.kernel->name;
     const VkPipelineShaderStageCreateInfo stages[] = {
         stage(VK_SHADER_STAGE_VERTEX_BIT, pass->drawing->vertex),
         stage(VK_SHADER_STAGE_FRAGMENT_BIT, pass->drawing->fragment)};
-    const VkPipelineColorBlendAttachmentState attachment = blend_state(look->blend);
+    const VkPipelineColorBlendAttachmentState attachment = blend_state(state->blend);
     const VkPipelineColorBlendStateCreateInfo blend = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = 1,
         .pAttachments = &attachment,
     };
-    const VkPipelineDepthStencilStateCreateInfo depth = depth_state(look->depth_mode);
+    const VkPipelineDepthStencilStateCreateInfo depth = depth_state(state->depth_mode);
     VkGraphicsPipelineCreateInfo info = plain_pipeline();
     info.stageCount = 2;
     info.pStages = stages;
     info.pColorBlendState = &blend;
     info.pDepthStencilState = &depth;
     info.layout = pass->layout;
-    info.renderPass = vk_render_pass(device, look->target, name);
+    info.renderPass = vk_render_pass(device, state->target, name);
     if (!info.renderPass || !vk_try("kernel", name, vkCreateGraphicsPipelines, device->handle,
                                     pass->cache, 1, &info, NULL, pipeline)) {
         *pipeline = VK_NULL_HANDLE;
@@ -123,9 +123,10 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass, cons
 VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,
                           const struct rg_draw *draw)
 {
-    const struct look look = look_of(draw);
-    VkPipeline *kept = &pass->drawing->pipelines[look.target.colour][look.blend][look.depth_mode];
+    const struct draw_state state = draw_state_of(draw);
+    VkPipeline *kept =
+        &pass->drawing->pipelines[state.target.colour][state.blend][state.depth_mode];
     if (!*kept)
-        create_pipeline(device, pass, &look, kept);
+        create_pipeline(device, pass, &state, kept);
     return *kept;
 }

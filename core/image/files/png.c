@@ -76,7 +76,7 @@ static bool read_rows(struct png_job *job, int64_t file_bytes, struct rg_picture
         return false;
     png_set_user_limits(job->png, RG_PICTURE_MAX_SIDE_PX, RG_PICTURE_MAX_SIDE_PX);
     png_set_chunk_malloc_max(job->png, (png_alloc_size_t)file_bytes); // frames may be large
-    rg_png_beside_hear(&job->beside, job->png);
+    rg_png_beside_collect(&job->beside, job->png);
     png_init_io(job->png, job->file);
     png_read_info(job->png, job->info);
     int64_t height = png_get_image_height(job->png, job->info);

@@ -13,7 +13,7 @@ static const char names[RG_PNG_CHUNKS][5] = {"gAMA", "cHRM", "sRGB", "iCCP",
 // --- reading chunks ---
 
 // Digests a frame's bytes without its sequence number, with which both kinds of frame chunks begin.
-static bool hear_frame(struct rg_png_beside *beside, const png_unknown_chunk *chunk)
+static bool digest_frame(struct rg_png_beside *beside, const png_unknown_chunk *chunk)
 {
     const bool is_head = !memcmp(chunk->name, "fcTL", 5);
     if (!is_head && memcmp(chunk->name, "fdAT", 5) != 0)
@@ -28,7 +28,7 @@ static bool hear_frame(struct rg_png_beside *beside, const png_unknown_chunk *ch
 
 // A profile is a name, a zero, a byte for the compression, and a zlib stream. A stream that cannot
 // be inflated is digested as it is.
-static void hear_profile(struct rg_png_beside *beside, const png_unknown_chunk *chunk)
+static void digest_profile(struct rg_png_beside *beside, const png_unknown_chunk *chunk)
 {
     enum { MOST_BYTES = 16 << 20 };
     const uint8_t *name_end = memchr(chunk->data, 0, chunk->size);
@@ -47,7 +47,7 @@ static void hear_profile(struct rg_png_beside *beside, const png_unknown_chunk *
     libdeflate_free_decompressor(inflater);
 }
 
-static int hear(png_structp png, png_unknown_chunkp chunk)
+static int take_chunk(png_structp png, png_unknown_chunkp chunk)
 {
     struct rg_png_beside *beside = png_get_user_chunk_ptr(png);
     const bool is_said = chunk->size > 0 && !(chunk->location & PNG_AFTER_IDAT);
@@ -58,15 +58,15 @@ static int hear(png_structp png, png_unknown_chunkp chunk)
             beside->chunks[i].size = (uint32_t)chunk->size;
             memcpy(beside->chunks[i].bytes, chunk->data, chunk->size < most ? chunk->size : most);
             if (i == RG_PNG_ICCP)
-                hear_profile(beside, chunk);
+                digest_profile(beside, chunk);
         }
-    hear_frame(beside, chunk);
+    digest_frame(beside, chunk);
     return 1;
 }
 
-void rg_png_beside_hear(struct rg_png_beside *beside, png_structp png)
+void rg_png_beside_collect(struct rg_png_beside *beside, png_structp png)
 {
-    png_set_read_user_chunk_fn(png, beside, hear);
+    png_set_read_user_chunk_fn(png, beside, take_chunk);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, (png_const_bytep)names,
                                 RG_PNG_CHUNKS);
     // Damaged chunks are dropped, because their content is unknown.

@@ -37,7 +37,7 @@ struct rg_png_beside {
 };
 
 // Makes libpng hand over the chunks; call it before anything is read.
-void rg_png_beside_hear(struct rg_png_beside *beside, png_structp png);
+void rg_png_beside_collect(struct rg_png_beside *beside, png_structp png);
 
 // Sets the picture's gamma and adds its extras. False when memory for them runs out.
 bool rg_png_beside_tell(const struct rg_png_beside *beside, struct rg_picture *picture);

@@ -97,10 +97,10 @@ bool streaks_sizes_make(struct streaks *streaks);
 bool streaks_sizes_fit(const struct streaks *streaks, const struct rg_density *density);
 bool streaks_sizes_differ(const struct streaks *streaks);
 // Drops of one size with the same mean and variance of coverage as all classes together.
-struct streaks_alike {
+struct streaks_equivalent {
     double radius_m, speed_m_s, drops_m3;
 };
-struct streaks_alike streaks_sizes_alike(const struct streaks *streaks);
+struct streaks_equivalent streaks_sizes_equivalent(const struct streaks *streaks);
 // Moves the size classes to the current frame, in a local space with this top.
 void streaks_sizes_turn(struct streaks *streaks, double top_m);
 // Tells facts about the rain of a spectrum's particles, and what is left out.

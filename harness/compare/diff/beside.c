@@ -14,7 +14,7 @@ static void copy(char *to, size_t size, const char *text, int length)
     rg_plain(to);
 }
 
-static void hear(void *user, const struct rg_extra *a, const struct rg_extra *b)
+static void note_difference(void *user, const struct rg_extra *a, const struct rg_extra *b)
 {
     struct rg_beside *beside = user;
     if (!rg_array_fit(&beside->items, &beside->room, beside->count + 1, sizeof(*beside->items),
@@ -36,7 +36,7 @@ static void compare_alpha(const struct rg_picture *a, const struct rg_picture *b
                                             {true, "alpha", "associated", 5, 10}};
     if (a->is_associated != b->is_associated && rg_picture_is_see_through(a) &&
         rg_picture_is_see_through(b))
-        hear(beside, &kinds[a->is_associated], &kinds[b->is_associated]);
+        note_difference(beside, &kinds[a->is_associated], &kinds[b->is_associated]);
 }
 
 static void warn_of_unapplied(const struct rg_picture *a, const char *name_a, const char *name_b)
@@ -59,7 +59,7 @@ bool rg_beside_find(const struct rg_picture *a, const char *name_a, const struct
                     const char *name_b, struct rg_beside *beside)
 {
     compare_alpha(a, b, beside);
-    if (!rg_extras_compare(a->extras, b->extras, hear, beside))
+    if (!rg_extras_compare(a->extras, b->extras, note_difference, beside))
         warn_of_unapplied(a, name_a, name_b);
     return !beside->is_short;
 }

@@ -480,7 +480,7 @@ static bool send(struct rg_worker *worker, enum rg_call call, const struct rg_me
 // --- coming to life ---
 
 // Waits for a message up to the patience, which signals do not shorten.
-static bool hears(struct rg_worker *worker, struct rg_message *reply, int patience_ms)
+static bool receives(struct rg_worker *worker, struct rg_message *reply, int patience_ms)
 {
     const double end_ms = rg_now_ms() + patience_ms;
     enum rg_arrival arrival = RG_NOT_YET;
@@ -501,7 +501,7 @@ static bool is_greeted(struct rg_worker *worker)
     rg_put_int(&due, RG_OK);
     rg_put_int(&due, 0);
     rg_put_text(&due, rg_workers.hello);
-    const bool same = send(worker, RG_CALL_HELLO, NULL) && hears(worker, &reply, patience_ms) &&
+    const bool same = send(worker, RG_CALL_HELLO, NULL) && receives(worker, &reply, patience_ms) &&
                       reply.size == due.size && !due.failed &&
                       !memcmp(reply.bytes, due.bytes, (size_t)due.size);
     rg_message_free(&reply);

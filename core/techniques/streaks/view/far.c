@@ -42,7 +42,7 @@ bool streaks_density_open(struct streaks *s)
 static streaks_far_params params_of(const struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    const struct streaks_alike drops = streaks_sizes_alike(s);
+    const struct streaks_equivalent drops = streaks_sizes_equivalent(s);
     const double seconds = set->step_s * (double)s->base.frame;
     streaks_params rain = s->params;
     rain.half_width *= (float)(drops.radius_m / (set->drop_radius_mm / 1000));

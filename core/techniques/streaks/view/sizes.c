@@ -96,7 +96,7 @@ bool streaks_sizes_differ(const struct streaks *s)
 
 // A streak's contribution grows with its drop's cross-section, spread over the fall in the
 // exposure; the variance of pixels grows with its square over that length.
-struct streaks_alike streaks_sizes_alike(const struct streaks *s)
+struct streaks_equivalent streaks_sizes_equivalent(const struct streaks *s)
 {
     double section = 0, passing = 0, varied = 0;
     for (int i = 0; i < s->sizes.count; i++) {
@@ -108,8 +108,8 @@ struct streaks_alike streaks_sizes_alike(const struct streaks *s)
         varied += one * one * s->sizes.count / s->sizes.speeds_m_s[i];
     }
     const double speed_m_s = passing / section, radius2_m2 = varied * speed_m_s / section;
-    return (struct streaks_alike){sqrt(radius2_m2), speed_m_s,
-                                  s->sizes.drops_m3 * section / radius2_m2};
+    return (struct streaks_equivalent){sqrt(radius2_m2), speed_m_s,
+                                       s->sizes.drops_m3 * section / radius2_m2};
 }
 
 void streaks_sizes_turn(struct streaks *s, double top_m)
