@@ -57,6 +57,7 @@ ROWS = [
     Fault(TARGETS, "draw->x1 <= width && «draw->y1 <= height»),", "true", "a scissor may leave the target"),
     Fault(TARGETS, "«items % RG_DRAW_CHUNK == 0» && run->origin.width % items == 0,", "true", "queries may begin anywhere"),
     Fault(TARGETS, "return a_query ? (items + a_query «- 1») / a_query : items;", "- a_query", "the last query has no counter"),
+    Fault(WORK, "device->work->has_failed = «true»;", "false", "a loss that nobody asked about is forgotten", tests=("command line, misbehaving",)),
     Fault(WORK, "counts->records += «head.item != *last_item»;", "1", "primitives count as records"),
     Fault(WORK, "tally->light_evaluations += counts.fragments «* lights_of(pass->kernel, run)»;", "* 1", "lights are not counted"),
     Fault(PASS, "mine.begin.z = «call->begin.z + part(extent->depth, index, blocks)»;", "call->begin.z", "threads run layers of others",
