@@ -19,10 +19,10 @@
 #include "kernels/probe/copy_params.h"
 #include "tests/kernels/drawing/quads_params.h"
 
-static const char *reason;      // why there is no device; NULL: there is one
+static const char *reason; // why there is no device; NULL: there is one
 static enum rg_fault kind; // of that
-static int errors;              // lines logged as errors
-static FILE *noise;             // what anyone wrote to stderr
+static int errors;         // lines logged as errors
+static FILE *noise;        // what anyone wrote to stderr
 
 static void count_line(enum rg_log_level level, const char *line, void *user)
 {

@@ -59,7 +59,7 @@ const char *heard_all(void);
 #define assert_lacks(call, part)                                                                   \
     do {                                                                                           \
         assert_refused(call, part);                                                                \
-        assert_int_equal(rg_failure_take().fault, RG_FAULT_NONE);                              \
+        assert_int_equal(rg_failure_take().fault, RG_FAULT_NONE);                                  \
     } while (0)
 
 #endif

@@ -135,7 +135,7 @@ def test_results_are_read_by_deqp_runner():
 
 
 def test_lines_are_gtests():
-    text = tell("gtest", [Case(b"a.b", seconds=0.0115), Case(b"a.q", ending=6, message=b"slow"), Case(b"a.d", ending=10, seconds=float("nan"))])
+    text = tell("gtest", [Case(b"a.b", seconds=0.0115), Case(b"a.q", ending=7, message=b"slow"), Case(b"a.d", ending=11, seconds=float("nan"))])
     assert text.decode() == """[==========] Running 3 tests.
 [ RUN      ] a.b
 | a.b
