@@ -2,9 +2,9 @@
 # what Debian packages are missing, build, say what they do, and can be run again at no cost.
 # `make results` replaces the tables that the repository keeps; `make thorough` runs the tests that
 # take too long for every change; `make mutants` tries the tests themselves, with faults, and `make gate-selftest` the gate, with
-# builds that are the same and that are slower.
+# builds that are the same and that are slower; `make lint` has tools look for faults in the sources.
 .POSIX:
-.PHONY: all setup build whole tables committed results test thorough mutants gate-selftest clean format
+.PHONY: all setup build whole tables committed results test thorough mutants gate-selftest lint clean format
 
 BUILD = build
 ASAN = build-asan
@@ -121,6 +121,16 @@ mutants: whole
 gate-selftest: whole
 	@echo "== gating what is the same, and what does 5 % more, while another process is busy; an hour or two"
 	@python3 tests/harness/gate/selftest.py $(BUILD) --keep $(BUILD)/selftest
+
+# Not what CI runs: two packages and six minutes of CPU time for what is rarely found. clang-tidy is of the version that formats.
+LINTERS = clang-tidy cppcheck
+lint: build
+	@lacks() { ! dpkg-query -W -f '$${Status}' $$1 2>/dev/null | grep -q 'ok installed'; }; \
+	missing=; for package in $(LINTERS); do ! lacks $$package || missing="$$missing $$package"; done; \
+	as_root=; [ "$$(id -u)" = 0 ] || as_root=sudo; \
+	[ -z "$$missing" ] || $$as_root apt-get install -qy --no-install-recommends $$missing
+	@echo "== looking for faults in core, harness and backends: gcc's analyzer, cppcheck and clang-tidy, some minutes"
+	@python3 tests/tools/lint.py $(BUILD) gcc cppcheck clang-tidy
 
 format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

@@ -70,7 +70,7 @@ bool cpu_image_clear(struct rg_image *image, const void *texel)
     for (size_t at = 0; at < step; at += texel_size)
         memcpy((char *)pattern + at, texel, texel_size);
     char *first = (char *)(cpu->texels + RG_MAX_LEVELS);
-    const int64_t steps = (int64_t)((total + step - 1) / step);
+    const int64_t steps = (int64_t)((total + step - 1) / step); // NOLINT: a texel has bytes
 #pragma omp parallel for schedule(static) if (steps > 64)
     for (int64_t i = 0; i < steps; i++) {
         const size_t at = (size_t)i * step;

@@ -120,7 +120,7 @@ bool rg_picture_widen(struct rg_picture *picture, const struct rg_picture *other
     float *to = wide.texels;
     for (int64_t i = 0; i < pixels; i++, from += picture->channels, to += channels) {
         for (int c = 0; c < colours; c++)
-            to[c] = from[own > 1 ? c : 0];
+            to[c] = from[own > 1 ? c : 0]; // NOLINT: without memory there is no picture
         if (channels > colours)
             to[colours] = has_alpha ? from[own] : 1.0f;
     }

@@ -159,6 +159,7 @@ static void tell(const struct rg_measure_options *options, double done_ms, doubl
 static double rounds_ms(const struct rg_job *job, int rounds, int all)
 {
     const struct rg_record *record = job->record;
+    // NOLINTNEXTLINE: there is a round
     const int due = (int)((int64_t)rounds * record->wanted_samples / all) - record->sample_count;
     const int frames = record->frames_a_sample + rg_sampling_has_run_up(job->warm_frame_ms);
     return due > 0 ? due * frames * job->warm_frame_ms : 0;

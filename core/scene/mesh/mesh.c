@@ -203,6 +203,7 @@ static void make_vertex(const float *position, const float *normal, struct verte
     length = sqrt(length);
     const bool direction = length > 0 && isfinite(length);
     for (int c = 0; c < 3; c++)
+        // NOLINTNEXTLINE: without a normal the length is 0
         vertex->normal[c] = direction ? plain((double)normal[c] / length) : 0.0f;
 }
 

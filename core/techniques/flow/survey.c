@@ -95,7 +95,7 @@ bool flow_survey(struct flow *flow)
     const double texel_mm = flow->settings.pane_mm / n;
     if (!flow->told.wet)
         return true;
-    float *water = rg_alloc((size_t)(flow->pane_count * length), sizeof(*water), "survey");
+    float *water = rg_alloc((size_t)flow->pane_count * (size_t)length, sizeof(*water), "survey");
     int *stack = rg_alloc((size_t)length, sizeof(*stack), "survey");
     const bool ok = water && stack &&
                     rg_buf_read(flow->water->buf, 0, water,

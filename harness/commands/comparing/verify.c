@@ -121,6 +121,7 @@ static void verify_all(struct rg_verify *v, bool stages, const struct subject *s
         rg_verify_mutants(v);
     }
     rg_progress_end(&progress);
+    v->progress = NULL;
 }
 
 static void print_checks(const struct rg_checks *checks, const struct rg_devices *devices,

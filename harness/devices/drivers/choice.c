@@ -163,7 +163,7 @@ int rg_choice_libraries(const struct rg_choice *c, const char **libraries, int m
 
 bool rg_choice_refuse(const struct rg_choice *c, const char *why)
 {
-    const char *library;
+    const char *library = "its library";
     rg_choice_libraries(c, &library, 1);
     if (c->driver)
         return rg_driver_error("device '%s': %s cannot be loaded: %s; install the package that has "

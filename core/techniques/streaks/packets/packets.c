@@ -182,7 +182,7 @@ const float *streaks_packets_buffer(const struct streaks_packets *packets, int i
 
 void streaks_packets_forget(struct streaks_packets *packets)
 {
-    free(packets->particles);
+    free(packets->particles); // NOLINT: there is a particle, so that realloc frees nothing
     packets->particles = NULL;
 }
 
