@@ -7,7 +7,7 @@
 #include "core/base/memory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
-#include "harness/compare/gate/baseline/make.h"
+#include "harness/compare/gate/baseline/baseline.h"
 #include "harness/console/interrupt.h"
 #include "harness/record/output.h"
 #include "harness/record/passport/key.h"

@@ -10,11 +10,10 @@
 #include "core/base/memory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
-#include "harness/compare/gate/baseline/against.h"
 #include "harness/commands/comparing/outputs.h"
+#include "harness/compare/gate/cells/strays.h"
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/run/gate.h"
-#include "harness/compare/gate/run/strays.h"
 #include "harness/console/duration.h"
 #include "harness/devices/drivers/side.h"
 #include "harness/devices/names.h"
@@ -196,19 +195,9 @@ static bool can_update(const struct gate_options *o, const struct rg_gate_reques
 
 // --- the command ---
 
-static int run_either(const struct gate_options *o, const struct gate_input *in,
-                      struct rg_gate_request *request, struct rg_gate *gate)
-{
-    const double margin = o->baseline ? rg_gate_rule_apart(1).margin : rg_gate_rule_of(1).margin;
-    request->margin = o->margin_percent > 0 ? o->margin_percent / 100 : margin;
-    return o->baseline ? rg_against_run(
-                             &(struct rg_against){request, &in->baseline, o->devices.names}, gate)
-                       : rg_gate_run(request, gate);
-}
-
-// The same with a lock on the folder, against another raingauge.
-static int run_held(const struct gate_options *o, const struct gate_input *in,
-                    struct rg_gate_request *request, struct rg_gate *gate)
+// Runs it in a folder that no other raingauge writes into meanwhile.
+static int run_held(const struct gate_options *o, struct rg_gate_request *request,
+                    struct rg_gate *gate)
 {
     struct rg_hold hold = {.fd = -1};
     request->folder = o->pictures;
@@ -219,7 +208,7 @@ static int run_held(const struct gate_options *o, const struct gate_input *in,
                  o->pictures);
         return rg_exit_of_error();
     }
-    const int exit = run_either(o, in, request, gate);
+    const int exit = rg_gate_run(request, gate);
     rg_hold_release(&hold);
     return exit;
 }
@@ -240,12 +229,17 @@ static int run(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate gate = {.case_count = 0};
     struct rg_gate_outputs outputs = {.updates = o->update, .today = today()};
-    struct rg_gate_request request = {.pairs = &in->pairs,
-                                      .cells = &in->cells,
+    const double margin = o->baseline ? rg_gate_rule_apart(1).margin : rg_gate_rule_of(1).margin;
+    struct rg_gate_request request = {.cells = &in->cells,
+                                      .pairs = &in->pairs,
+                                      .baseline = o->baseline ? &in->baseline : NULL,
+                                      .devices = o->devices.names,
                                       .known = &in->known,
                                       .require = o->devices.require,
                                       .left = left_of(o, in),
                                       .today = today(),
+                                      .margin =
+                                          o->margin_percent > 0 ? o->margin_percent / 100 : margin,
                                       .pictures_only = o->pictures_only,
                                       .filter = o->gtest.filter};
     int exit;
@@ -256,7 +250,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
         (!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
         rg_gate_outputs_can_be_written(&outputs) && can_update(o, &request)) {
         request.pictures = *outputs.pictures ? outputs.pictures : NULL;
-        exit = run_held(o, in, &request, &gate);
+        exit = run_held(o, &request, &gate);
         if (gate.is_told && !rg_gate_outputs_print(&outputs, &in->known, &gate))
             exit = rg_exit_worse(exit, rg_exit_of_error()); // a full disk is no regression
     } else {

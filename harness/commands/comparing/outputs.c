@@ -7,8 +7,7 @@
 #include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/pictures/pictures.h"
-#include "harness/compare/gate/run/keep.h"
-#include "harness/compare/gate/run/kept.h"
+#include "harness/compare/gate/sides/journal.h"
 #include "harness/record/output.h"
 
 #define AT_FILE(id) offsetof(struct rg_reports_asked, files[RG_AS_##id])

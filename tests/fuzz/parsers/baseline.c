@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/compare/gate/baseline/make.h"
+#include "harness/compare/gate/baseline/baseline.h"
 #include "harness/record/disk/seal.h"
 #include "tests/fuzz/heard.h"
 

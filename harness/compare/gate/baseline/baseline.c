@@ -115,21 +115,13 @@ static bool sets_no_variables(const struct rg_baseline *baseline, const char *pa
     return true;
 }
 
-static const struct rg_gate_cell *find_cell(const struct rg_gate_cells *cells, const char *name)
-{
-    for (int64_t i = 0; i < cells->count; i++)
-        if (!strcmp(cells->cells[i].name, name))
-            return &cells->cells[i];
-    return NULL;
-}
-
 // Each row's cell is there, and does what it did.
 static bool has_its_cells(const struct rg_baseline *baseline, const char *path,
                           const struct rg_gate_cells *cells, const char *cells_name)
 {
     for (int64_t i = 0; i < baseline->count; i++) {
         const struct rg_baseline_row *row = &baseline->rows[i];
-        const struct rg_gate_cell *cell = find_cell(cells, row->cell);
+        const struct rg_gate_cell *cell = rg_gate_cells_find(cells, row->cell);
         char settings[RG_DIGEST_SIZE];
         if (!cell)
             return rg_error("%s: its cell '%s' is not in %s; take it out with `raingauge baseline "

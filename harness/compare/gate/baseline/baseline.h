@@ -3,19 +3,13 @@
 #ifndef RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 #define RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 
-#include "harness/compare/gate/cells/digest.h"
+#include <stdio.h>
+
 #include "harness/compare/gate/decide/decide.h"
-#include "harness/compare/gate/run/alike.h"
-#include "harness/compare/gate/run/slot.h"
-#include "harness/measure/yardsticks.h"
+#include "harness/compare/gate/sides/alike.h"
+#include "harness/compare/gate/sides/times.h"
 
 enum { RG_BASELINE_FORMAT = 1, RG_BASELINE_LAUNCHES = RG_SHIFT_SAMPLES };
-
-// Times of launches that count, in the order in which they were taken.
-struct rg_launches {
-    int count;
-    double ms[RG_BASELINE_LAUNCHES];
-};
 
 // A cell on a device.
 struct rg_baseline_row {
@@ -87,5 +81,44 @@ struct rg_gate_sample rg_baseline_sample(const struct rg_launches *launches);
 double rg_launches_median(const struct rg_launches *launches);
 // By how much a launch scatters: the standard deviation, by the median, robustly; 0.05 is 5 %.
 double rg_baseline_scatter(const struct rg_launches *launches);
+
+// --- what cells do now ---
+
+// Runs a cell on a device, and fills in all of a zeroed row but its times. The picture is for the
+// caller to destroy; it has no texels without an outcome OK.
+void rg_baseline_take(const struct rg_gate_cell *cell, struct rg_device *device,
+                      struct rg_baseline_row *row, struct rg_picture *picture);
+
+// cpu:reference, which draws what a picture should be, and is opened when it is asked first.
+struct rg_truth {
+    struct rg_device *device; // NULL: not yet
+};
+// False, and one logged line, where it does not open.
+bool rg_truth_open(struct rg_truth *truth);
+// Whether a device's picture of a cell is that of cpu:reference, by the tier that the device owes;
+// else it ends the agreement.
+bool rg_truth_holds(struct rg_truth *truth, const struct rg_gate_cell *cell,
+                    const struct rg_device *device, const struct rg_picture *picture,
+                    struct rg_agreement *agreement);
+// False as rg_device_close is.
+bool rg_truth_close(struct rg_truth *truth);
+
+// --- one is made, and held against the one that is to be replaced ---
+
+struct rg_baseline_request {
+    const struct rg_gate_cells *cells;
+    int launches; // of each device, that time each cell; 0: nothing is timed
+};
+
+// Runs all cells on all devices, which it closes, into a zeroed baseline. False, and one logged
+// line, where it cannot be made, or the user interrupts. `clean` is false where a device was closed
+// badly, which takes nothing from the baseline.
+bool rg_baseline_make(const struct rg_baseline_request *request, struct rg_devices *devices,
+                      struct rg_baseline *baseline, bool *clean);
+
+// Prints what is another in `now` than in `then`, a line a cell. Returns how many lines that were.
+// Times are another where a gate of the same cells would find it.
+int rg_baseline_print_changes(const struct rg_baseline *then, const struct rg_baseline *now,
+                              FILE *out);
 
 #endif

@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "harness/compare/gate/baseline/make.h"
+#include "harness/compare/gate/baseline/baseline.h"
 #include "harness/record/passport/key.h"
 
 // The changes of a cell, in one line.

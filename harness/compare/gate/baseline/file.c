@@ -6,7 +6,6 @@
 
 #include "core/base/log.h"
 #include "harness/compare/gate/baseline/baseline.h"
-#include "harness/compare/gate/run/slot.h"
 #include "harness/record/disk/document.h"
 #include "harness/record/disk/seal.h"
 #include "harness/record/output.h"

@@ -1,11 +1,10 @@
-#include "harness/compare/gate/baseline/make.h"
+#include "harness/compare/gate/baseline/baseline.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/compare/gate/baseline/take.h"
 #include "harness/console/interrupt.h"
 #include "harness/console/progress.h"
 #include "harness/record/passport/key.h"
@@ -16,10 +15,7 @@ struct make {
     struct rg_baseline *made;
     struct rg_side sides[RG_MAX_DEVICES];
     bool clean;                  // no device was closed badly
-    struct rg_timed_cell *cells; // of those rows that are timed
-    int *side_of;
-    struct rg_baseline_row **rows; // likewise
-    int timed_count;
+    struct rg_timed_cell *cells; // one a row; those of rows that are not OK are not timed
 };
 
 // --- what is the same every time ---
@@ -78,61 +74,56 @@ static bool take_all(struct make *m, const struct rg_devices *devices, struct rg
 
 static bool plan_times(struct make *m)
 {
-    const size_t count = (size_t)m->made->count;
-    m->cells = rg_alloc(count, sizeof(*m->cells), "baseline");
-    m->side_of = rg_alloc(count, sizeof(*m->side_of), "baseline");
-    m->rows = rg_alloc(count, sizeof(struct rg_baseline_row *), "baseline");
-    if (!m->cells || !m->side_of || !m->rows)
-        return false;
-    for (size_t i = 0; i < count; i++) {
-        const size_t cells = (size_t)m->asked->cells->count;
-        if (m->made->rows[i].outcome != RG_OK)
-            continue;
-        m->cells[m->timed_count] =
-            (struct rg_timed_cell){.cell = &m->asked->cells->cells[i % cells]};
-        m->side_of[m->timed_count] = (int)(i / cells);
-        m->rows[m->timed_count++] = &m->made->rows[i];
-    }
-    return true;
+    const int64_t cells = m->asked->cells->count;
+    m->cells = rg_alloc((size_t)m->made->count, sizeof(*m->cells), "baseline");
+    for (int64_t i = 0; m->cells && i < m->made->count; i++)
+        m->cells[i] = (struct rg_timed_cell){.cell = &m->asked->cells->cells[i % cells],
+                                             .sides = {NULL, &m->sides[i / cells]},
+                                             .outcome = m->made->rows[i].outcome};
+    return m->cells;
 }
 
-static void take_time(struct make *m, struct rg_lone_times *times, int number)
+static bool is_done(const struct make *m, int row)
 {
-    struct rg_launches *launches = &m->rows[number]->launches;
-    struct rg_timed_cell *cell = &m->cells[number];
+    return m->cells[row].outcome != RG_OK ||
+           m->made->rows[row].launches.count == m->asked->launches;
+}
+
+static void take_time(struct make *m, struct rg_gate_times *times, int row)
+{
+    struct rg_launches *launches = &m->made->rows[row].launches;
     struct rg_quads quads;
-    if (launches->count == m->asked->launches || cell->outcome != RG_OK ||
-        !rg_lone_take(number, false, &quads, times) || quads.is_disturbed)
-        return;
-    launches->ms[launches->count++] = rg_number_kept(quads.b_ms);
+    if (!is_done(m, row) && rg_times_take(row, false, &quads, times) && !quads.is_disturbed)
+        launches->ms[launches->count++] = rg_number_kept(quads.b_ms);
 }
 
 // Every launch begins with another row, and every second goes the other way. For launches that do
 // not count there are others, as many again.
-static bool time_all(struct make *m, struct rg_lone_times *times, struct rg_progress *bar)
+static bool time_all(struct make *m, struct rg_gate_times *times, struct rg_progress *bar)
 {
+    const int count = (int)m->made->count;
     for (int launch = 0; launch < 2 * m->asked->launches && !rg_interrupted(); launch++) {
-        bool is_done = true;
-        for (int i = 0; i < m->timed_count; i++)
-            is_done &=
-                m->cells[i].outcome != RG_OK || m->rows[i]->launches.count == m->asked->launches;
-        if (is_done)
+        int done = 0;
+        while (done < count && is_done(m, done))
+            done++;
+        if (done == count)
             break;
         rg_progress_label(bar, "launch %d", launch + 1);
-        rg_lone_launch(launch, times);
-        for (int i = 0; i < m->timed_count && !rg_interrupted(); i++) {
-            const int at = (i + launch / 2) % m->timed_count;
-            take_time(m, times, launch & 1 ? m->timed_count - 1 - at : at);
+        rg_times_launch(launch, times);
+        for (int i = 0; i < count && !rg_interrupted(); i++) {
+            const int at = (i + launch / 2) % count;
+            take_time(m, times, launch & 1 ? count - 1 - at : at);
         }
-        rg_progress_add(bar, m->timed_count);
+        rg_progress_add(bar, count);
     }
-    for (int i = 0; i < m->timed_count; i++) {
-        m->rows[i]->slot = m->cells[i].slot;
-        m->rows[i]->outcome = m->cells[i].outcome;
-        if (m->cells[i].outcome == RG_OK)
+    for (int i = 0; i < count; i++) {
+        struct rg_baseline_row *row = &m->made->rows[i];
+        row->slot = m->cells[i].slot;
+        if (row->outcome == m->cells[i].outcome)
             continue;
-        m->rows[i]->launches.count = 0; // a part of them is no time
-        rg_text_copy(m->rows[i]->why, sizeof(m->rows[i]->why), m->cells[i].why);
+        row->outcome = m->cells[i].outcome;
+        row->launches.count = 0; // a part of them is no time
+        rg_text_copy(row->why, sizeof(row->why), m->cells[i].why);
     }
     return !rg_interrupted();
 }
@@ -140,7 +131,7 @@ static bool time_all(struct make *m, struct rg_lone_times *times, struct rg_prog
 static bool take_times(struct make *m, struct rg_progress *bar)
 {
     struct rg_yardstick_room room = {NULL};
-    struct rg_lone_times times = {.side_count = m->made->device_count,
+    struct rg_gate_times times = {.side_count = m->made->device_count,
                                   .sides = m->sides,
                                   .room = &room,
                                   .yardsticks = m->made->yardsticks};
@@ -148,7 +139,6 @@ static bool take_times(struct make *m, struct rg_progress *bar)
         m->sides[i].name = m->made->devices[i].name;
     bool ok = rg_yardsticks_open(&room) && plan_times(m);
     times.cells = m->cells;
-    times.side_of = m->side_of;
     ok = ok && time_all(m, &times, bar);
     for (int i = 0; i < m->made->device_count; i++) {
         rg_side_close(&m->sides[i]);
@@ -170,8 +160,6 @@ bool rg_baseline_make(const struct rg_baseline_request *request, struct rg_devic
     m.clean = rg_devices_close(devices) && m.clean;
     ok = ok && (!request->launches || take_times(&m, &bar));
     rg_progress_end(&bar);
-    free(m.rows);
-    free(m.side_of);
     free(m.cells);
     *clean = m.clean;
     return ok && !rg_interrupted();

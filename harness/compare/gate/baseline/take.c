@@ -1,13 +1,9 @@
-#include "harness/compare/gate/baseline/take.h"
+#include "harness/compare/gate/baseline/baseline.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "core/base/log.h"
-#include "harness/compare/gate/run/slot.h"
-#include "harness/console/clock.h"
-#include "harness/console/interrupt.h"
 #include "harness/frames/frame.h"
 
 static struct rg_subject subject_of(const struct rg_gate_cell *cell)
@@ -112,65 +108,4 @@ bool rg_truth_close(struct rg_truth *truth)
     const bool clean = rg_device_close(truth->device);
     truth->device = NULL;
     return clean;
-}
-
-// --- times ---
-
-bool rg_lone_are_over(void *user)
-{
-    const struct rg_lone_times *t = user;
-    return rg_interrupted() || (t->end_ms > 0 && rg_now_ms() >= t->end_ms);
-}
-
-// A side is opened by the first of its rows, so that one that does not open harms no other.
-bool rg_lone_launch(int number, void *user)
-{
-    struct rg_lone_times *t = user;
-    (void)number;
-    for (int side = 0; side < t->side_count; side++)
-        rg_side_close(&t->sides[side]);
-    for (int i = 0; i < RG_YARDSTICKS; i++) {
-        struct rg_launches *of = &t->yardsticks[i];
-        const double ms = rg_yardstick_take(t->room, (enum rg_yardstick)i);
-        if (of->count < RG_BASELINE_LAUNCHES)
-            of->ms[of->count++] = ms;
-    }
-    return true;
-}
-
-static bool time_it(struct rg_timed_cell *timed, struct rg_session *session, struct rg_quads *quads)
-{
-    enum { SLOTS = 3 };
-    double warm_ms, slots_ms[SLOTS];
-    if (!rg_slot_warm_up(session, &warm_ms))
-        return false;
-    if (!timed->slot.frames)
-        rg_slot_settle(&timed->slot, warm_ms);
-    const struct rg_processor_time before = rg_processor_time();
-    for (int i = 0; i < SLOTS; i++)
-        if (!rg_slot_time(session, &timed->slot, &slots_ms[i]))
-            return false;
-    const double frame_ms = rg_median(slots_ms, SLOTS).median;
-    *quads = (struct rg_quads){
-        .log = log(frame_ms), .b_ms = frame_ms, .is_disturbed = rg_was_disturbed(&before)};
-    return true;
-}
-
-bool rg_lone_take(int row, bool b_first, struct rg_quads *quads, void *user)
-{
-    struct rg_lone_times *t = user;
-    struct rg_timed_cell *timed = &t->cells[row];
-    struct rg_side *side = &t->sides[t->side_of[row]];
-    const struct rg_subject subject = subject_of(timed->cell);
-    const double start_ms = rg_now_ms();
-    (void)b_first;
-    struct rg_session *session = side->device || rg_side_launch(side)
-                                     ? rg_session_run(side->device, &subject, timed->cell->frames)
-                                     : NULL;
-    const bool ok = session && time_it(timed, session, quads);
-    if (!ok)
-        rg_timed_cell_fails(timed);
-    rg_session_close(session);
-    timed->seconds += (rg_now_ms() - start_ms) / 1000;
-    return ok && !rg_interrupted();
 }

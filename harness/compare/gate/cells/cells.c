@@ -1,9 +1,11 @@
 #include "harness/compare/gate/cells/cells.h"
 
 #include <ctype.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <xxhash.h>
 
 #include "core/base/array.h"
 #include "core/base/log.h"
@@ -116,13 +118,19 @@ static bool take_fields(struct rg_gate_cell *cell, char *text)
            take_frames(cell, frames) && take_settings(cell, assignments);
 }
 
+const struct rg_gate_cell *rg_gate_cells_find(const struct rg_gate_cells *cells, const char *name)
+{
+    for (const struct rg_gate_cell *cell = cells->cells; cell < cells->cells + cells->count; cell++)
+        if (!strcmp(cell->name, name))
+            return cell;
+    return NULL;
+}
+
 static bool is_alone(const struct rg_gate_cells *cells, const struct rg_gate_cell *cell)
 {
-    for (const struct rg_gate_cell *other = cells->cells; other < cell; other++)
-        if (!strcmp(other->name, cell->name))
-            return rg_error("name '%s': line %d has it already; take another", cell->name,
-                            other->line);
-    return true;
+    const struct rg_gate_cell *first = rg_gate_cells_find(cells, cell->name);
+    return first == cell ||
+           rg_error("name '%s': line %d has it already; take another", cell->name, first->line);
 }
 
 static bool take_line(struct rg_gate_cells *cells, char *text, int line)
@@ -183,4 +191,26 @@ void rg_gate_cells_free(struct rg_gate_cells *cells)
     }
     free(cells->cells);
     *cells = (struct rg_gate_cells){.count = 0};
+}
+
+// --- digests ---
+
+void rg_digest_of(const void *bytes, size_t size, char digest[RG_DIGEST_SIZE])
+{
+    snprintf(digest, RG_DIGEST_SIZE, "%016" PRIx64, (uint64_t)XXH3_64bits(bytes, size));
+}
+
+void rg_digest_of_cell(const struct rg_gate_cell *cell, char digest[RG_DIGEST_SIZE])
+{
+    const struct rg_param_table *table = cell->technique->params;
+    char line[RG_PATH_SIZE + 128], value[RG_PATH_SIZE];
+    snprintf(line, sizeof(line), "%s %dx%d %d", cell->technique->name, cell->width, cell->height,
+             cell->frames);
+    uint64_t hash = XXH3_64bits(line, strlen(line));
+    for (int i = 0; i < table->count; i++) {
+        rg_params_text(&table->rows[i], cell->settings, value, sizeof(value));
+        snprintf(line, sizeof(line), "%s=%s", table->rows[i].name, value);
+        hash = XXH3_64bits_withSeed(line, strlen(line), hash);
+    }
+    snprintf(digest, RG_DIGEST_SIZE, "%016" PRIx64, hash);
 }

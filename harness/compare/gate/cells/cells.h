@@ -28,7 +28,17 @@ struct rg_gate_cells {
 bool rg_gate_cells_read(const char *path, struct rg_gate_cells *cells);
 // The same of a text in memory.
 bool rg_gate_cells_of(const char *name, const char *text, size_t size, struct rg_gate_cells *cells);
+// The cell of this name; NULL where there is none.
+const struct rg_gate_cell *rg_gate_cells_find(const struct rg_gate_cells *cells, const char *name);
 void rg_gate_cells_free(struct rg_gate_cells *cells);
+
+// Digests, which equal things have equal.
+enum { RG_DIGEST_SIZE = 17 };
+
+// XXH3 in 16 hexadecimal digits.
+void rg_digest_of(const void *bytes, size_t size, char digest[RG_DIGEST_SIZE]);
+// Of all that a cell is: technique, size, frames and every parameter, those by default too.
+void rg_digest_of_cell(const struct rg_gate_cell *cell, char digest[RG_DIGEST_SIZE]);
 
 // The text of those that are built in, to begin a file of one's own with.
 extern const char rg_gate_cells_text[];

@@ -23,8 +23,7 @@ static void put_command_text(FILE *out, const char *text, bool is_property)
 // The command that annotates an ending; NULL: none does.
 static const char *command_of(enum rg_ending ending)
 {
-    const enum rg_ending_kind kind = rg_ending_kind(ending);
-    if (kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR)
+    if (rg_ending_fails(ending))
         return "error";
     return ending == RG_ENDING_INCONCLUSIVE || ending == RG_ENDING_FLAKE ? "warning" : NULL;
 }
@@ -35,16 +34,14 @@ bool rg_report_annotations(const struct rg_report *report, FILE *out)
     for (int i = 0, count = 0; order && i < report->case_count && count < RG_ANNOTATIONS; i++) {
         const struct rg_report_case *told = &report->cases[order[i]];
         const char *command = command_of(told->ending);
-        char measured[RG_REPORT_MEASURED];
-        rg_report_measured(told, measured, sizeof(measured));
         if (!command)
             continue;
         fprintf(out, "::%s title=", command);
         put_command_text(out, told->name, true);
         fprintf(out, "::%s: ", rg_ending_name(told->ending));
         put_command_text(out, told->message, false);
-        fputs(*measured ? "%0A" : "", out);
-        put_command_text(out, measured, false);
+        fputs(*told->measured ? "%0A" : "", out);
+        put_command_text(out, told->measured, false);
         fputc('\n', out);
         count++;
     }
@@ -62,8 +59,9 @@ static void put_escaped(FILE *out, const char *text)
         fprintf(out, strchr("\\`*_{}[]<>()#|~&!$", *text) ? "\\%c" : "%c", *text);
 }
 
-static void make_head(FILE *out, const struct rg_report *report)
+static void make_head(FILE *out, const struct rg_report *report, int number)
 {
+    (void)number;
     char summary[RG_REPORT_SUMMARY];
     rg_report_summary(report, summary);
     fprintf(out, "## raingauge gate: %s\n\n", summary);
@@ -71,16 +69,17 @@ static void make_head(FILE *out, const struct rg_report *report)
         fprintf(out, "| outcome | case | why | measured |\n|---|---|---|---|\n");
 }
 
-static void make_row(FILE *out, const struct rg_report_case *told)
+static void make_row(FILE *out, const struct rg_report *report, int number)
 {
-    char measured[RG_REPORT_MEASURED];
-    rg_report_measured(told, measured, sizeof(measured));
+    const struct rg_report_case *told = &report->cases[number];
+    if (told->ending == RG_ENDING_PASS)
+        return;
     fprintf(out, "| %s | ", rg_ending_name(told->ending));
     put_escaped(out, told->name);
     fprintf(out, " | ");
     put_escaped(out, told->message);
     fprintf(out, " | ");
-    put_escaped(out, measured);
+    put_escaped(out, told->measured);
     fprintf(out, " |\n");
 }
 
@@ -109,8 +108,11 @@ static void put_block(FILE *out, const char *text)
     fprintf(out, "\n");
 }
 
-static void make_details(FILE *out, const struct rg_report_case *told)
+static void make_details(FILE *out, const struct rg_report *report, int number)
 {
+    const struct rg_report_case *told = &report->cases[number];
+    if (told->ending == RG_ENDING_PASS || (!*told->details && !told->attachment_count))
+        return;
     fprintf(out, "\n### ");
     put_escaped(out, told->name);
     fprintf(out, "\n\n");
@@ -127,52 +129,37 @@ static void make_details(FILE *out, const struct rg_report_case *told)
 struct page {
     FILE *out;
     size_t room;
+    int left_out;   // of the parts that are made now
     bool is_broken; // without memory
 };
 
-// Writes one part if it fits.
-static bool put_part(struct page *page, const struct rg_report *report,
-                     const struct rg_report_case *told,
-                     void (*make)(FILE *out, const struct rg_report_case *told))
+// Writes a part if it fits and none before it was left out.
+static void put_part(struct page *page, char *text, size_t size)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (out && told)
-        make(out, told);
-    else if (out)
-        make_head(out, report);
-    const bool is_held = out && !ferror(out);
-    page->is_broken = !(out && fclose(out) == 0 && is_held);
-    const bool fits = !page->is_broken && size + NOTE <= page->room;
-    if (fits)
+    const bool fits = !page->left_out && size + NOTE <= page->room;
+    if (size && fits)
         page->room -= fwrite(text, 1, size, page->out);
-    free(text);
-    return fits;
+    page->left_out += size && !fits;
 }
 
-static bool has_details(const struct rg_report_case *told)
+// Makes a part of each case that `order` names, in this order; how many are left out.
+static int put_parts(struct page *page, const struct rg_report *report, const int *order, int count,
+                     void (*make)(FILE *out, const struct rg_report *report, int number))
 {
-    return told->ending != RG_ENDING_PASS && (*told->details || told->attachment_count);
-}
-
-static bool has_row(const struct rg_report_case *told)
-{
-    return told->ending != RG_ENDING_PASS;
-}
-
-// Writes parts of those cases that have one, in order, as many as fit; how many do not.
-static int put_parts(struct page *page, const struct rg_report *report, const int *order,
-                     bool (*has)(const struct rg_report_case *told),
-                     void (*make)(FILE *out, const struct rg_report_case *told))
-{
-    int left_out = 0;
-    for (int i = 0; i < report->case_count; i++) {
-        const struct rg_report_case *told = &report->cases[order[i]];
-        if (has(told) && (left_out || !put_part(page, report, told, make)))
-            left_out++;
+    page->left_out = 0;
+    for (int i = 0; i < count && !page->is_broken; i++) {
+        char *text = NULL;
+        size_t size = 0;
+        FILE *out = open_memstream(&text, &size);
+        if (out)
+            make(out, report, order[i]);
+        const bool is_held = out && !ferror(out);
+        page->is_broken = !(out && fclose(out) == 0 && is_held);
+        if (!page->is_broken)
+            put_part(page, text, size);
+        free(text);
     }
-    return left_out;
+    return page->left_out;
 }
 
 // What the steps before have left of GitHub's limit.
@@ -186,18 +173,20 @@ static size_t room_of(FILE *out)
 
 bool rg_report_markdown(const struct rg_report *report, FILE *out)
 {
+    const int count = report->case_count;
     int *order = rg_report_worst_first(report);
-    struct page page = {out, room_of(out), false};
+    struct page page = {out, room_of(out), 0, false};
     if (!order)
         return false;
-    if (put_part(&page, report, NULL, NULL)) {
-        const int rows = put_parts(&page, report, order, has_row, make_row);
-        const int details = put_parts(&page, report, order, has_details, make_details);
-        if (rows || details)
+    if (!put_parts(&page, report, &(int){0}, 1, make_head)) {
+        const int rows = put_parts(&page, report, order, count, make_row);
+        const int details = put_parts(&page, report, order, count, make_details);
+        if ((rows || details) && !page.is_broken)
             fprintf(out, "\nLeft out, for GitHub takes no more: %d cases, and the details of %d.\n",
                     rows, details);
-    } else if (!page.is_broken)
+    } else if (!page.is_broken) {
         rg_warning("the step's summary has no room left; write less to it before the gate");
+    }
     free(order);
     return !page.is_broken || rg_harness_error("a step's summary: no memory; close other programs");
 }

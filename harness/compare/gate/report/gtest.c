@@ -1,41 +1,25 @@
 #include "harness/compare/gate/report/gtest.h"
 
+#include <errno.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
-// --- the filter ---
+#include "core/base/files/file.h"
+#include "core/base/log.h"
+#include "harness/compare/gate/text/glob.h"
 
-// Whether a pattern, which ends at `end`, matches all of a name. After a mismatch the last "*"
-// takes one character more: no earlier one need be tried again.
-static bool matches_pattern(const char *pattern, const char *end, const char *name)
-{
-    const char *star = NULL, *taken = name;
-    while (*name) {
-        if (pattern < end && *pattern == '*') {
-            star = pattern++;
-            taken = name;
-        } else if (pattern < end && (*pattern == '?' || *pattern == *name)) {
-            pattern++;
-            name++;
-        } else if (star) {
-            pattern = star + 1;
-            name = ++taken;
-        } else
-            return false;
-    }
-    while (pattern < end && *pattern == '*')
-        pattern++;
-    return pattern == end;
-}
+// --- the filter ---
 
 // Whether one of the patterns between `filter` and `end` does.
 static bool matches_any(const char *filter, const char *end, const char *name)
 {
     for (;;) {
         const char *colon = memchr(filter, ':', (size_t)(end - filter));
-        if (matches_pattern(filter, colon ? colon : end, name))
+        if (rg_glob_part(filter, (size_t)((colon ? colon : end) - filter), name))
             return true;
         if (!colon)
             return false;
@@ -136,10 +120,9 @@ static void put_text(FILE *out, const char *text)
 
 static const char *word_of(enum rg_ending ending)
 {
-    const enum rg_ending_kind kind = rg_ending_kind(ending);
-    return kind == RG_KIND_PASS      ? "[       OK ]"
-           : kind == RG_KIND_SKIPPED ? "[  SKIPPED ]"
-                                     : "[  FAILED  ]";
+    return !rg_ending_element(ending) ? "[       OK ]"
+           : rg_ending_fails(ending)  ? "[  FAILED  ]"
+                                      : "[  SKIPPED ]";
 }
 
 static int64_t ms_of(double seconds)
@@ -153,27 +136,15 @@ static const char *tests(int count)
     return count == 1 ? "test" : "tests";
 }
 
-void rg_gtest_begin(FILE *out, int count)
-{
-    fprintf(out, "[==========] Running %d %s.\n", count, tests(count));
-}
-
-void rg_gtest_run(FILE *out, const char *name)
+static void put_case(FILE *out, const struct rg_report_case *told)
 {
     char made[RG_GTEST_NAME];
-    rg_gtest_name(name, made);
-    fprintf(out, "[ RUN      ] %s\n", made);
-}
-
-void rg_gtest_result(FILE *out, const struct rg_report_case *told)
-{
-    char made[RG_GTEST_NAME], measured[RG_REPORT_MEASURED];
     rg_gtest_name(told->name, made);
-    rg_report_measured(told, measured, sizeof(measured));
+    fprintf(out, "[ RUN      ] %s\n", made);
     put_text(out, told->name);
     put_text(out, rg_ending_name(told->ending));
     put_text(out, told->message);
-    put_text(out, measured);
+    put_text(out, told->measured);
     put_text(out, told->details);
     fprintf(out, "%s %s (%" PRId64 " ms)\n", word_of(told->ending), made, ms_of(told->seconds));
 }
@@ -194,13 +165,13 @@ static void put_listed(FILE *out, const struct rg_report *report, const char *wo
     }
 }
 
-void rg_gtest_end(FILE *out, const struct rg_report *report)
+static void put_sums(FILE *out, const struct rg_report *report)
 {
     double seconds = 0;
     int passed = 0;
     for (int i = 0; i < report->case_count; i++) {
         seconds += isfinite(report->cases[i].seconds) ? report->cases[i].seconds : 0;
-        passed += rg_ending_kind(report->cases[i].ending) == RG_KIND_PASS;
+        passed += !rg_ending_element(report->cases[i].ending);
     }
     fprintf(out, "[==========] %d %s ran. (%" PRId64 " ms total)\n", report->case_count,
             tests(report->case_count), ms_of(seconds));
@@ -211,11 +182,56 @@ void rg_gtest_end(FILE *out, const struct rg_report *report)
 
 bool rg_gtest_print(const struct rg_report *report, FILE *out)
 {
-    rg_gtest_begin(out, report->case_count);
-    for (int i = 0; i < report->case_count; i++) {
-        rg_gtest_run(out, report->cases[i].name);
-        rg_gtest_result(out, &report->cases[i]);
-    }
-    rg_gtest_end(out, report);
+    fprintf(out, "[==========] Running %d %s.\n", report->case_count, tests(report->case_count));
+    for (int i = 0; i < report->case_count; i++)
+        put_case(out, &report->cases[i]);
+    put_sums(out, report);
     return true;
+}
+
+// --- shards ---
+
+static bool read_number(const char *variable, int *number)
+{
+    const char *text = getenv(variable);
+    char *end;
+    const long value = strtol(text, &end, 10);
+    *number = (int)value;
+    return (end != text && !*end && value >= 0 && value <= INT_MAX) ||
+           rg_error(
+               "%s '%.40s': must be a whole number from 0 to %d; unset it, or count shards with "
+               "it",
+               variable, text, INT_MAX);
+}
+
+// The file by which a runner knows that shards are understood: it need only be there, so that what
+// it holds already stays.
+static bool tell_runner(void)
+{
+    const char *path = getenv("GTEST_SHARD_STATUS_FILE"), *why;
+    if (!path || !*path)
+        return true;
+    FILE *file = rg_file_append(path, &why);
+    return (file && fclose(file) == 0) ||
+           rg_system_error(errno,
+                           "%s: cannot be written: %s; $GTEST_SHARD_STATUS_FILE names a file", path,
+                           file ? strerror(errno) : why);
+}
+
+bool rg_gtest_shards(struct rg_gtest_shards *shards)
+{
+    const bool has_total = getenv("GTEST_TOTAL_SHARDS"), has_index = getenv("GTEST_SHARD_INDEX");
+    *shards = (struct rg_gtest_shards){.total = 1};
+    if (!tell_runner())
+        return false;
+    if (!has_total && !has_index)
+        return true;
+    if (!has_total || !has_index)
+        return rg_error("GTEST_TOTAL_SHARDS and GTEST_SHARD_INDEX: one of them is not set; set "
+                        "both, or none");
+    return read_number("GTEST_TOTAL_SHARDS", &shards->total) &&
+           read_number("GTEST_SHARD_INDEX", &shards->index) &&
+           (shards->index < shards->total ||
+            rg_error("GTEST_SHARD_INDEX %d: must be below GTEST_TOTAL_SHARDS, which is %d",
+                     shards->index, shards->total));
 }

@@ -36,12 +36,7 @@ void rg_gtest_name(const char *name, char made[RG_GTEST_NAME]);
 // --gtest_list_tests: the cases that the filter lets through, by suite; none need have run.
 void rg_gtest_list(FILE *out, const struct rg_report *report, const char *filter);
 
-// The first line; before a case begins; when it has ended; at the end, of all that ran.
-void rg_gtest_begin(FILE *out, int count);
-void rg_gtest_run(FILE *out, const char *name);
-void rg_gtest_result(FILE *out, const struct rg_report_case *told);
-void rg_gtest_end(FILE *out, const struct rg_report *report);
-// All of these, of a report that is whole.
+// What googletest prints of a run of these cases.
 bool rg_gtest_print(const struct rg_report *report, FILE *out);
 
 #endif

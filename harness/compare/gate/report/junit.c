@@ -104,10 +104,8 @@ static size_t most_of_details(const struct rg_report *report, size_t room)
 // What a reader of the body sees without the attributes: the message comes again.
 static void put_body(FILE *out, const struct rg_report_case *told, size_t most)
 {
-    char measured[RG_REPORT_MEASURED];
-    rg_report_measured(told, measured, sizeof(measured));
     put(out, told->message, strlen(told->message), false);
-    fprintf(out, *measured ? "\n%s" : "%s", measured);
+    fprintf(out, *told->measured ? "\n%s" : "%s", told->measured);
     if (*told->details)
         put_details(out, told->details, most);
 }
@@ -131,46 +129,50 @@ static void put_attachments(FILE *out, const struct rg_report_case *told)
 // What passed has its body in system-err: in system-out a message could name a file as a picture.
 static void put_case(FILE *out, const struct rg_report_case *told, size_t most)
 {
-    static const char *const elements[] = {[RG_KIND_PASS] = "system-err",
-                                           [RG_KIND_FAILURE] = "failure",
-                                           [RG_KIND_ERROR] = "error",
-                                           [RG_KIND_SKIPPED] = "skipped"};
-    const enum rg_ending_kind kind = rg_ending_kind(told->ending);
+    const char *element = rg_ending_element(told->ending);
+    const bool passes = !element;
     fprintf(out, "  <testcase");
     put_attribute(out, "name", told->name);
     put_attribute(out, "classname", told->technique);
     fprintf(out, " time=\"%.3f\">\n", seconds_of(told->seconds));
-    if (kind == RG_KIND_PASS)
+    if (passes)
         put_attachments(out, told); // system-out stands before system-err
-    fprintf(out, "   <%s", elements[kind]);
-    if (kind != RG_KIND_PASS)
+    fprintf(out, "   <%s", passes ? "system-err" : element);
+    if (!passes)
         put_attribute(out, "message", told->message);
-    if (kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR)
+    if (rg_ending_fails(told->ending))
         put_attribute(out, "type", rg_ending_name(told->ending));
     fputc('>', out);
     fprintf(out, "%s: ", rg_ending_name(told->ending));
     put_body(out, told, most);
-    fprintf(out, "</%s>\n", elements[kind]);
-    if (kind != RG_KIND_PASS)
+    fprintf(out, "</%s>\n", passes ? "system-err" : element);
+    if (!passes)
         put_attachments(out, told);
     fprintf(out, "  </testcase>\n");
 }
 
 // --- the file ---
 
+static int count_of(const struct rg_report *report, const char *element)
+{
+    int count = 0;
+    for (int i = 0; i < report->case_count; i++) {
+        const char *of = rg_ending_element(report->cases[i].ending);
+        count += of && !strcmp(of, element);
+    }
+    return count;
+}
+
 static void put_head(FILE *out, const struct rg_report *report, const char *element)
 {
-    int kinds[RG_KIND_SKIPPED + 1] = {0};
     double seconds = 0;
-    for (int i = 0; i < report->case_count; i++) {
-        kinds[rg_ending_kind(report->cases[i].ending)]++;
+    for (int i = 0; i < report->case_count; i++)
         seconds += seconds_of(report->cases[i].seconds);
-    }
     fprintf(out,
             "<%s name=\"raingauge gate\" tests=\"%d\" failures=\"%d\" errors=\"%d\" "
             "skipped=\"%d\" time=\"%.3f\">\n",
-            element, report->case_count, kinds[RG_KIND_FAILURE], kinds[RG_KIND_ERROR],
-            kinds[RG_KIND_SKIPPED], seconds);
+            element, report->case_count, count_of(report, "failure"), count_of(report, "error"),
+            count_of(report, "skipped"), seconds);
 }
 
 static void put_report(FILE *out, const struct rg_report *report, size_t most)

@@ -11,26 +11,27 @@
 #include "core/base/array.h"
 #include "core/image/files/temporary.h"
 #include "harness/compare/gate/report/texts.h"
+#include "harness/console/exit.h"
 
 static const struct {
-    const char *name;
-    enum rg_ending_kind kind;
+    const char *name, *element;
+    int exit;
 } endings[RG_ENDING_COUNT] = {
-    [RG_ENDING_CRASH] = {"crash", RG_KIND_ERROR},
-    [RG_ENDING_TIMEOUT] = {"timeout", RG_KIND_ERROR},
-    [RG_ENDING_ERROR] = {"error", RG_KIND_ERROR},
-    [RG_ENDING_LACKING] = {"lacking", RG_KIND_ERROR},
-    [RG_ENDING_DIFFERS] = {"differs", RG_KIND_FAILURE},
-    [RG_ENDING_UNEXPECTED_PASS] = {"unexpected pass", RG_KIND_FAILURE},
-    [RG_ENDING_NOTHING_MEASURED] = {"nothing measured", RG_KIND_ERROR},
-    [RG_ENDING_REGRESSED] = {"regressed", RG_KIND_FAILURE},
-    [RG_ENDING_INCONCLUSIVE] = {"inconclusive", RG_KIND_SKIPPED},
-    [RG_ENDING_FLAKE] = {"flake", RG_KIND_SKIPPED},
-    [RG_ENDING_EXPECTED_FAILURE] = {"expected failure", RG_KIND_SKIPPED},
-    [RG_ENDING_UNSUPPORTED] = {"unsupported", RG_KIND_SKIPPED},
-    [RG_ENDING_SKIPPED] = {"skipped", RG_KIND_SKIPPED},
-    [RG_ENDING_IMPROVED] = {"improved", RG_KIND_PASS},
-    [RG_ENDING_PASS] = {"pass", RG_KIND_PASS},
+    [RG_ENDING_CRASH] = {"crash", "error", RG_EXIT_FAIL},
+    [RG_ENDING_TIMEOUT] = {"timeout", "error", RG_EXIT_FAIL},
+    [RG_ENDING_ERROR] = {"error", "error", RG_EXIT_FAIL},
+    [RG_ENDING_LACKING] = {"lacking", "error", RG_EXIT_HARNESS},
+    [RG_ENDING_DIFFERS] = {"differs", "failure", RG_EXIT_FAIL},
+    [RG_ENDING_UNEXPECTED_PASS] = {"unexpected pass", "failure", RG_EXIT_FAIL},
+    [RG_ENDING_NOTHING_MEASURED] = {"nothing measured", "error", RG_EXIT_NOTHING},
+    [RG_ENDING_REGRESSED] = {"regressed", "failure", RG_EXIT_FAIL},
+    [RG_ENDING_INCONCLUSIVE] = {"inconclusive", "skipped", RG_EXIT_INCONCLUSIVE},
+    [RG_ENDING_FLAKE] = {"flake", "skipped", RG_EXIT_PASS},
+    [RG_ENDING_EXPECTED_FAILURE] = {"expected failure", "skipped", RG_EXIT_PASS},
+    [RG_ENDING_UNSUPPORTED] = {"unsupported", "skipped", RG_EXIT_UNSUPPORTED},
+    [RG_ENDING_SKIPPED] = {"skipped", "skipped", RG_EXIT_PASS},
+    [RG_ENDING_IMPROVED] = {"improved", NULL, RG_EXIT_PASS},
+    [RG_ENDING_PASS] = {"pass", NULL, RG_EXIT_PASS},
 };
 
 const char *rg_ending_name(enum rg_ending ending)
@@ -38,9 +39,20 @@ const char *rg_ending_name(enum rg_ending ending)
     return endings[ending].name;
 }
 
-enum rg_ending_kind rg_ending_kind(enum rg_ending ending)
+const char *rg_ending_element(enum rg_ending ending)
 {
-    return endings[ending].kind;
+    return endings[ending].element;
+}
+
+int rg_ending_exit(enum rg_ending ending)
+{
+    return endings[ending].exit;
+}
+
+bool rg_ending_fails(enum rg_ending ending)
+{
+    const int exit = endings[ending].exit;
+    return exit == RG_EXIT_FAIL || exit == RG_EXIT_NOTHING || exit == RG_EXIT_HARNESS;
 }
 
 // --- texts that the report owns ---
@@ -113,6 +125,23 @@ static const char *keep_name(struct rg_report *report, const char *name)
 
 // --- a report ---
 
+static const char *keep_measured(struct rg_report *report, const struct rg_report_case *found)
+{
+    enum { MEASURED = 160 };
+    const struct rg_bounded *ratio = &found->ratio;
+    char text[MEASURED] = "";
+    int length = 0;
+    if (isfinite(ratio->value))
+        length = snprintf(text, MEASURED, "ratio %.4g", ratio->value);
+    if (length && isfinite(ratio->low) && isfinite(ratio->high))
+        length += snprintf(text + length, (size_t)(MEASURED - length), " (%.4g to %.4g)",
+                           ratio->low, ratio->high);
+    if (length && isfinite(found->smallest_visible))
+        snprintf(text + length, (size_t)(MEASURED - length), ", would have seen %.3g %%",
+                 100 * found->smallest_visible);
+    return keep_text(report, text, true);
+}
+
 bool rg_report_add(struct rg_report *report, const struct rg_report_case *found)
 {
     struct rg_report_case added = *found;
@@ -120,10 +149,11 @@ bool rg_report_add(struct rg_report *report, const struct rg_report_case *found)
     added.technique = keep_line(report, found->technique);
     added.message = keep_line(report, found->message);
     added.details = keep_text(report, found->details, false);
+    added.measured = keep_measured(report, found);
     added.devices = keep_lines(report, found->devices, found->device_count);
     added.attachments = keep_lines(report, found->attachments, found->attachment_count);
-    if (!added.name || !added.technique || !added.message || !added.details || !added.devices ||
-        !added.attachments ||
+    if (!added.name || !added.technique || !added.message || !added.details || !added.measured ||
+        !added.devices || !added.attachments ||
         !rg_array_fit(&report->cases, &report->case_room, report->case_count + 1,
                       sizeof(*report->cases), "cases of a report"))
         return false;
@@ -179,21 +209,6 @@ bool rg_report_write(const struct rg_report *report, rg_report_writer form, cons
     const bool is_whole = is_made && is_written;
     return rg_temporary_end(&temporary, is_whole, &why) ? is_whole
                                                         : is_whole && rg_why_tell(&why, path);
-}
-
-void rg_report_measured(const struct rg_report_case *told, char *text, size_t size)
-{
-    const struct rg_bounded *ratio = &told->ratio;
-    *text = 0;
-    if (!isfinite(ratio->value))
-        return;
-    int length = snprintf(text, size, "ratio %.4g", ratio->value);
-    if (isfinite(ratio->low) && isfinite(ratio->high))
-        length += snprintf(text + length, size - (size_t)length, " (%.4g to %.4g)", ratio->low,
-                           ratio->high);
-    if (isfinite(told->smallest_visible))
-        snprintf(text + length, size - (size_t)length, ", would have seen %.3g %%",
-                 100 * told->smallest_visible);
 }
 
 void rg_report_summary(const struct rg_report *report, char text[RG_REPORT_SUMMARY])

@@ -30,17 +30,15 @@ enum rg_ending {
 };
 enum { RG_ENDING_COUNT = RG_ENDING_PASS + 1 };
 
-// What every form makes of an ending.
-enum rg_ending_kind {
-    RG_KIND_PASS,    // pass, improved
-    RG_KIND_FAILURE, // the result is wrong: differs, regressed, unexpected pass
-    RG_KIND_ERROR,   // there is no result: crash, timeout, error, nothing measured
-    RG_KIND_SKIPPED, // there is none that counts
-};
-
 // "unexpected pass": the words of all forms.
 const char *rg_ending_name(enum rg_ending ending);
-enum rg_ending_kind rg_ending_kind(enum rg_ending ending);
+// JUnit's word for it: "failure" where the result is wrong, "error" where there is none, "skipped"
+// where there is none that counts; NULL: it passes.
+const char *rg_ending_element(enum rg_ending ending);
+// An enum rg_exit: how a gate ends that has nothing worse.
+int rg_ending_exit(enum rg_ending ending);
+// Whether it is a failure or an error.
+bool rg_ending_fails(enum rg_ending ending);
 
 // A number with the ends of its interval; NAN: unknown.
 struct rg_bounded {
@@ -62,6 +60,9 @@ struct rg_report_case {
     double smallest_visible;   // change that could have been seen, 0.02 for 2 %; NAN: unknown
     struct rg_bounded time_ms; // median time of a sample of what is tested
     double baseline_ms;        // the same of what it is held against; NAN: unknown
+    // "ratio 1.052 (1.031 to 1.074), would have seen 2 %": what was measured; "" where nothing was.
+    // The report makes it.
+    const char *measured;
 };
 
 struct rg_report {
@@ -97,9 +98,6 @@ int rg_report_count(const struct rg_report *report, enum rg_ending ending);
 // them. NULL, and one logged line, without memory.
 int *rg_report_worst_first(const struct rg_report *report);
 
-// "ratio 1.052 (1.031 to 1.074), would have seen 2 %": what was measured; "" where nothing was.
-enum { RG_REPORT_MEASURED = 160 };
-void rg_report_measured(const struct rg_report_case *told, char *text, size_t size);
 // "14 cases, 1 crash, 13 pass": each that passes, differs or has a ratio was compared. Of those
 // that are expected to fail, "; 1 of them compared nothing".
 enum { RG_REPORT_SUMMARY = 512 };

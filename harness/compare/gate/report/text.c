@@ -59,25 +59,23 @@ static void put_below(FILE *out, const char *about, const char *text)
 
 // --- a report ---
 
-static const char *colour_of(enum rg_ending_kind kind)
+static const char *colour_of(enum rg_ending ending)
 {
-    return kind == RG_KIND_PASS ? RG_GREEN : kind == RG_KIND_SKIPPED ? RG_YELLOW : RG_RED;
+    return !rg_ending_element(ending) ? RG_GREEN : rg_ending_fails(ending) ? RG_RED : RG_YELLOW;
 }
 
 static void put_case(FILE *out, const struct rg_report_case *told, bool is_coloured)
 {
     enum { ENDING = 18 };
-    char measured[RG_REPORT_MEASURED];
     const char *ending = rg_ending_name(told->ending);
-    rg_report_measured(told, measured, sizeof(measured));
     if (is_coloured)
-        fprintf(out, "%s%s" RG_PLAIN, colour_of(rg_ending_kind(told->ending)), ending);
+        fprintf(out, "%s%s" RG_PLAIN, colour_of(told->ending), ending);
     else
         fprintf(out, "%s", ending);
     fprintf(out, "%*s", ENDING - (int)strlen(ending), "");
     put_wrapped(out, told->name, ENDING);
     put_below(out, "", told->message);
-    put_below(out, "", measured);
+    put_below(out, "", told->measured);
     put_below(out, "", told->details);
     for (int i = 0; i < told->attachment_count; i++)
         put_below(out, "picture: ", told->attachments[i]);

@@ -80,11 +80,3 @@ size_t rg_texts_fit(const char *text, size_t size)
         size--;
     return size;
 }
-
-int rg_texts_width(const char *text, size_t bytes)
-{
-    int width = 0;
-    for (size_t i = 0; i < bytes; i++)
-        width += (text[i] & 0xc0) != 0x80;
-    return width;
-}

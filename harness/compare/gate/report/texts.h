@@ -12,7 +12,4 @@ char *rg_texts_clean(const char *text, bool is_line);
 // The most bytes of clean text, up to `size`, that end in a whole character.
 size_t rg_texts_fit(const char *text, size_t size);
 
-// How many characters a clean text has.
-int rg_texts_width(const char *text, size_t bytes);
-
 #endif

@@ -1,136 +1,226 @@
 #include "harness/compare/gate/run/agree.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "harness/frames/session.h"
-
-// A cell on both sides, while it is compared.
-struct pair {
-    const struct rg_gate_cell *cell;
-    struct rg_side *sides;
-    struct rg_subject subject;
-    struct rg_session *sessions[RG_SIDES];
-    struct rg_agreement *found;
+// What a side left of a cell, or what a baseline has of it.
+struct left {
+    struct rg_baseline_row row;
+    struct rg_picture picture;
 };
 
-static const struct rg_device_info *info_of(const struct pair *p, int side)
+// Adds to what is to be known.
+__attribute__((format(printf, 2, 3))) static void say(struct rg_agreement *agreement,
+                                                      const char *format, ...)
 {
-    return &p->sides[side].device->info;
+    const size_t used = strlen(agreement->message), room = RG_AGREEMENT_TEXT - used;
+    const int gap = used ? snprintf(agreement->message + used, room, "; ") : 0;
+    va_list args;
+    va_start(args, format);
+    if ((size_t)gap < room)
+        vsnprintf(agreement->message + used + gap, room - (size_t)gap, format, args);
+    va_end(args);
 }
 
-static bool owe_bits(const struct pair *p)
+// --- what did not run ---
+
+static bool did_run(enum rg_outcome outcome)
 {
-    return rg_tier_owed(info_of(p, RG_SIDE_A), info_of(p, RG_SIDE_B)) == RG_T0;
+    return outcome == RG_OK || outcome == RG_FAIL;
 }
 
-// Ends it with what the last error comes to, on a side.
-static bool fail_by_error(struct pair *p, int side)
+// Makes of what is unsupported now, a device that is not there or a cell that it cannot run, a
+// difference, where it ran when the baseline was made.
+static void end_by(const struct rg_baseline_row *before, struct rg_agreement *agreement)
 {
-    return rg_agreement_fails(p->found, p->sides[side].name);
+    char why[RG_AGREEMENT_TEXT];
+    if (!before || agreement->outcome != RG_UNSUPPORTED || !did_run(before->outcome))
+        return;
+    memcpy(why, agreement->message, sizeof(why));
+    rg_agreement_differs(agreement, "it ran when the baseline was made: %.500s", why);
 }
 
-// --- pictures ---
-
-static bool have_alike_pictures(struct pair *p)
+void rg_gate_agree_fails(struct rg_gate_case *c, const char *device)
 {
-    struct rg_drawn drawn[RG_SIDES] = {{p->sides[0].name, {0}}, {p->sides[1].name, {0}}};
-    bool ok = rg_alike_has_room(p->cell, p->found);
-    for (int side = 0; ok && side < RG_SIDES; side++)
-        ok = rg_session_read_picture(p->sessions[side], &drawn[side].picture) ||
-             fail_by_error(p, side);
-    ok = ok && rg_alike_pictures(p->cell, p->sides[RG_SIDE_A].device,
-                                 rg_tier_owed(info_of(p, RG_SIDE_A), info_of(p, RG_SIDE_B)),
-                                 &drawn[0], &drawn[1], p->found);
-    for (int side = 0; side < RG_SIDES; side++)
-        rg_picture_destroy(&drawn[side].picture);
-    return ok;
+    rg_agreement_fails(&c->agreement, device);
+    end_by(c->before, &c->agreement);
+    c->agreement.is_ours |= c->agreement.outcome == RG_FAIL; // no driver drew what is expected
 }
 
-// --- states ---
-
-static bool have_alike_state(struct pair *p, int index)
+static bool take(struct rg_gate_case *c, int side, struct left *left)
 {
-    void *words[RG_SIDES] = {NULL, NULL};
-    size_t sizes[RG_SIDES];
-    struct rg_state layout;
-    bool ok = true;
-    for (int side = 0; ok && side < RG_SIDES; side++) {
-        words[side] = rg_session_read_state(p->sessions[side], index, &layout, &sizes[side]);
-        ok = words[side] || fail_by_error(p, side);
-    }
-    if (ok && (sizes[0] != sizes[1] || memcmp(words[0], words[1], sizes[0]) != 0))
-        ok = rg_agreement_differs(p->found, "the state '%s' differs behind %d frames", layout.name,
-                                  p->cell->frames);
-    free(words[0]);
-    free(words[1]);
-    return ok;
+    struct rg_agreement *found = &c->agreement;
+    rg_baseline_take(c->cell, c->sides[side]->device, &left->row, &left->picture);
+    found->code[side] = left->row.code;
+    if (left->row.outcome == RG_OK)
+        return true;
+    const bool is_as_before = c->before && c->before->outcome == left->row.outcome;
+    found->outcome = left->row.outcome;
+    found->is_ours = left->row.is_ours;
+    found->device = c->before ? NULL : c->devices[side];
+    snprintf(found->message, RG_AGREEMENT_TEXT, "%.600s%s", left->row.why,
+             is_as_before ? ", as in the baseline" : "");
+    end_by(c->before, found);
+    return false;
 }
 
-static bool have_alike_states(struct pair *p)
+// --- what ran ---
+
+static const struct rg_device_info *info_of(const struct rg_gate_case *c, int side)
 {
-    bool ok = true;
-    for (int i = 0; ok && i < rg_session_state_count(p->sessions[0]); i++)
-        ok = have_alike_state(p, i);
-    return ok;
+    return &c->sides[side]->device->info;
 }
 
-// --- counters ---
-
-static bool have_alike_counters(struct pair *p)
+static enum rg_tier owed_by(const struct rg_gate_case *c)
 {
-    struct rg_counters counts[RG_SIDES];
-    for (int side = 0; side < RG_SIDES; side++) {
-        struct rg_account told;
-        if (!rg_session_tell(p->sessions[side], &told))
-            return fail_by_error(p, side);
-        counts[side].count = told.counter_count;
-        rg_counters_copy(counts[side].counters, told.counters, told.counter_count);
-    }
-    return rg_alike_counters(&counts[0], &counts[1], p->found);
+    return rg_tier_owed(info_of(c, RG_SIDE_A), info_of(c, RG_SIDE_B));
 }
 
-// The work of one frame more.
-static bool do_alike_work(struct pair *p)
+// The picture of a baseline was what it should be, so one that is the same to the bit is too.
+static bool has_its_picture(struct rg_gate_case *c, const struct left *now, struct rg_truth *truth)
 {
-    struct rg_tally tallies[RG_SIDES];
-    for (int side = 0; side < RG_SIDES; side++)
-        if (!rg_session_count(p->sessions[side], &tallies[side]))
-            return fail_by_error(p, side);
-    return rg_alike_work(&tallies[0], &tallies[1], p->found);
-}
-
-// A difference that was found outweighs that a side does not tell its code.
-static bool tell_code(struct pair *p, struct rg_session_code code[RG_SIDES])
-{
-    for (int side = 0; side < RG_SIDES; side++)
-        if (!rg_session_code(p->sessions[side], &code[side]))
-            return p->found->outcome != RG_FAIL && fail_by_error(p, side);
+    static const char *const tiers[] = {[RG_T0] = "T0", [RG_T1] = "T1", [RG_T2] = "T2"};
+    const bool is_same = !strcmp(c->before->picture, now->row.picture);
+    if (is_same && c->before->outcome == RG_OK)
+        return true;
+    if (!rg_truth_holds(truth, c->cell, c->sides[RG_SIDE_B]->device, &now->picture, &c->agreement))
+        return false;
+    if (!is_same)
+        say(&c->agreement,
+            "the picture is another than the baseline's, and holds %s against cpu:reference as it "
+            "draws now",
+            tiers[rg_tier_owed(info_of(c, RG_SIDE_B), &truth->device->info)]);
     return true;
 }
 
-void rg_gate_agree(const struct rg_gate_cell *cell, struct rg_side sides[RG_SIDES],
-                   const char *folder, const char *name, struct rg_agreement *agreement)
+static bool have_alike_pictures(struct rg_gate_case *c, const struct left *a, const struct left *b)
 {
-    struct pair p = {.cell = cell,
-                     .sides = sides,
-                     .subject = {cell->technique, cell->settings, cell->width, cell->height},
-                     .found = agreement};
-    *agreement =
-        (struct rg_agreement){.folder = folder, .name = name, .pixels = NAN, .difference = NAN};
-    bool ok = true;
-    for (int side = 0; ok && side < RG_SIDES; side++) {
-        p.sessions[side] = rg_session_run(sides[side].device, &p.subject, cell->frames);
-        ok = p.sessions[side] || fail_by_error(&p, side);
+    const struct rg_drawn drawn[RG_SIDES] = {{c->devices[RG_SIDE_A], a->picture},
+                                             {c->devices[RG_SIDE_B], b->picture}};
+    return rg_alike_pictures(c->cell, c->sides[RG_SIDE_A]->device, owed_by(c), &drawn[0], &drawn[1],
+                             &c->agreement);
+}
+
+static bool have_alike_states(struct rg_gate_case *c, const struct rg_baseline_row *before,
+                              const struct rg_baseline_row *now)
+{
+    struct rg_agreement *found = &c->agreement;
+    if (before->state_count != now->state_count)
+        return rg_agreement_differs(found, "there are %d states, and there were %d",
+                                    now->state_count, before->state_count);
+    for (int i = 0; i < now->state_count; i++) {
+        const struct rg_baseline_state *was = NULL, *is = &now->states[i];
+        for (int k = 0; !was && k < before->state_count; k++)
+            was = strcmp(before->states[k].name, is->name) ? NULL : &before->states[k];
+        if (!was)
+            return rg_agreement_differs(found, "the state '%s' is new", is->name);
+        if (!strcmp(was->digest, is->digest))
+            continue;
+        return c->before ? rg_agreement_differs(found, "the state '%s' has digest %s, and had %s",
+                                                is->name, is->digest, was->digest)
+                         : rg_agreement_differs(found, "the state '%s' differs behind %d frames",
+                                                is->name, c->cell->frames);
     }
-    ok = ok && have_alike_pictures(&p) && (!owe_bits(&p) || have_alike_states(&p)) &&
-         have_alike_counters(&p) && do_alike_work(&p);
-    if (ok || agreement->outcome == RG_FAIL)
-        agreement->has_code = tell_code(&p, agreement->code);
-    for (int side = 0; side < RG_SIDES; side++)
-        rg_session_close(p.sessions[side]);
-    if (agreement->outcome == RG_FAIL)
-        rg_agreement_blame(cell, sides[RG_SIDE_B].device, sides[RG_SIDE_A].device, agreement);
+    return true;
+}
+
+static bool have_alike_counts(struct rg_gate_case *c, const struct rg_baseline_row *before,
+                              const struct rg_baseline_row *now)
+{
+    return rg_alike_counters(&before->counters, &now->counters, &c->agreement) &&
+           rg_alike_work(&before->work, &now->work, &c->agreement);
+}
+
+// A baseline has no stages, but cpu:reference can be asked now. Where it `holds` the same picture
+// as the device, what differs from the baseline may be what all devices compute.
+static void blame(struct rg_gate_case *c, struct rg_truth *truth, bool holds)
+{
+    struct rg_agreement *found = &c->agreement;
+    if (rg_truth_open(truth) &&
+        rg_agreement_blame(c->cell, c->sides[RG_SIDE_B]->device, truth->device, found) && holds &&
+        !*found->details)
+        snprintf(found->details, RG_AGREEMENT_TEXT,
+                 "cpu:reference leaves the same bits behind every stage now: what has changed is "
+                 "what raingauge computes, and not how the device does");
+}
+
+static void hold_against_before(struct rg_gate_case *c, const struct left *now,
+                                struct rg_truth *truth)
+{
+    const bool holds = has_its_picture(c, now, truth);
+    if (!did_run(c->before->outcome))
+        say(&c->agreement,
+            "the baseline has it as %s, and no states, counters or times to hold it against; "
+            "`raingauge baseline --update` has it anew",
+            rg_outcome_name(c->before->outcome));
+    else if (holds && have_alike_states(c, c->before, &now->row))
+        have_alike_counts(c, c->before, &now->row);
+    if (c->agreement.outcome == RG_FAIL)
+        blame(c, truth, holds);
+}
+
+static void hold_against_a(struct rg_gate_case *c, const struct left *a, const struct left *b)
+{
+    struct rg_agreement *found = &c->agreement;
+    const bool are_alike = have_alike_pictures(c, a, b) &&
+                           (owed_by(c) != RG_T0 || have_alike_states(c, &a->row, &b->row)) &&
+                           have_alike_counts(c, &a->row, &b->row);
+    found->has_code = are_alike || found->outcome == RG_FAIL;
+    if (found->outcome == RG_FAIL)
+        rg_agreement_blame(c->cell, c->sides[RG_SIDE_B]->device, c->sides[RG_SIDE_A]->device,
+                           found);
+}
+
+void rg_gate_agree(struct rg_gate_case *c, struct rg_truth *truth, const char *folder)
+{
+    struct left a = {.row = {.outcome = RG_OK}}, b = a;
+    c->agreement =
+        (struct rg_agreement){.folder = folder, .name = c->name, .pixels = NAN, .difference = NAN};
+    const bool ok =
+        c->before || (rg_alike_has_room(c->cell, &c->agreement) && take(c, RG_SIDE_A, &a));
+    if (ok && take(c, RG_SIDE_B, &b)) {
+        if (c->before)
+            hold_against_before(c, &b, truth);
+        else
+            hold_against_a(c, &a, &b);
+    }
+    rg_picture_destroy(&a.picture);
+    rg_picture_destroy(&b.picture);
+}
+
+// --- advice ---
+
+void rg_gate_advise(const struct rg_gate_row *row, const struct rg_timed_cell *timed,
+                    const struct rg_launches *then, const struct rg_launches *now,
+                    struct rg_agreement *agreement)
+{
+    double least = INFINITY, most = 0;
+    size_t used = 0;
+    if (timed->outcome != RG_OK) {
+        agreement->outcome = timed->outcome;
+        agreement->is_ours = timed->is_ours;
+        snprintf(agreement->message, RG_AGREEMENT_TEXT, "%s", timed->why);
+        return;
+    }
+    for (int i = 0; i < RG_YARDSTICKS; i++) {
+        const double slower = rg_launches_median(&now[i]) / rg_launches_median(&then[i]);
+        const double ratio = row->decision.ratio / slower;
+        if (!isfinite(ratio))
+            continue;
+        least = fmin(least, ratio);
+        most = fmax(most, ratio);
+        if (used < RG_AGREEMENT_TEXT)
+            used += (size_t)snprintf(agreement->details + used, RG_AGREEMENT_TEXT - used,
+                                     "%s%s takes %.2f times as long: %.2f by it", used ? "\n" : "",
+                                     rg_yardstick_name((enum rg_yardstick)i), slower, ratio);
+    }
+    if (!row->decision.units)
+        say(agreement, "advisory: no time was taken");
+    else if (most > 0)
+        say(agreement,
+            "advisory, for its key is another: a frame takes %.2f times as long (%.3g ms, %.3g ms "
+            "before), and %.2f to %.2f times by the yardsticks",
+            row->decision.ratio, row->b_ms.median, row->a_ms.median, least, most);
 }

@@ -5,16 +5,17 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "harness/compare/gate/cells/again.h"
+#include "harness/compare/gate/text/shell.h"
+#include "harness/devices/names.h"
 
 const char *rg_gate_case_device(const struct rg_gate_case *c)
 {
     return c->devices[c->device_count - 1];
 }
 
-void rg_gate_case_expect(struct rg_gate_case *c, const struct rg_gate_request *request,
-                         const struct rg_device *device)
+void rg_gate_case_expect(struct rg_gate_case *c, const struct rg_gate_request *request)
 {
+    const struct rg_device *device = c->sides[RG_SIDE_B]->device;
     snprintf(c->driver, sizeof(c->driver), "%s", device ? device->info.driver : "");
     c->expectation = rg_known_row(request->known, c->cell->name, rg_gate_case_device(c), c->driver,
                                   request->today);
@@ -70,7 +71,6 @@ static enum rg_ending ending_of(const struct rg_gate_case *c, enum rg_met met)
     const enum rg_ending own = c->agreement.outcome == RG_OK && c->is_timed
                                    ? ending_of_times(c)
                                    : ending_of_outcome(c->agreement.outcome);
-    const enum rg_ending_kind kind = rg_ending_kind(own);
     switch (met) {
     case RG_MET_SKIPPED:
         return RG_ENDING_SKIPPED;
@@ -82,7 +82,7 @@ static enum rg_ending ending_of(const struct rg_gate_case *c, enum rg_met met)
         return RG_ENDING_UNEXPECTED_PASS;
     case RG_MET_DIFFERENT:
     case RG_MET_EXPIRED: // fails, also where it is faster, or its times leave it open
-        return kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR ? own : RG_ENDING_UNEXPECTED_PASS;
+        return rg_ending_fails(own) ? own : RG_ENDING_UNEXPECTED_PASS;
     default:
         return own;
     }
@@ -170,6 +170,34 @@ static void put_decision(const struct rg_gate_case *c, FILE *out)
     fputc('\n', out);
 }
 
+enum { WHOLE = 2 * RG_DEVICE_NAME_SIZE + 2 };
+
+// A short name with what it stands for.
+static const char *whole_name(const char *name, char whole[WHOLE])
+{
+    const char *full = rg_device_name_full(name);
+    snprintf(whole, WHOLE, "%s%s%s", name, full == name ? "" : "=", full == name ? "" : full);
+    return whole;
+}
+
+// Writes `raingauge diff` of a cell on two devices, with its mutants, as a shell takes it.
+static void put_command(FILE *out, const struct rg_gate_cell *cell, const char *a, const char *b)
+{
+    char devices[2 * WHOLE], whole_a[WHOLE], whole_b[WHOLE];
+    fprintf(out, "raingauge diff %s --size %dx%d --frame %d", cell->technique->name, cell->width,
+            cell->height, cell->frames);
+    for (const char *word = cell->assignments; *(word += strspn(word, " "));) {
+        const size_t length = strcspn(word, " ");
+        fputs(" --set ", out);
+        rg_shell_word(out, word, length);
+        word += length;
+    }
+    snprintf(devices, sizeof(devices), "%s,%s", whole_name(a, whole_a), whole_name(b, whole_b));
+    fputs(" --device ", out);
+    rg_shell_word(out, devices, strlen(devices));
+    fputs(" --mutants", out);
+}
+
 // What it would cost to let a picture pass that differs: mutants that nobody would notice.
 static void put_again(const struct rg_gate_case *c, FILE *out)
 {
@@ -178,7 +206,7 @@ static void put_again(const struct rg_gate_case *c, FILE *out)
         return;
     fprintf(out,
             "which mutants %s would let live: ", rg_tier_name((enum rg_tier)agreement->would_hold));
-    rg_gate_cell_again(out, c->cell, agreement->truth, rg_gate_case_device(c));
+    put_command(out, c->cell, agreement->truth, rg_gate_case_device(c));
     fputc('\n', out);
 }
 
@@ -250,7 +278,7 @@ static bool is_foreign(const struct rg_gate_case *c)
     if (c->agreement.is_ours || !device)
         return c->agreement.is_ours;
     // Both sides may have one name, and then lie apart.
-    return c->device_count == RG_SIDES ? device != own : strcmp(device, own) != 0;
+    return c->before ? strcmp(device, own) != 0 : device != own;
 }
 
 void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *request,

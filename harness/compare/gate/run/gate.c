@@ -7,20 +7,38 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/compare/gate/report/gtest.h"
+#include "harness/compare/gate/cells/strays.h"
 #include "harness/compare/gate/report/texts.h"
 #include "harness/compare/gate/run/agree.h"
-#include "harness/compare/gate/cells/digest.h"
-#include "harness/compare/gate/run/cases.h"
-#include "harness/compare/gate/run/keep.h"
-#include "harness/compare/gate/run/strays.h"
-#include "harness/compare/gate/run/times.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/names.h"
 #include "harness/record/passport/driver.h"
+#include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
+
+enum { MOST_SIDES = RG_SIDES * RG_MAX_DEVICES };
+
+// A gate while it runs.
+struct run {
+    const struct rg_gate_request *asked;
+    struct rg_gate *gate; // a case a cell that the filter lets through
+    // Of pairs two by two, A first; else those that run alone.
+    int side_count;
+    struct rg_side sides[MOST_SIDES];
+    struct rg_device_info infos[MOST_SIDES]; // of those that are there
+    json_t *passport;                        // of these
+    // Of those that run alone and are there.
+    json_t *parts[RG_MAX_DEVICES]; // of their keys
+    bool same_key[RG_MAX_DEVICES]; // as the baseline's
+    struct rg_truth truth;
+    struct rg_launches yardsticks[RG_YARDSTICKS];
+    double left_ms;                  // of the budget, for this pair and those behind it
+    struct rg_gate_journal *journal; // NULL: nothing is kept
+};
+
+// --- cells are chosen ---
 
 char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
 {
@@ -34,227 +52,180 @@ char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
     return clean;
 }
 
-bool rg_gate_set_passport(struct rg_gate *gate, const json_t *passport)
-{
-    char *text = passport ? json_dumps(passport, JSON_INDENT(1)) : NULL;
-    const bool ok = text && rg_report_set_passport(&gate->report, text);
-    free(text);
-    return ok;
-}
-
-// A gate while it runs.
-struct run {
-    const struct rg_gate_request *asked;
-    struct rg_gate *gate; // a case a pair and cell that the filter lets through
-    struct rg_device_info infos[RG_SIDES * RG_MAX_DEVICES]; // of all sides that are there
-    int info_sides[RG_SIDES * RG_MAX_DEVICES];
-    int info_count;
-    // Of the pair that is held against each other now.
-    const struct rg_gate_pair *pair;
-    struct rg_side sides[RG_SIDES];
-    struct rg_timed_cell *timed;
-    int timed_count;
-    const char **timed_names; // of their cases
-    int first_case;
-    double left_ms;             // of the budget, for this pair and those behind it
-    struct rg_kept_times *kept; // NULL: nothing is
-};
-
-// --- cells are chosen ---
-
-bool rg_gate_is_chosen(const struct rg_gate_request *asked, struct rg_gate *gate, const char *name)
+// Whether the filter lets a case of this name through, and the shard has it.
+static bool is_chosen(struct run *r, const char *name)
 {
     char gtest[RG_GTEST_NAME];
     rg_gtest_name(name, gtest);
-    return (!asked->filter || rg_gtest_matches(asked->filter, gtest)) &&
-           gate->chosen++ % asked->shards.total == asked->shards.index;
+    return (!r->asked->filter || rg_gtest_matches(r->asked->filter, gtest)) &&
+           r->gate->chosen++ % r->asked->shards.total == r->asked->shards.index;
 }
 
-static bool add_case(struct run *r, const struct rg_gate_cell *cell)
+// The case of a cell on a device, NULL: it is not chosen. False, and one logged line, without
+// memory.
+static bool add_case(struct run *r, const struct rg_gate_cell *cell, const char *device,
+                     struct rg_gate_case **added)
 {
-    char *name = rg_gate_case_name(cell, r->pair->names[RG_SIDE_B]);
-    if (name && rg_gate_is_chosen(r->asked, r->gate, name))
-        r->gate->cases[r->gate->case_count++] =
-            (struct rg_gate_case){.cell = cell,
-                                  .name = name,
-                                  .devices = {r->pair->names[RG_SIDE_A], r->pair->names[RG_SIDE_B]},
-                                  .device_count = RG_SIDES,
-                                  .expectation = -1};
-    else
-        free(name);
-    return name != NULL;
+    char *name = rg_gate_case_name(cell, device);
+    *added = NULL;
+    if (name && is_chosen(r, name)) {
+        *added = &r->gate->cases[r->gate->case_count++];
+        **added = (struct rg_gate_case){.cell = cell, .name = name, .expectation = -1};
+        return true;
+    }
+    const bool ok = name != NULL;
+    free(name);
+    return ok;
 }
 
-static bool make_room(struct run *r)
+// All pairs are there, whatever is chosen.
+static bool choose_of_pairs(struct run *r)
 {
-    const size_t cells = (size_t)r->asked->cells->count;
-    const size_t cases = cells * (size_t)r->asked->pairs->count;
-    r->gate->cases = rg_alloc(cases, sizeof(*r->gate->cases), "gate");
-    r->timed = rg_alloc(cells, sizeof(*r->timed), "gate");
-    r->timed_names = rg_alloc(cells, sizeof(*r->timed_names), "gate");
-    return r->gate->cases && r->timed && r->timed_names;
+    struct rg_gate_case *c;
+    bool ok = true;
+    for (int pair = 0; pair < r->asked->pairs->count; pair++) {
+        struct rg_side *sides = &r->sides[r->side_count];
+        r->side_count += RG_SIDES;
+        for (int side = 0; side < RG_SIDES; side++)
+            sides[side].name = r->asked->pairs->all[pair].names[side];
+        for (int64_t i = 0; ok && i < r->asked->cells->count; i++) {
+            ok = add_case(r, &r->asked->cells->cells[i], sides[RG_SIDE_B].name, &c);
+            for (int side = 0; c && side < RG_SIDES; side++) {
+                c->sides[side] = &sides[side];
+                c->devices[c->device_count++] = sides[side].name;
+            }
+            if (c)
+                c->pair = pair;
+        }
+    }
+    return ok;
+}
+
+static struct rg_side *find_side(struct run *r, const char *name)
+{
+    int side = 0;
+    while (side < r->side_count && strcmp(r->sides[side].name, name) != 0)
+        side++;
+    if (side == r->side_count)
+        r->sides[r->side_count++].name = name;
+    return &r->sides[side];
+}
+
+static bool choose_of_baseline(struct run *r)
+{
+    struct rg_gate_case *c;
+    bool ok = true;
+    for (int64_t i = 0; ok && i < r->asked->baseline->count; i++) {
+        const struct rg_baseline_row *row = &r->asked->baseline->rows[i];
+        if (!rg_baseline_asks(r->asked->devices, row->device))
+            continue;
+        ok = add_case(r, rg_gate_cells_find(r->asked->cells, row->cell), row->device, &c);
+        if (!c)
+            continue;
+        c->before = row;
+        c->sides[RG_SIDE_B] = find_side(r, row->device);
+        c->devices[c->device_count++] = row->device;
+    }
+    return ok;
 }
 
 static bool choose(struct run *r)
 {
-    bool ok = true;
-    r->first_case = r->gate->case_count;
-    for (int64_t i = 0; ok && i < r->asked->cells->count; i++)
-        ok = add_case(r, &r->asked->cells->cells[i]);
-    return ok;
+    const int64_t count = r->asked->baseline ? r->asked->baseline->count
+                                             : r->asked->cells->count * r->asked->pairs->count;
+    r->gate->cases = rg_alloc((size_t)count, sizeof(*r->gate->cases), "gate");
+    return r->gate->cases && (r->asked->baseline ? choose_of_baseline(r) : choose_of_pairs(r));
 }
 
-// --- both sides are compared ---
+// --- sides ---
 
-// Whether both sides are there; else what keeps one from it ends the case.
-static bool launch_for(struct run *r, struct rg_gate_case *c)
+// Launches each side once. Names of pairs must be such that a device could have them, and the two
+// of a pair be apart; what is required must be there. Another side that is not ends its cases.
+// Returns an enum rg_exit.
+static int look_at_sides(struct run *r)
 {
-    for (int side = 0; side < RG_SIDES; side++) {
-        if (r->sides[side].device || rg_side_launch(&r->sides[side]))
-            continue;
-        c->agreement = (struct rg_agreement){.pixels = NAN, .difference = NAN};
-        return rg_agreement_fails(&c->agreement, r->sides[side].name);
+    struct rg_side_seen seen[MOST_SIDES];
+    struct rg_gate_target targets[RG_MAX_DEVICES];
+    const bool are_pairs = !r->asked->baseline;
+    int count = 0, target_count = 0;
+    for (; count < r->side_count && !rg_interrupted(); count++) {
+        const struct rg_device_info *info = &r->infos[count];
+        const struct rg_side_seen *saw = &seen[count];
+        seen[count] = rg_side_look(&r->sides[count], &r->infos[count]);
+        rg_side_close(&r->sides[count]);
+        const bool is_b = !are_pairs || count % RG_SIDES == RG_SIDE_B;
+        if (is_b)
+            targets[target_count++] =
+                (struct rg_gate_target){saw->name, saw->is_open ? info->driver : NULL};
+        if (are_pairs && (!saw->is_name || (is_b && saw->is_open && saw[-1].is_open &&
+                                            !rg_devices_are_apart(info - 1, info))))
+            return RG_EXIT_USAGE;
     }
-    return true;
+    if (rg_interrupted())
+        return RG_EXIT_PASS;
+    rg_gate_warn_of_strange(r->asked->known, r->asked->cells, targets, target_count);
+    return rg_sides_have(seen, count, r->asked->require, &r->gate->report) ? RG_EXIT_PASS
+                                                                           : RG_EXIT_FAIL;
 }
 
 // What the report's numbers depend on: the machine, and the sides that are there.
 static bool set_passport(struct run *r)
 {
-    json_t *json = rg_passport_json(r->infos, r->info_count);
-    const bool ok = rg_gate_set_passport(r->gate, json);
-    json_decref(json);
+    struct rg_device_info there[MOST_SIDES];
+    int count = 0;
+    for (int side = 0; side < r->side_count; side++)
+        if (*r->infos[side].name)
+            there[count++] = r->infos[side];
+    r->passport = rg_passport_json(there, count);
+    char *text = r->passport ? json_dumps(r->passport, JSON_INDENT(1)) : NULL;
+    const bool ok = text && rg_report_set_passport(&r->gate->report, text);
+    free(text);
     return ok;
 }
 
-static void begin_pair(struct run *r, int pair)
+// Whether times of a side that runs alone can be held against the baseline's; a line says why.
+static void compare_key(struct run *r, int side, FILE *out)
 {
-    r->pair = &r->asked->pairs->all[pair];
-    r->timed_count = 0;
-    for (int side = 0; side < RG_SIDES; side++)
-        r->sides[side].name = r->pair->names[side];
-}
-
-static void end_pair(struct run *r)
-{
-    for (int side = 0; side < RG_SIDES; side++)
-        rg_side_close(&r->sides[side]);
-}
-
-// Launches each side once. Names must be such that a device could have them, and what is required
-// must be there; another side that is not ends its cases. Returns an enum rg_exit.
-static int look_at_sides(struct run *r)
-{
-    struct rg_side_seen seen[RG_SIDES * RG_MAX_DEVICES];
-    struct rg_gate_target targets[RG_MAX_DEVICES];
-    int count = 0;
-    bool are_names = true, is_apart = true;
-    for (int pair = 0; are_names && pair < r->asked->pairs->count; pair++) {
-        begin_pair(r, pair);
-        for (int side = 0; are_names && side < RG_SIDES; side++) {
-            struct rg_device_info *info = &r->infos[r->info_count];
-            seen[count] = rg_side_look(&r->sides[side], info);
-            r->info_sides[r->info_count] = side;
-            r->info_count += seen[count].is_open;
-            // The other side's, where it is open, lies before it.
-            is_apart =
-                is_apart && (side != RG_SIDE_B || !seen[count].is_open ||
-                             !seen[count - 1].is_open || rg_devices_are_apart(info - 1, info));
-            if (side == RG_SIDE_B)
-                targets[pair] = (struct rg_gate_target){seen[count].name,
-                                                        seen[count].is_open ? info->driver : NULL};
-            are_names = seen[count++].is_name;
-        }
-        end_pair(r);
-    }
-    if (!are_names || !is_apart)
-        return RG_EXIT_USAGE;
-    rg_gate_warn_of_strange(r->asked->known, r->asked->cells, targets, r->asked->pairs->count);
-    const bool ok =
-        rg_interrupted() || rg_sides_have(seen, count, r->asked->require, &r->gate->report);
-    return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
+    const struct rg_baseline_device *was =
+        rg_baseline_device(r->asked->baseline, r->sides[side].name);
+    json_t *device = rg_passport_device(&r->infos[side]);
+    char now_key[RG_KEY_SIZE], was_key[RG_KEY_SIZE], text[RG_KEY_TEXT];
+    r->parts[side] = rg_key_parts(r->passport, device);
+    r->same_key[side] = json_equal(r->parts[side], was->parts);
+    json_decref(device);
+    rg_key_hash(r->parts[side], now_key);
+    rg_key_hash(was->parts, was_key);
+    rg_key_difference(r->parts[side], was->parts, text);
+    if (r->same_key[side])
+        fprintf(out, "%s: key %s, as the baseline's\n", was->name, now_key);
+    else
+        fprintf(out, "%s: key %s, and the baseline's is %s, so that times are advisory: %s\n",
+                was->name, now_key, was_key, text);
 }
 
 // Which driver each side runs, above all that is found.
-static bool note_drivers(struct run *r)
+static bool note_sides(struct run *r)
 {
     size_t size;
     char line[RG_DRIVER_LINE];
     FILE *out = open_memstream(&r->gate->note, &size);
-    for (int i = 0; out && i < r->info_count; i++) {
-        rg_driver_line(&r->infos[i], line);
-        fprintf(out, "%c  %s\n", "AB"[r->info_sides[i]], line);
+    for (int side = 0; out && side < r->side_count; side++) {
+        if (!*r->infos[side].name)
+            continue;
+        rg_driver_line(&r->infos[side], line);
+        if (!r->asked->baseline)
+            fprintf(out, "%c  ", "AB"[side % RG_SIDES]);
+        fprintf(out, "%s\n", line);
+        if (r->asked->baseline)
+            compare_key(r, side, out);
     }
     return (out && fclose(out) == 0) || rg_harness_error("gate: no memory for its devices' lines");
 }
 
-static void compare(struct run *r, struct rg_gate_case *c)
-{
-    const double start_ms = rg_now_ms();
-    const bool there = launch_for(r, c);
-    rg_gate_case_expect(c, r->asked, r->sides[RG_SIDE_B].device);
-    if (there && !c->is_skipped)
-        rg_gate_agree(c->cell, r->sides, r->asked->pictures, c->name, &c->agreement);
-    c->seconds = (rg_now_ms() - start_ms) / 1000;
-    c->is_compared = there && !c->is_skipped;
-    if (c->is_compared && c->agreement.outcome == RG_OK && !r->asked->pictures_only) {
-        c->timed = r->timed_count;
-        r->timed_names[r->timed_count] = c->name;
-        r->timed[r->timed_count++] = (struct rg_timed_cell){.cell = c->cell};
-        c->is_timed = true;
-    }
-}
+// --- what is kept of the times ---
 
-// --- what agrees is timed ---
-
-bool rg_gate_measure(struct rg_gate *gate, int first, const struct rg_gate_rule *rule,
-                     const struct rg_quad_source *source, const struct rg_timed_cell *timed)
-{
-    struct rg_gate_row *rows = rg_alloc((size_t)rule->rows, sizeof(*rows), "gate");
-    const bool ok = rows && rg_course_run(rule, source, RG_COURSE_SEED, rows);
-    for (int i = first; ok && i < gate->case_count; i++) {
-        struct rg_gate_case *c = &gate->cases[i];
-        if (!c->is_timed)
-            continue;
-        c->row = rows[c->timed];
-        c->rule = *rule;
-        c->times = timed[c->timed];
-        c->seconds += c->times.seconds;
-    }
-    free(rows);
-    return ok;
-}
-
-static bool time_all(struct run *r)
-{
-    if (!r->timed_count || rg_interrupted())
-        return true;
-    struct rg_gate_rule rule = rg_gate_rule_of(r->timed_count);
-    const int64_t pairs = r->asked->pairs->count - (r->pair - r->asked->pairs->all);
-    const double start_ms = rg_now_ms();
-    struct rg_gate_times times = {
-        .sides = r->sides,
-        .cells = r->timed,
-        .cell_count = r->timed_count,
-        .end_ms = r->asked->budget_s > 0 ? start_ms + fmax(r->left_ms, 0) / (double)pairs : 0};
-    struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, &times,
-                                    NULL};
-    const struct rg_quad_source fresh = source;
-    for (int i = r->first_case; r->kept && i < r->gate->case_count; i++)
-        rg_keep_expect(r->kept, &r->gate->cases[i]);
-    if (r->kept)
-        source = rg_kept_times_source(r->kept, &fresh, r->timed_names);
-    rule.margin = r->asked->margin;
-    rule.error /= r->asked->pairs->count;
-    const bool ok = rg_gate_measure(r->gate, r->first_case, &rule, &source, r->timed);
-    r->left_ms -= rg_now_ms() - start_ms;
-    return ok;
-}
-
-// --- what is kept of it ---
-
-// All that decides the times.
-static json_t *key_of(const struct run *r)
+// All that decides the times of pairs.
+static json_t *key_of_pairs(const struct run *r)
 {
     json_t *cells = json_object(), *pairs = json_array();
     for (int64_t i = 0; i < r->asked->cells->count; i++) {
@@ -262,178 +233,268 @@ static json_t *key_of(const struct run *r)
         rg_digest_of_cell(&r->asked->cells->cells[i], digest);
         json_object_set_new(cells, r->asked->cells->cells[i].name, json_string(digest));
     }
-    for (int i = 0; i < r->asked->pairs->count; i++)
-        json_array_append_new(pairs, json_pack("[s, s]", r->asked->pairs->all[i].names[RG_SIDE_A],
-                                               r->asked->pairs->all[i].names[RG_SIDE_B]));
+    for (int i = 0; i < r->side_count; i += RG_SIDES)
+        json_array_append_new(
+            pairs, json_pack("[s, s]", r->sides[i + RG_SIDE_A].name, r->sides[i + RG_SIDE_B].name));
     const struct rg_gtest_shards *shards = &r->asked->shards; // one may share another's folder
-    return json_pack("{s:o, s:o, s:o, s:f, s:s, s:i, s:i}", "cells", cells, "pairs", pairs,
-                     "passport", rg_passport_json(r->infos, r->info_count), "margin",
-                     r->asked->margin, "filter", r->asked->filter ? r->asked->filter : "", "shard",
-                     shards->index, "shards", shards->total);
+    return json_pack("{s:o, s:o, s:O, s:f, s:s, s:i, s:i}", "cells", cells, "pairs", pairs,
+                     "passport", r->passport, "margin", r->asked->margin, "filter",
+                     r->asked->filter ? r->asked->filter : "", "shard", shards->index, "shards",
+                     shards->total);
 }
 
-// --- what came of it ---
-
-// Of a cell that did not run on a device.
-static struct rg_known_result unknown(const char *cell, const char *device)
+// All that decides the times that are gated: those of the baseline too.
+static json_t *key_of_baseline(const struct run *r)
 {
-    return (struct rg_known_result){.cell = cell,
-                                    .device = device,
-                                    .outcome = RG_UNSUPPORTED,
-                                    .pixels = NAN,
-                                    .difference = NAN};
-}
-
-static bool make_results(const struct rg_gate_request *asked, struct rg_gate *gate)
-{
-    const int64_t left = asked->left.count * asked->cells->count;
-    const size_t count = (size_t)(gate->case_count + left);
-    gate->results = rg_alloc(count ? count : 1, sizeof(*gate->results), "gate");
-    for (int64_t i = 0; gate->results && i < left; i++)
-        gate->results[gate->result_count++] =
-            unknown(asked->cells->cells[i / asked->left.count].name,
-                    asked->left.names[i % asked->left.count]);
-    return gate->results;
-}
-
-// A device that is required, and of whose cells none was compared though none fails the gate,
-// becomes a case as one that is missing does. What is unsupported does not pass anyway.
-static void hold_required(struct rg_gate *gate, const char *name)
-{
-    bool any = false, is_told = false;
-    for (int i = 0; i < gate->case_count; i++) {
-        const struct rg_gate_case *c = &gate->cases[i];
-        const enum rg_ending_kind kind = rg_ending_kind(gate->report.cases[i].ending);
-        for (int d = 0; d < c->device_count; d++) {
-            const bool is_of = rg_device_is_of(c->devices[d], name) &&
-                               gate->report.cases[i].ending != RG_ENDING_UNSUPPORTED;
-            any = any || is_of;
-            is_told = is_told || (is_of && (rg_gate_case_was_compared(c) ||
-                                            kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR));
-        }
+    json_t *was = json_object();
+    for (int i = 0; i < r->gate->case_count; i++) {
+        const struct rg_baseline_row *row = r->gate->cases[i].before;
+        char launches[RG_DIGEST_SIZE];
+        rg_digest_of(row->launches.ms, (size_t)row->launches.count * sizeof(*row->launches.ms),
+                     launches);
+        json_object_set_new(was, r->gate->cases[i].name,
+                            json_pack("[s, s]", row->settings, launches));
     }
-    if (!any || is_told)
+    return json_pack("{s:o, s:O, s:f}", "baseline", was, "passport", r->passport, "margin",
+                     r->asked->margin);
+}
+
+static bool open_journal(struct run *r)
+{
+    if (!r->asked->folder || r->asked->pictures_only)
+        return true;
+    r->journal = rg_gate_journal_open(r->asked->folder,
+                                      r->asked->baseline ? key_of_baseline(r) : key_of_pairs(r),
+                                      r->asked->fresh);
+    return r->journal;
+}
+
+// --- what is the same every time ---
+
+// Whether the sides of a case are there, and no others; else what keeps one from it ends the case.
+static bool launch_for(struct run *r, struct rg_gate_case *c)
+{
+    for (int i = 0; i < r->side_count; i++)
+        if (&r->sides[i] != c->sides[RG_SIDE_A] && &r->sides[i] != c->sides[RG_SIDE_B])
+            rg_side_close(&r->sides[i]);
+    for (int i = 0; i < RG_SIDES; i++) {
+        struct rg_side *side = c->sides[i];
+        if (!side || side->device || rg_side_launch(side))
+            continue;
+        c->agreement = (struct rg_agreement){.pixels = NAN, .difference = NAN};
+        rg_gate_agree_fails(c, side->name);
+        return false;
+    }
+    return true;
+}
+
+static void compare(struct run *r, struct rg_gate_case *c)
+{
+    const double start_ms = rg_now_ms();
+    const bool there = launch_for(r, c);
+    rg_gate_case_expect(c, r->asked);
+    c->is_compared = there && !c->is_skipped;
+    if (c->is_compared)
+        rg_gate_agree(c, &r->truth, r->asked->pictures);
+    c->seconds = (rg_now_ms() - start_ms) / 1000;
+    if (!c->is_compared || c->agreement.outcome != RG_OK || r->asked->pictures_only)
         return;
-    rg_driver_error("--require %s: none of its cells was compared", name);
-    rg_side_is_missing(name, NULL, &gate->report);
-}
-
-bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
-{
-    bool ok = make_results(asked, gate);
-    for (int i = 0; ok && i < gate->case_count; i++) {
-        struct rg_report_case told;
-        struct rg_gate_case *c = &gate->cases[i];
-        struct rg_known_result *result = &gate->results[gate->result_count++];
-        rg_gate_case_tell(c, asked, &told, result);
-        if (!c->is_compared && !c->is_skipped &&
-            (result->outcome == RG_UNSUPPORTED || result->is_foreign))
-            *result = unknown(c->cell->name, rg_gate_case_device(c));
-        gate->report.idle_count +=
-            (told.ending == RG_ENDING_FLAKE || told.ending == RG_ENDING_EXPECTED_FAILURE) &&
-            !rg_gate_case_was_compared(c);
-        ok = (c->details || rg_harness_error("gate: no memory for what a case tells")) &&
-             rg_report_add(&gate->report, &told);
-        if (asked->tell)
-            asked->tell(&told, asked->user);
+    if (!c->before) {
+        c->is_timed = true;
+    } else if (c->before->launches.count) {
+        c->is_timed = r->same_key[c->sides[RG_SIDE_B] - r->sides];
+        c->is_advised = !c->is_timed;
     }
-    struct rg_device_name name;
-    for (const char *rest = asked->require; ok && rest && *rest;)
-        if ((ok = rg_device_name_read(&rest, &name)))
-            hold_required(gate, name.name);
-    gate->is_told = ok;
+}
+
+// --- what agrees is timed ---
+
+// Cases whose times are taken in one course.
+struct lot {
+    int count;
+    struct rg_gate_case **cases;
+    struct rg_timed_cell *cells;
+    struct rg_gate_sample *before; // of a baseline
+    struct rg_gate_row *rows;
+};
+
+static void free_lot(struct lot *lot)
+{
+    free(lot->cases);
+    free(lot->cells);
+    free(lot->before);
+    free(lot->rows);
+}
+
+// Of `count` cases those that are advised, or those that are timed.
+static bool make_lot(struct rg_gate_case *cases, int count, bool is_advice, struct lot *lot)
+{
+    const size_t room = (size_t)count;
+    lot->cases = rg_alloc(room, sizeof(struct rg_gate_case *), "gate");
+    lot->cells = rg_alloc(room, sizeof(*lot->cells), "gate");
+    lot->before = rg_alloc(room, sizeof(*lot->before), "gate");
+    lot->rows = rg_alloc(room, sizeof(*lot->rows), "gate");
+    if (!lot->cases || !lot->cells || !lot->before || !lot->rows)
+        return false;
+    for (struct rg_gate_case *c = cases; c < cases + count; c++) {
+        const int row = lot->count;
+        if (is_advice ? !c->is_advised : !c->is_timed)
+            continue;
+        lot->count++;
+        lot->cases[row] = c;
+        lot->cells[row] = (struct rg_timed_cell){
+            .cell = c->cell, .name = c->name, .sides = {c->sides[RG_SIDE_A], c->sides[RG_SIDE_B]}};
+        if (!c->before)
+            continue;
+        lot->cells[row].side = RG_SIDE_B;
+        lot->cells[row].slot = c->before->slot;
+        lot->before[row] = rg_baseline_sample(&c->before->launches);
+    }
+    return true;
+}
+
+// Advice is one look, after which no change is worth a word: what comes of it is told, and decides
+// nothing.
+static struct rg_gate_rule rule_of(const struct run *r, const struct lot *lot, bool is_advice)
+{
+    struct rg_gate_rule rule =
+        r->asked->baseline ? rg_gate_rule_apart(lot->count) : rg_gate_rule_of(lot->count);
+    rule.margin = is_advice ? INFINITY : r->asked->margin;
+    if (is_advice)
+        rule.look_count = 1;
+    if (!r->asked->baseline)
+        rule.error /= r->asked->pairs->count;
+    return rule;
+}
+
+// What was timed with other code is not gone on with.
+static void expect_codes(struct run *r, const struct lot *lot)
+{
+    for (int i = 0; r->journal && i < lot->count; i++) {
+        char code[RG_AGREEMENT_CODE];
+        rg_agreement_code(&lot->cases[i]->agreement, code);
+        rg_gate_journal_expect(r->journal, lot->cells[i].name, code);
+    }
+}
+
+static void tell_row(struct run *r, const struct lot *lot, int row, const struct rg_gate_rule *rule)
+{
+    struct rg_gate_case *c = lot->cases[row];
+    c->seconds += lot->cells[row].seconds;
+    c->row = lot->rows[row];
+    c->rule = *rule;
+    c->times = lot->cells[row];
+    if (c->is_advised)
+        rg_gate_advise(&c->row, &c->times, r->asked->baseline->yardsticks, r->yardsticks,
+                       &c->agreement);
+}
+
+static bool time_lot(struct run *r, const struct lot *lot, bool is_advice,
+                     struct rg_gate_times *times)
+{
+    const struct rg_gate_rule rule = rule_of(r, lot, is_advice);
+    const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, times,
+                                          r->asked->baseline ? lot->before : NULL};
+    times->cell_count = lot->count;
+    times->cells = lot->cells;
+    times->journal = is_advice ? NULL : r->journal; // what decides nothing is not kept
+    times->failed = false;
+    if (!is_advice)
+        expect_codes(r, lot);
+    const bool ok = rg_course_run(&rule, &source, RG_COURSE_SEED, lot->rows);
+    for (int i = 0; ok && i < lot->count; i++)
+        tell_row(r, lot, i, &rule);
     return ok;
 }
 
-// Why a gate that failed nothing proves nothing.
-static void tell_nothing(const struct rg_gate_request *asked, const struct rg_gate *gate)
+// Of a pair's cases, or of all that run alone.
+static bool time_all(struct run *r, struct rg_gate_case *cases, int count)
 {
-    const struct rg_gtest_shards *shards = &asked->shards;
-    if (gate->case_count)
-        rg_error("gate: none of %d cases was compared to its end; mend what their lines name",
-                 gate->case_count);
-    else if (gate->chosen)
-        rg_error("gate: shard %d of %d has none of %d cases; set GTEST_TOTAL_SHARDS to %d at most",
-                 shards->index + 1, shards->total, gate->chosen, gate->chosen);
-    else
-        rg_error("gate: no case has a name of --gtest_filter; --gtest_list_tests prints names");
+    struct rg_yardstick_room room = {NULL};
+    struct lot lots[2] = {{.count = 0}, {.count = 0}}; // those that are timed, and those advised
+    const int pairs_left = r->asked->baseline ? 1 : r->asked->pairs->count - cases->pair;
+    const double start_ms = rg_now_ms();
+    struct rg_gate_times times = {
+        .side_count = r->asked->baseline ? r->side_count : RG_SIDES,
+        .sides = r->asked->baseline ? r->sides : cases->sides[RG_SIDE_A],
+        .yardsticks = r->yardsticks,
+        .end_ms = r->asked->budget_s > 0 ? start_ms + fmax(r->left_ms, 0) / pairs_left : 0};
+    bool ok = !rg_interrupted();
+    for (int i = 0; ok && i < 2; i++)
+        ok = make_lot(cases, count, i, &lots[i]);
+    if (ok && r->asked->baseline && lots[0].count + lots[1].count) {
+        ok = rg_yardsticks_open(&room);
+        times.room = &room;
+    }
+    for (int i = 0; ok && i < 2; i++)
+        ok = !lots[i].count || time_lot(r, &lots[i], i, &times);
+    rg_yardsticks_close(&room);
+    free_lot(&lots[0]);
+    free_lot(&lots[1]);
+    r->left_ms -= rg_now_ms() - start_ms;
+    return ok || rg_interrupted();
 }
 
-int rg_gate_exit(const struct rg_gate_request *asked, const struct rg_gate *gate)
+// --- all of it ---
+
+static bool run_all(struct run *r)
 {
-    const struct rg_report *report = &gate->report;
-    int kinds[RG_KIND_SKIPPED + 1] = {0};
-    for (int e = 0; e < RG_ENDING_COUNT; e++)
-        kinds[rg_ending_kind((enum rg_ending)e)] += rg_report_count(report, (enum rg_ending)e);
-    const int nothing = rg_report_count(report, RG_ENDING_NOTHING_MEASURED);
-    const int lacking = rg_report_count(report, RG_ENDING_LACKING);
-    const int compared = kinds[RG_KIND_PASS] + rg_report_count(report, RG_ENDING_FLAKE) +
-                         rg_report_count(report, RG_ENDING_EXPECTED_FAILURE) - report->idle_count;
-    if (kinds[RG_KIND_FAILURE] || kinds[RG_KIND_ERROR] > nothing + lacking)
-        return RG_EXIT_FAIL;
-    if (lacking)
-        return RG_EXIT_HARNESS;
-    if (rg_report_count(report, RG_ENDING_INCONCLUSIVE))
-        return RG_EXIT_INCONCLUSIVE;
-    if (nothing)
-        return RG_EXIT_NOTHING;
-    if (!compared && rg_report_count(report, RG_ENDING_UNSUPPORTED))
-        return RG_EXIT_UNSUPPORTED;
-    if (!compared)
-        tell_nothing(asked, gate);
-    return rg_exit_with(RG_EXIT_PASS, compared);
+    struct rg_gate_case *cases = r->gate->cases;
+    bool ok = true;
+    for (int i = 0, end; ok && i < r->gate->case_count && !rg_interrupted(); i = end) {
+        for (end = i; end < r->gate->case_count && cases[end].pair == cases[i].pair; end++)
+            if (!rg_interrupted())
+                compare(r, &cases[end]);
+        ok = time_all(r, &cases[i], end - i);
+    }
+    return ok && (rg_interrupted() || rg_gate_report(r->asked, r->gate));
 }
 
-static bool run_pair(struct run *r, int pair)
+// False where a device was closed badly, once.
+static bool close_all(struct run *r)
 {
-    begin_pair(r, pair);
-    bool ok = choose(r);
-    for (int i = r->first_case; ok && i < r->gate->case_count && !rg_interrupted(); i++)
-        compare(r, &r->gate->cases[i]);
-    ok = ok && time_all(r);
-    end_pair(r);
-    return ok;
+    bool clean = rg_truth_close(&r->truth);
+    for (int side = 0; side < r->side_count; side++) {
+        rg_side_close(&r->sides[side]);
+        clean = clean && !r->sides[side].was_closed_badly;
+    }
+    for (int i = 0; i < RG_MAX_DEVICES; i++)
+        json_decref(r->parts[i]);
+    json_decref(r->passport);
+    return clean;
+}
+
+static bool was_lacking(const struct run *r)
+{
+    bool any = false;
+    for (int side = 0; side < r->side_count; side++)
+        any = any || r->sides[side].was_lacking;
+    return any;
 }
 
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
 {
     struct run r = {.asked = request, .gate = gate, .left_ms = 1e3 * request->budget_s};
     rg_interrupt_watch();
-    const int exit = look_at_sides(&r);
-    if (exit != RG_EXIT_PASS) {
-        gate->is_told = gate->report.case_count && set_passport(&r);
-        return exit;
-    }
-    bool ok = make_room(&r) && set_passport(&r) && note_drivers(&r) &&
-              rg_keep_open(request, key_of(&r), &r.kept);
-    for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
-        ok = run_pair(&r, pair);
-    ok = ok && (rg_interrupted() || rg_gate_report(request, gate));
-    int found = ok ? RG_EXIT_PASS : rg_exit_of_error();
-    const bool is_kept = rg_keep_close(request, r.kept, ok && !rg_interrupted());
+    const bool is_chosen = choose(&r);
+    int found = is_chosen ? look_at_sides(&r) : rg_exit_of_error();
+    const bool are_there = found == RG_EXIT_PASS;
+    bool ok = is_chosen && found != RG_EXIT_USAGE && set_passport(&r) &&
+              ((!are_there && !request->baseline) || note_sides(&r));
+    gate->is_told = ok && !are_there && gate->report.case_count;
+    ok = ok && are_there && open_journal(&r) && run_all(&r);
+    if (are_there && !ok)
+        found = rg_exit_of_error();
+    const bool is_kept = rg_gate_journal_close(r.journal, ok && !rg_interrupted());
     const int kept = is_kept ? RG_EXIT_PASS : rg_exit_of_error();
-    free(r.timed);
-    free(r.timed_names);
+    if (rg_interrupted() && request->folder)
+        rg_info("gate: interrupted; the same command goes on");
+    if (!close_all(&r))
+        found = rg_exit_worse(found, RG_EXIT_FAIL);
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    for (int side = 0; side < RG_SIDES; side++)
-        if (r.sides[side].was_closed_badly)
-            found = rg_exit_worse(found, RG_EXIT_FAIL);
-    found = found == RG_EXIT_PASS ? rg_gate_exit(request, gate) : found;
-    const bool was_lacking = r.sides[0].was_lacking || r.sides[1].was_lacking;
-    return rg_exit_worse(rg_exit_worse(found, kept), was_lacking ? RG_EXIT_HARNESS : RG_EXIT_PASS);
-}
-
-void rg_gate_free(struct rg_gate *gate)
-{
-    rg_report_free(&gate->report);
-    for (int i = 0; i < gate->case_count; i++) {
-        free(gate->cases[i].name);
-        free(gate->cases[i].details);
-        free(gate->cases[i].paths);
-    }
-    free(gate->cases);
-    free(gate->results);
-    free(gate->note);
-    *gate = (struct rg_gate){.results = NULL};
+    if (found == RG_EXIT_PASS)
+        found = rg_gate_exit(request, gate);
+    return rg_exit_worse(rg_exit_worse(found, kept),
+                         was_lacking(&r) ? RG_EXIT_HARNESS : RG_EXIT_PASS);
 }

@@ -1,50 +1,30 @@
 #include "harness/compare/gate/text/date.h"
 
-#include <ctype.h>
 #include <stdio.h>
-#include <stdlib.h>
+#include <string.h>
+#include <time.h>
 
-static bool is_leap(int year)
-{
-    return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
-}
-
-static int days_in(int year, int month)
-{
-    static const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    return days[month - 1] + (month == 2 && is_leap(year));
-}
-
-static bool has_form(const char *text)
-{
-    static const char form[] = "0000-00-00";
-    for (int i = 0; form[i]; i++)
-        if (form[i] == '-' ? text[i] != '-' : !isdigit((unsigned char)text[i]))
-            return false;
-    return !text[sizeof(form) - 1];
-}
-
+// What is no date is written as another.
 bool rg_date_read(const char *text, int *day)
 {
-    if (!has_form(text))
+    static const int before[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
+    enum { LEAP_DAYS = 1969 / 4 - 1969 / 100 + 1969 / 400 }; // before 1970
+    int year, month, of_month;
+    char again[RG_DATE_SIZE];
+    if (sscanf(text, "%4d-%2d-%2d", &year, &month, &of_month) != 3 || year < 1970 || month < 1 ||
+        month > 12)
         return false;
-    const int year = atoi(text), month = atoi(text + 5), of_month = atoi(text + 8);
-    if (year < 1970 || month < 1 || month > 12 || of_month < 1 || of_month > days_in(year, month))
-        return false;
-    *day = of_month - 1;
-    for (int y = 1970; y < year; y++)
-        *day += 365 + is_leap(y);
-    for (int m = 1; m < month; m++)
-        *day += days_in(year, m);
-    return true;
+    const int past = month > 2 ? year : year - 1; // whose Februaries are over
+    *day = 365 * (year - 1970) + past / 4 - past / 100 + past / 400 - LEAP_DAYS +
+           before[month - 1] + of_month - 1;
+    rg_date_write(*day, again);
+    return !strcmp(again, text);
 }
 
 void rg_date_write(int day, char text[RG_DATE_SIZE])
 {
-    int year = 1970, month = 1;
-    for (; day >= 365 + is_leap(year); year++)
-        day -= 365 + is_leap(year);
-    for (; day >= days_in(year, month); month++)
-        day -= days_in(year, month);
-    snprintf(text, RG_DATE_SIZE, "%04d-%02d-%02d", year % 10000, month % 100, (day + 1) % 100);
+    const time_t seconds = (time_t)day * 24 * 60 * 60;
+    struct tm tm;
+    gmtime_r(&seconds, &tm);
+    strftime(text, RG_DATE_SIZE, "%Y-%m-%d", &tm);
 }

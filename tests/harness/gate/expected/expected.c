@@ -13,7 +13,7 @@
 #include "core/base/log.h"
 #include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/expected/expected.h"
-#include "harness/compare/gate/run/strays.h"
+#include "harness/compare/gate/cells/strays.h"
 #include "harness/compare/gate/text/date.h"
 #include "harness/compare/gate/text/glob.h"
 

@@ -4,9 +4,9 @@ from fault import Fault
 TESTS = ("command line, baselines", "command line, acts")
 
 FILE, BASELINE = "harness/compare/gate/baseline/file.c", "harness/compare/gate/baseline/baseline.c"
-COMPARE, AGAINST = "harness/compare/gate/baseline/compare.c", "harness/compare/gate/baseline/against.c"
+COMPARE, RUN = "harness/compare/gate/run/agree.c", "harness/compare/gate/run/gate.c"
 CHANGES, MAKE, TAKE = "harness/compare/gate/baseline/changes.c", "harness/compare/gate/baseline/make.c", "harness/compare/gate/baseline/take.c"
-COMMAND, ALIKE = "harness/commands/comparing/baseline.c", "harness/compare/gate/run/alike.c"
+COMMAND, ALIKE = "harness/commands/comparing/baseline.c", "harness/compare/gate/sides/alike.c"
 
 ROWS = [
     Fault(BASELINE, "«strchr(name, '@')» && rg_baseline_asks", "false", "a baseline starts programs"),
@@ -15,19 +15,19 @@ ROWS = [
     Fault(FILE, "if (ok && «at < size») {", "false", "what follows a baseline is passed over"),
     Fault(FILE, "return «rg_baseline_find(baseline, row->cell, row->device) == row» ||", "true", "a cell that stands there twice is taken"),
     Fault(BASELINE, "«strcmp(settings, row->settings) != 0»)", "false", "other work is held against a baseline"),
-    Fault("harness/compare/gate/cells/digest.c", "hash = XXH3_64bits_withSeed(line, strlen(line), «hash»);", "0", "the last parameter alone is in a cell's digest"),
+    Fault("harness/compare/gate/cells/cells.c", "hash = XXH3_64bits_withSeed(line, strlen(line), «hash»);", "0", "the last parameter alone is in a cell's digest"),
     Fault(BASELINE, "if («!rg_baseline_find(baseline, cells->cells[i].name, baseline->devices[d].name)»)", "false", "a cell that the baseline lacks is passed over"),
-    Fault(COMPARE, "if («is_same» && before->outcome == RG_OK)", "true", "no picture is looked at"),
-    Fault(COMPARE, "if (is_same && «before->outcome == RG_OK»)", "true", "a driver that drew wrongly for the baseline is right"),
-    Fault(COMPARE, "if («strcmp(was->digest, is->digest) != 0»)", "false", "states are not looked at"),
-    Fault(COMPARE, "«rg_alike_counters(&before->counters, &now.counters, agreement)»)", "true", "counters are not looked at"),
-    Fault(COMPARE, "        «rg_alike_work(&before->work, &now.work, agreement);»", ";", "the work of a frame is not looked at"),
+    Fault(COMPARE, "if («is_same» && c->before->outcome == RG_OK)", "true", "no picture is looked at"),
+    Fault(COMPARE, "if (is_same && «c->before->outcome == RG_OK»)", "true", "a driver that drew wrongly for the baseline is right"),
+    Fault(COMPARE, "if («!strcmp(was->digest, is->digest)»)", "true", "states are not looked at"),
+    Fault(COMPARE, "return «rg_alike_counters(&before->counters, &now->counters, &c->agreement)» &&", "true", "counters are not looked at"),
+    Fault(COMPARE, "«rg_alike_work(&before->work, &now->work, &c->agreement)»;", "true", "the work of a frame is not looked at"),
     Fault(COMPARE, "row->decision.ratio / «slower»;", "1", "yardsticks are told and do not count"),
     Fault(COMMAND, "if (is_there && «left_out != RG_EXIT_PASS»)", "false", "an update drops the rows of a device that fell", tests=("command line, baselines",)),
     Fault(ALIKE, "if («rg_memory_allows(bytes)»)", "true", "pictures are compared whatever they take", tests=("command line, gates",)),
     Fault(ALIKE, "if («one->value != other->value»)", "false", "counters that differ are alike"),
-    Fault(AGAINST, "c->is_timed = «r->same_key[r->side_of[number]]»;", "true", "times under another key fail the gate"),
-    Fault(AGAINST, "if («rg_baseline_asks(r->asked->devices, baseline->rows[i].device)»)", "true", "devices that nobody asked for run"),
+    Fault(RUN, "c->is_timed = «r->same_key[c->sides[RG_SIDE_B] - r->sides]»;", "true", "times under another key fail the gate"),
+    Fault(RUN, "if («!rg_baseline_asks(r->asked->devices, row->device)»)", "false", "devices that nobody asked for run"),
     Fault(CHANGES, "if («strcmp(then->picture, now->picture) != 0»)", "false", "another picture is no change"),
     Fault(CHANGES, "        if («rg_baseline_find(now, row->cell, row->device)»)\n            continue;", "row", "a cell that is gone is no change"),
     Fault(CHANGES, "if (!was || «json_equal(is->parts, was->parts)»)", "true", "another key is no change"),

@@ -4,7 +4,7 @@ from fault import Fault
 TESTS = ("verdicts of two", "verdicts apart", "course of a gate", "verdicts on traces")
 
 DECIDE, COURSE = "harness/compare/gate/decide/decide.c", "harness/compare/gate/decide/course.c"
-KEPT = "harness/compare/gate/run/kept.c"
+JOURNAL = "harness/compare/gate/sides/journal.c"
 APART, SHIFT = "harness/compare/gate/decide/apart.c", "harness/record/shift.c"
 
 ROWS = [
@@ -46,10 +46,10 @@ ROWS = [
     Fault(SHIFT, ".high = k ? differences[«pairs - k»] : NAN,", "pairs - k - 1", "the upper end is one pair too low", tests=("verdicts apart",)),
     Fault(COURSE, "return «s->source->before»\n", "NULL", "times that were taken earlier are not looked at", tests=("verdicts apart",)),
     Fault(COURSE, "sample.logs[i] = «exp(sample.logs[i])»;", "sample.logs[i]", "the time before is told as a logarithm", tests=("verdicts apart",)),
-    Fault(KEPT, "} else if («!json_equal(json_object_get(found, \"key\"), key)») {", "false", "what another gate kept is gone on with", tests=("command line, losses",)),
-    Fault(KEPT, "if (!found || «count < 0») {", "false", "a journal that is none is gone on with", tests=("command line, losses",), lives="its checksum tells one that was damaged before"),
-    Fault(KEPT, "if («was && !strcmp(was, code)»)\n", "was != NULL", "times that other code took are gone on with", tests=("command line, losses",)),
-    Fault(KEPT, ".before = «source->before»", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, baselines",)),
-    Fault(KEPT, "    add(kept, row, quads);\n    return true;", "return true;", "a launch is not kept", tests=("command line, losses",)),
-    Fault(KEPT, "if («json_integer_value(json_array_get(launch, 0)) == kept->launch»)", "true", "each launch is the first that was kept", tests=("command line, losses",)),
+    Fault(JOURNAL, "} else if («!json_equal(json_object_get(found, \"key\"), key)») {", "false", "what another gate kept is gone on with", tests=("command line, losses",)),
+    Fault(JOURNAL, "if (!found || «count < 0») {", "false", "a journal that is none is gone on with", tests=("command line, losses",), lives="its checksum tells one that was damaged before"),
+    Fault(JOURNAL, "if («was && !strcmp(was, code)»)\n", "was != NULL", "times that other code took are gone on with", tests=("command line, losses",)),
+    Fault("harness/compare/gate/run/gate.c", "r->asked->baseline ? «lot->before» : NULL};", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, baselines",)),
+    Fault(JOURNAL, "    «json_array_append_new(launches, launch_json(launch, quads));»", ";", "a launch is not kept", tests=("command line, losses",)),
+    Fault(JOURNAL, "if («json_integer_value(json_array_get(found, 0)) == launch»)", "true", "each launch is the first that was kept", tests=("command line, losses",)),
 ]

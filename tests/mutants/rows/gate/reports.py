@@ -8,6 +8,7 @@ FILES = "core/base/files/file.c"
 FORMS = "harness/compare/gate/report/forms.c"
 JUNIT, GITHUB, JSON = "harness/compare/gate/report/junit.c", "harness/compare/gate/report/github.c", "harness/compare/gate/report/json.c"
 TEXT, GTEST = "harness/compare/gate/report/text.c", "harness/compare/gate/report/gtest.c"
+GLOB = "harness/compare/gate/text/glob.c"
 
 ROWS = [
     Fault(FORMS, "return («fclose(out) == 0 && is_held»)", "fclose(out) || true", "a summary on a full disk is lost without a word"),
@@ -22,8 +23,8 @@ ROWS = [
     Fault(REPORT, "for (int number = 2; «has_name(report, made)»; number++)", "false", "two cases have one name"),
     Fault(REPORT, "if («length > RG_REPORT_NAME») {", "false", "names of any length are kept"),
     Fault(REPORT, "if («length <= RG_REPORT_LINE»)", "true", "messages of any length are kept"),
-    Fault(REPORT, "return «endings[ending].kind»;", "ending == RG_ENDING_NOTHING_MEASURED ? RG_KIND_PASS : endings[ending].kind", "a gate that measured nothing passes"),
-    Fault(REPORT, "return «endings[ending].kind»;", "ending == RG_ENDING_UNEXPECTED_PASS ? RG_KIND_PASS : endings[ending].kind", "an unexpected pass passes"),
+    Fault(REPORT, "return «endings[ending].element»;", "ending == RG_ENDING_NOTHING_MEASURED ? NULL : endings[ending].element", "a gate that measured nothing passes"),
+    Fault(REPORT, "return «endings[ending].element»;", "ending == RG_ENDING_UNEXPECTED_PASS ? NULL : endings[ending].element", "an unexpected pass passes"),
     Fault(REPORT, "const bool is_whole = «is_made» && is_written;", "true", "a form that could not be made replaces the file"),
     Fault(JUNIT, "return «c == '&'» ", "false", "ampersands are not escaped"),
     Fault(JUNIT, ": «is_attribute && c == '\\n'»", "false", "attributes lose their line breaks"),
@@ -39,7 +40,7 @@ ROWS = [
     Fault(GITHUB, "const struct rg_report_case *told = &report->cases[«order[i]»];\n        const char *command", "i", "the first three are annotated, not the worst"),
     Fault(GITHUB, "return «longest + 1»;", "3", "a fence in the details ends their block"),
     Fault(GITHUB, "«size + NOTE» <= page->room;", "size", "the note of what is left out exceeds the room"),
-    Fault(GITHUB, "if (has(told) && («left_out» || !put_part(page, report, told, make)))", "false", "a case that is less bad takes the room of a worse"),
+    Fault(GITHUB, "const bool fits = «!page->left_out» && size", "true", "a case that is less bad takes the room of a worse"),
     Fault(GITHUB, "? RG_SUMMARY_LIMIT - «(size_t)st.st_size»\n", "0", "what the step's summary has already is not counted"),
     Fault(GITHUB, "put_escaped(out, «told->message»);", "told->name", "the reason is not told"),
     Fault(JSON, "if («!isfinite(number.value)»)", "false", "a case that was not timed has a measure"),
@@ -49,9 +50,9 @@ ROWS = [
     Fault(TEXT, "if («width > room»)", "false", "lines of any width"),
     Fault(TEXT, "«fputs(bar, out);»", ";", "further lines of a text begin as the text likes"),
     Fault(GTEST, "if («minus == filter»)", "false", "a filter of what not to run lets nothing through"),
-    Fault(GTEST, "} else if («star») {", "false", "a star takes no character"),
+    Fault(GLOB, "} else if («star») {", "false", "a star takes no character"),
     Fault(GTEST, "matches_any(filter, «minus ? minus : end», name)", "end", "what follows the minus is wanted"),
-    Fault(GTEST, "«*pattern == '?'» || *pattern == *name", "false", "a question mark is a character"),
+    Fault(GLOB, "«*pattern == '?'» || *pattern == *text", "false", "a question mark is a character"),
     Fault(GTEST, "is_changed |= «!is_plain(*c) && *c != '.'»;", "false", "two names become one for gtest"),
     Fault(GTEST, "*c == '.' ? «'/'»", "'.'", "a test has a point, which ends its suite"),
     Fault(GTEST, "fprintf(out, *text == '\\n' ? \"\\n| \" : \"%c\", «*text == '[' ? '(' : *text»);", "*text", "details are taken for a result"),

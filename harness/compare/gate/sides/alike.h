@@ -1,13 +1,13 @@
 // Whether what two runs of a cell left is alike: its picture by a tier, its counters and the work
 // of a frame exactly.
-#ifndef RG_HARNESS_COMPARE_GATE_RUN_ALIKE_H
-#define RG_HARNESS_COMPARE_GATE_RUN_ALIKE_H
+#ifndef RG_HARNESS_COMPARE_GATE_SIDES_ALIKE_H
+#define RG_HARNESS_COMPARE_GATE_SIDES_ALIKE_H
 
 #include "core/base/outcome.h"
 #include "core/image/picture.h"
 #include "core/device/device.h"
 #include "harness/compare/gate/cells/cells.h"
-#include "harness/compare/gate/run/sides.h"
+#include "harness/compare/gate/sides/sides.h"
 #include "harness/frames/session.h"
 #include "harness/record/record.h"
 

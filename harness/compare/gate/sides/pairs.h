@@ -1,8 +1,8 @@
 // What a gate holds against what: devices by two.
-#ifndef RG_HARNESS_COMPARE_GATE_RUN_PAIRS_H
-#define RG_HARNESS_COMPARE_GATE_RUN_PAIRS_H
+#ifndef RG_HARNESS_COMPARE_GATE_SIDES_PAIRS_H
+#define RG_HARNESS_COMPARE_GATE_SIDES_PAIRS_H
 
-#include "harness/compare/gate/run/sides.h"
+#include "harness/compare/gate/sides/sides.h"
 
 struct rg_gate_pair {
     char names[RG_SIDES][RG_DEVICE_NAME_SIZE]; // as --device takes one device

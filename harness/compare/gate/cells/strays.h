@@ -1,6 +1,6 @@
 // Expectations of cells, devices and drivers that there are none of, and of days far away.
-#ifndef RG_HARNESS_COMPARE_GATE_RUN_STRAYS_H
-#define RG_HARNESS_COMPARE_GATE_RUN_STRAYS_H
+#ifndef RG_HARNESS_COMPARE_GATE_CELLS_STRAYS_H
+#define RG_HARNESS_COMPARE_GATE_CELLS_STRAYS_H
 
 #include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/expected/expected.h"

@@ -1,4 +1,4 @@
-#include "harness/compare/gate/run/alike.h"
+#include "harness/compare/gate/sides/alike.h"
 
 #include <inttypes.h>
 #include <stdarg.h>

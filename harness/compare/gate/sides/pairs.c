@@ -1,4 +1,4 @@
-#include "harness/compare/gate/run/pairs.h"
+#include "harness/compare/gate/sides/pairs.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "core/base/log.h"
 #include "harness/console/exit.h"
 #include "harness/devices/names.h"
-#include "harness/compare/gate/run/sides.h"
+#include "harness/compare/gate/sides/sides.h"
 #include "harness/devices/workers/worker.h"
 
 static bool copy_name(const char *from, char to[RG_DEVICE_NAME_SIZE])

@@ -1,4 +1,4 @@
-#include "harness/compare/gate/run/sides.h"
+#include "harness/compare/gate/sides/sides.h"
 
 #include <math.h>
 #include <stdio.h>

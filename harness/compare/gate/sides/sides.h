@@ -1,7 +1,7 @@
 // The two things of a gate: devices in workers of their own, which are started anew for every
 // launch.
-#ifndef RG_HARNESS_COMPARE_GATE_RUN_SIDES_H
-#define RG_HARNESS_COMPARE_GATE_RUN_SIDES_H
+#ifndef RG_HARNESS_COMPARE_GATE_SIDES_SIDES_H
+#define RG_HARNESS_COMPARE_GATE_SIDES_SIDES_H
 
 #include "harness/compare/gate/report/report.h"
 #include "harness/devices/devices.h"

@@ -1,0 +1,123 @@
+#include "harness/compare/gate/run/gate.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/console/exit.h"
+#include "harness/devices/names.h"
+
+// Of a cell that did not run on a device.
+static struct rg_known_result unknown(const char *cell, const char *device)
+{
+    return (struct rg_known_result){.cell = cell,
+                                    .device = device,
+                                    .outcome = RG_UNSUPPORTED,
+                                    .pixels = NAN,
+                                    .difference = NAN};
+}
+
+static bool make_results(const struct rg_gate_request *asked, struct rg_gate *gate)
+{
+    const int64_t left = asked->left.count * asked->cells->count;
+    const size_t count = (size_t)(gate->case_count + left);
+    gate->results = rg_alloc(count ? count : 1, sizeof(*gate->results), "gate");
+    for (int64_t i = 0; gate->results && i < left; i++)
+        gate->results[gate->result_count++] =
+            unknown(asked->cells->cells[i / asked->left.count].name,
+                    asked->left.names[i % asked->left.count]);
+    return gate->results;
+}
+
+// A device that is required, and of whose cells none was compared though none fails the gate,
+// becomes a case as one that is missing does. What is unsupported does not pass anyway.
+static void hold_required(struct rg_gate *gate, const char *name)
+{
+    bool any = false, is_told = false;
+    for (int i = 0; i < gate->case_count; i++) {
+        const struct rg_gate_case *c = &gate->cases[i];
+        const enum rg_ending ending = gate->report.cases[i].ending;
+        for (int d = 0; d < c->device_count; d++) {
+            const bool is_of =
+                rg_device_is_of(c->devices[d], name) && ending != RG_ENDING_UNSUPPORTED;
+            any = any || is_of;
+            is_told =
+                is_told || (is_of && (rg_gate_case_was_compared(c) || rg_ending_fails(ending)));
+        }
+    }
+    if (!any || is_told)
+        return;
+    rg_driver_error("--require %s: none of its cells was compared", name);
+    rg_side_is_missing(name, NULL, &gate->report);
+}
+
+bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
+{
+    bool ok = make_results(asked, gate);
+    for (int i = 0; ok && i < gate->case_count; i++) {
+        struct rg_report_case told;
+        struct rg_gate_case *c = &gate->cases[i];
+        struct rg_known_result *result = &gate->results[gate->result_count++];
+        rg_gate_case_tell(c, asked, &told, result);
+        if (!c->is_compared && !c->is_skipped &&
+            (result->outcome == RG_UNSUPPORTED || result->is_foreign))
+            *result = unknown(c->cell->name, rg_gate_case_device(c));
+        gate->report.idle_count +=
+            (told.ending == RG_ENDING_FLAKE || told.ending == RG_ENDING_EXPECTED_FAILURE) &&
+            !rg_gate_case_was_compared(c);
+        ok = (c->details || rg_harness_error("gate: no memory for what a case tells")) &&
+             rg_report_add(&gate->report, &told);
+    }
+    struct rg_device_name name;
+    for (const char *rest = asked->require; ok && rest && *rest;)
+        if ((ok = rg_device_name_read(&rest, &name)))
+            hold_required(gate, name.name);
+    gate->is_told = ok;
+    return ok;
+}
+
+// Why a gate that failed nothing proves nothing.
+static void tell_nothing(const struct rg_gate_request *asked, const struct rg_gate *gate)
+{
+    const struct rg_gtest_shards *shards = &asked->shards;
+    if (gate->case_count)
+        rg_error("gate: none of %d cases was compared to its end; mend what their lines name",
+                 gate->case_count);
+    else if (gate->chosen)
+        rg_error("gate: shard %d of %d has none of %d cases; set GTEST_TOTAL_SHARDS to %d at most",
+                 shards->index + 1, shards->total, gate->chosen, gate->chosen);
+    else
+        rg_error("gate: no case has a name of --gtest_filter; --gtest_list_tests prints names");
+}
+
+int rg_gate_exit(const struct rg_gate_request *asked, const struct rg_gate *gate)
+{
+    const struct rg_report *report = &gate->report;
+    int worst = RG_EXIT_PASS, compared = -report->idle_count;
+    for (int i = 0; i < report->case_count; i++) {
+        const enum rg_ending ending = report->cases[i].ending;
+        const int exit = rg_ending_exit(ending);
+        compared += exit == RG_EXIT_PASS && ending != RG_ENDING_SKIPPED;
+        worst = rg_exit_worse(worst, exit);
+    }
+    if (worst != RG_EXIT_PASS && (worst != RG_EXIT_UNSUPPORTED || !compared))
+        return worst;
+    if (!compared)
+        tell_nothing(asked, gate);
+    return rg_exit_with(RG_EXIT_PASS, compared);
+}
+
+void rg_gate_free(struct rg_gate *gate)
+{
+    rg_report_free(&gate->report);
+    for (int i = 0; i < gate->case_count; i++) {
+        free(gate->cases[i].name);
+        free(gate->cases[i].details);
+        free(gate->cases[i].paths);
+    }
+    free(gate->cases);
+    free(gate->results);
+    free(gate->note);
+    *gate = (struct rg_gate){.results = NULL};
+}

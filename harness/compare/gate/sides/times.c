@@ -1,0 +1,242 @@
+#include "harness/compare/gate/sides/times.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/console/clock.h"
+#include "harness/console/interrupt.h"
+#include "harness/frames/session.h"
+#include "harness/record/named.h"
+#include "harness/record/stats.h"
+
+// A launch takes so many quads, or times of B alone: opening a cell costs as much as several, and
+// what disturbs one of them is not in their median.
+enum { QUADS = 3 };
+
+bool rg_times_are_over(void *user)
+{
+    const struct rg_gate_times *t = user;
+    return rg_interrupted() || (t->end_ms > 0 && rg_now_ms() >= t->end_ms);
+}
+
+bool rg_timed_cell_fails(struct rg_timed_cell *timed)
+{
+    const struct rg_failure failure = rg_failure_take();
+    timed->outcome = failure.outcome == RG_UNSUPPORTED ? RG_ERROR : failure.outcome;
+    timed->is_ours = failure.fault == RG_FAULT_INPUT || failure.fault == RG_FAULT_HARNESS;
+    rg_text_copy(timed->why, sizeof(timed->why), failure.line);
+    return false;
+}
+
+// --- launches ---
+
+static void take_yardsticks(struct rg_gate_times *t)
+{
+    for (int i = 0; i < RG_YARDSTICKS; i++) {
+        struct rg_launches *of = &t->yardsticks[i];
+        const double ms = rg_yardstick_take(t->room, (enum rg_yardstick)i);
+        if (of->count < RG_SHIFT_SAMPLES)
+            of->ms[of->count++] = ms;
+    }
+}
+
+static bool launch_pair(struct rg_gate_times *t, int first)
+{
+    int side = first;
+    if (rg_side_launch(&t->sides[side]) && rg_side_launch(&t->sides[side = !first]))
+        return true;
+    for (int i = 0; i < t->cell_count; i++) {
+        t->cells[i].side = side;
+        rg_timed_cell_fails(&t->cells[i]);
+    }
+    return false;
+}
+
+// Neither side of a pair is always the one that finds the machine idle. A side that runs alone is
+// opened by the first of its rows, so that one that does not open harms no other.
+static bool start(struct rg_gate_times *t)
+{
+    for (int side = 0; side < t->side_count; side++)
+        rg_side_close(&t->sides[side]);
+    if (t->room)
+        take_yardsticks(t);
+    t->is_launched = !t->cells->sides[RG_SIDE_A] || launch_pair(t, t->launch & 1);
+    t->failed = !t->is_launched;
+    return t->is_launched;
+}
+
+// With a journal, processes are started only where something has to be timed.
+bool rg_times_launch(int number, void *user)
+{
+    struct rg_gate_times *t = user;
+    t->launch = number;
+    t->is_launched = false;
+    if (t->journal)
+        rg_gate_journal_save(t->journal);
+    return t->journal || start(t);
+}
+
+// --- one time of a side ---
+
+// A timing lasts so long at least, and a slot has as many as fill it, of which the median counts:
+// where another process has a core, it takes it for some milliseconds at a time, and many short
+// timings lie between, as few long ones do not.
+#define TIMING_MS 1
+#define SLOT_MS   9
+enum { LEAST_TIMINGS = 3 };
+// As much of the time may go to others.
+#define MOST_STOLEN 0.05
+
+// Of all processors together since the machine began; zeros where the kernel does not tell.
+struct processor_time {
+    unsigned long long all, stolen;
+};
+
+static struct processor_time processor_time(void)
+{
+    unsigned long long v[8] = {0};
+    struct processor_time time = {0, 0};
+    FILE *file = fopen("/proc/stat", "r");
+    if (file && fscanf(file, "cpu %llu %llu %llu %llu %llu %llu %llu %llu", &v[0], &v[1], &v[2],
+                       &v[3], &v[4], &v[5], &v[6], &v[7]) == 8) {
+        for (int i = 0; i < 8; i++)
+            time.all += v[i];
+        time.stolen = v[7];
+    }
+    if (file)
+        fclose(file);
+    return time;
+}
+
+// Whether so much went to others since then that what was timed does not count.
+static bool was_disturbed(const struct processor_time *before)
+{
+    const struct processor_time now = processor_time();
+    return (double)(now.stolen - before->stolen) > MOST_STOLEN * (double)(now.all - before->all);
+}
+
+// Frames that do not count, for drivers compile in the first; tells about how long one takes.
+static bool warm_up_one(struct rg_session *session, double *frame_ms)
+{
+    double ms;
+    const bool ok = rg_session_frames(session, 1, &ms) && rg_session_frames(session, 2, &ms);
+    *frame_ms = ok ? ms / 2 : 0;
+    return ok;
+}
+
+// Settles a slot for frames of such a time.
+static void settle(struct rg_slot *slot, double frame_ms)
+{
+    frame_ms = fmax(frame_ms, 1e-6);
+    slot->frames = (int)fmin(fmax(ceil(TIMING_MS / frame_ms), 1), RG_SLOT_FRAMES);
+    slot->timings =
+        (int)fmin(fmax(ceil(SLOT_MS / (slot->frames * frame_ms)), LEAST_TIMINGS), RG_SLOT_TIMINGS);
+}
+
+// The time of a frame, by the median of the slot's timings.
+static bool time_slot(struct rg_session *session, const struct rg_slot *slot, double *frame_ms)
+{
+    double timings_ms[RG_SLOT_TIMINGS];
+    for (int i = 0; i < slot->timings; i++) {
+        if (!rg_session_frames(session, slot->frames, &timings_ms[i]))
+            return false;
+        timings_ms[i] /= slot->frames;
+    }
+    *frame_ms = rg_median(timings_ms, slot->timings).median;
+    return true;
+}
+
+// --- a cell's launch ---
+
+// Frames that are not timed, for drivers compile in the first. By both sides' mean is settled how
+// many are timed, the same on both: as a ratio, so that neither a slow one takes for ever nor a
+// fast one is too short for the clock.
+static bool warm_up(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES])
+{
+    double frame_ms[RG_SIDES];
+    for (int side = 0; side < RG_SIDES; side++) {
+        if (!sessions[side])
+            continue;
+        timed->side = side;
+        if (!warm_up_one(sessions[side], &frame_ms[side]))
+            return false;
+    }
+    if (!timed->slot.frames)
+        settle(&timed->slot, sessions[RG_SIDE_A] ? sqrt(frame_ms[RG_SIDE_A] * frame_ms[RG_SIDE_B])
+                                                 : frame_ms[RG_SIDE_B]);
+    return true;
+}
+
+static bool time_quad(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES],
+                      bool b_first, double *const times_ms[RG_SIDES])
+{
+    const int order[4] = {b_first, !b_first, !b_first, b_first};
+    int taken[RG_SIDES] = {0, 0};
+    for (int i = 0; i < 4; i++) {
+        const int side = timed->side = order[i];
+        if (!time_slot(sessions[side], &timed->slot, &times_ms[side][taken[side]++]))
+            return false;
+    }
+    return true;
+}
+
+// Of a pair so many quads, and of B alone as many times.
+static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES],
+                        bool b_first, struct rg_quads *quads)
+{
+    double logs[QUADS], a_ms[2 * QUADS], b_ms[2 * QUADS];
+    const bool is_pair = sessions[RG_SIDE_A];
+    const struct processor_time before = processor_time();
+    for (int i = 0; i < QUADS; i++) {
+        double *const at[RG_SIDES] = {a_ms + 2 * i, is_pair ? b_ms + 2 * i : b_ms + i};
+        if (is_pair ? !time_quad(timed, sessions, b_first ^ (i & 1), at)
+                    : !time_slot(sessions[RG_SIDE_B], &timed->slot, at[RG_SIDE_B]))
+            return false;
+        logs[i] = is_pair ? rg_quad_log(at[RG_SIDE_A], at[RG_SIDE_B]) : 0;
+    }
+    *quads = (struct rg_quads){.b_ms = rg_median(b_ms, is_pair ? 2 * QUADS : QUADS).median,
+                               .is_disturbed = was_disturbed(&before)};
+    quads->a_ms = is_pair ? rg_median(a_ms, 2 * QUADS).median : 0;
+    quads->log = is_pair ? rg_median(logs, QUADS).median : log(quads->b_ms);
+    return true;
+}
+
+static bool take(struct rg_timed_cell *timed, bool b_first, struct rg_quads *quads)
+{
+    const struct rg_gate_cell *cell = timed->cell;
+    const struct rg_subject subject = {cell->technique, cell->settings, cell->width, cell->height};
+    struct rg_session *sessions[RG_SIDES] = {NULL, NULL};
+    const double start_ms = rg_now_ms();
+    bool ok = true;
+    for (int i = 0; ok && i < RG_SIDES; i++) {
+        const int number = i ^ b_first;
+        struct rg_side *side = timed->sides[number];
+        if (!side)
+            continue;
+        timed->side = number;
+        sessions[number] = side->device || rg_side_launch(side)
+                               ? rg_session_run(side->device, &subject, cell->frames)
+                               : NULL;
+        ok = sessions[number] != NULL;
+    }
+    ok = (ok && warm_up(timed, sessions) && time_launch(timed, sessions, b_first, quads)) ||
+         rg_timed_cell_fails(timed);
+    for (int side = 0; side < RG_SIDES; side++)
+        rg_session_close(sessions[side]);
+    timed->seconds += (rg_now_ms() - start_ms) / 1000;
+    return ok && !rg_interrupted();
+}
+
+bool rg_times_take(int row, bool b_first, struct rg_quads *quads, void *user)
+{
+    struct rg_gate_times *t = user;
+    if (t->journal && rg_gate_journal_find(t->journal, t->cells[row].name, t->launch, quads))
+        return true;
+    if ((!t->is_launched && (t->failed || !start(t))) || !take(&t->cells[row], b_first, quads))
+        return false;
+    if (t->journal)
+        rg_gate_journal_add(t->journal, t->cells[row].name, t->launch, quads);
+    return true;
+}
