@@ -14,6 +14,7 @@
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "tests/core/device/draws/quads.h"
+#include "tests/expect.h"
 #include "tests/kernels/idle_params.h"
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))
@@ -110,8 +111,8 @@ static void check(const struct scene *s)
                rg_level_size(s->height, s->level), s->kind, 11);
     struct drawn due[2], drawn[2];
     draw("cpu:reference", s, quads, &due[0], &due[1]);
-    assert_true(changed(&due[0]) == (s->format != RG_FORMAT_NONE));
-    assert_true(changed(&due[1]) == (s->depth == RG_DEPTH_WRITE));
+    assert_equals(changed(&due[0]), (s->format != RG_FORMAT_NONE));
+    assert_equals(changed(&due[1]), (s->depth == RG_DEPTH_WRITE));
     for (int i = 0; i < COUNT_OF(counts); i++) {
         omp_set_num_threads(counts[i]);
         draw("cpu", s, quads, &drawn[0], &drawn[1]);
@@ -262,7 +263,7 @@ static void idle_items_are_left_out(void **state)
         assert_int_equal(runs[0][i], is_run && runs_on_cpu(&marks[i - x], x));
         left_out += runs[0][i] != runs[1][i];
     }
-    assert_true(left_out > TEST_IDLE_ITEMS * IDLE_ROWS / 2);
+    assert_above(left_out, TEST_IDLE_ITEMS * IDLE_ROWS / 2);
 }
 
 int main(void)

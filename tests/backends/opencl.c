@@ -15,6 +15,7 @@
 #include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
 #include "tests/core/device/draws/quads.h"
+#include "tests/expect.h"
 #include "tests/kernels/image_copy_params.h"
 
 static int open_device(void **state)
@@ -145,7 +146,9 @@ static void the_clock_runs_on(void **state)
     copy(&c, 1);
     assert_true(rg_device_time(*state, &between_ns));
     assert_true(rg_device_time(*state, &after_ns));
-    assert_true(before_ns > 0 && before_ns < between_ns && between_ns <= after_ns);
+    assert_above(before_ns, 0);
+    assert_below(before_ns, between_ns);
+    assert_at_most(between_ns, after_ns);
     destroy_copier(&c);
 }
 

@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "kernels/dialect/math.h"
+#include "tests/expect.h"
 
 // Every 1,009th float of every exponent: about two million of each sign.
 enum { STRIDE = 1009, PAIRS = 2000000 };
@@ -97,7 +98,8 @@ static void bounds_in_ulp_hold(void **state)
                 keep_worst(&worst, ulps(cases[c].ours(x), cases[c].truth((double)x)), x, 0.0f);
         }
         print_message("%s: %.3f ulp at %a\n", cases[c].name, worst.error, (double)worst.x);
-        assert_true(worst.error > 0.0 && worst.error <= cases[c].bound_ulp);
+        assert_above(worst.error, 0.0);
+        assert_at_most(worst.error, cases[c].bound_ulp);
     }
 }
 
@@ -111,7 +113,7 @@ static void logarithms_hold_near_one(void **state)
         keep_worst(&worst, ulps(rg_log2(x), log2((double)x)), x, 0.0f);
         keep_worst(&worst, ulps(rg_log(x), log((double)x)), x, 0.0f);
     }
-    assert_true(worst.error <= 1.0);
+    assert_at_most(worst.error, 1.0);
 }
 
 static void sine_and_cosine_hold(void **state)
@@ -128,7 +130,8 @@ static void sine_and_cosine_hold(void **state)
         keep_worst(&worst, fabs(rg_cos(spread) - cos((double)spread)), spread, 0.0f);
     }
     print_message("rg_sin, rg_cos: %.3g at %a\n", worst.error, (double)worst.x);
-    assert_true(worst.error > 0.0 && worst.error <= bound);
+    assert_above(worst.error, 0.0);
+    assert_at_most(worst.error, bound);
 }
 
 static void keep_worst_angle(struct worst *worst, float y, float x)
@@ -164,8 +167,11 @@ static void angles_hold(void **state)
         "rg_atan2: %.3f ulp at %a, %a; %.3f ulp at %a, %a; rg_asin, rg_acos: %.3f at %a\n",
         any.error, (double)any.x, (double)any.y, slopes.error, (double)slopes.x, (double)slopes.y,
         arcs.error, (double)arcs.x);
-    assert_true(any.error > 0.0 && any.error <= 3.0 && slopes.error <= 3.0);
-    assert_true(arcs.error > 0.0 && arcs.error <= 3.5);
+    assert_above(any.error, 0.0);
+    assert_at_most(any.error, 3.0);
+    assert_at_most(slopes.error, 3.0);
+    assert_above(arcs.error, 0.0);
+    assert_at_most(arcs.error, 3.5);
 }
 
 static void check_pow(struct worst *worst, float x, float y)
@@ -188,7 +194,8 @@ static void power_holds(void **state)
         check_pow(&worst, random_within(&seed, 0.0f, 1.0f), random_within(&seed, 0.0f, 100.0f));
     }
     print_message("rg_pow: %.3f ulp at %a, %a\n", worst.error, (double)worst.x, (double)worst.y);
-    assert_true(worst.error > 0.0 && worst.error <= 8.0);
+    assert_above(worst.error, 0.0);
+    assert_at_most(worst.error, 8.0);
 }
 
 static void whole_power_holds(void **state)
@@ -203,8 +210,10 @@ static void whole_power_holds(void **state)
     }
     print_message("rg_pow_whole: %.3f ulp at %a, %a\n", worst.error, (double)worst.x,
                   (double)worst.y);
-    assert_true(worst.error > 0.0 && worst.error <= 14.0);
-    assert_true(rg_pow_whole(0.0f, 0) == 1.0f && rg_pow_whole(3.0f, 5) == 243.0f);
+    assert_above(worst.error, 0.0);
+    assert_at_most(worst.error, 14.0);
+    assert_equals(rg_pow_whole(0.0f, 0), 1.0f);
+    assert_equals(rg_pow_whole(3.0f, 5), 243.0f);
 }
 
 static void cube_root_holds(void **state)
@@ -217,8 +226,11 @@ static void cube_root_holds(void **state)
         keep_worst(&worst, ulps(rg_cbrt(x), cbrt((double)x)), x, 0.0f);
     }
     print_message("rg_cbrt: %.3f ulp at %a\n", worst.error, (double)worst.x);
-    assert_true(worst.error > 0.0 && worst.error <= 1.0);
-    assert_true(rg_cbrt(0.0f) == 0.0f && rg_cbrt(27.0f) == 3.0f && rg_cbrt(1e-40f) == 0.0f);
+    assert_above(worst.error, 0.0);
+    assert_at_most(worst.error, 1.0);
+    assert_equals(rg_cbrt(0.0f), 0.0f);
+    assert_equals(rg_cbrt(27.0f), 3.0f);
+    assert_equals(rg_cbrt(1e-40f), 0.0f);
 }
 
 static void hypot_holds(void **state)
@@ -232,46 +244,68 @@ static void hypot_holds(void **state)
         keep_worst(&worst, ulps(rg_hypot(y, x), sqrt((double)x * x + (double)y * y)), x, y);
     }
     print_message("rg_hypot: %.3f ulp at %a, %a\n", worst.error, (double)worst.x, (double)worst.y);
-    assert_true(worst.error > 0.0 && worst.error <= 1.3);
-    assert_true(rg_hypot(0.0f, 0.0f) == 0.0f);
+    assert_above(worst.error, 0.0);
+    assert_at_most(worst.error, 1.3);
+    assert_equals(rg_hypot(0.0f, 0.0f), 0.0f);
 }
 
 static void exact_where_the_answer_is(void **state)
 {
     (void)state;
     for (int n = -126; n <= 127; n++) {
-        assert_true(rg_exp2((float)n) == ldexpf(1.0f, n));
-        assert_true(rg_log2(ldexpf(1.0f, n)) == (float)n);
-        assert_true(rg_pow(2.0f, (float)n) == ldexpf(1.0f, n));
+        assert_equals(rg_exp2((float)n), ldexpf(1.0f, n));
+        assert_equals(rg_log2(ldexpf(1.0f, n)), (float)n);
+        assert_equals(rg_pow(2.0f, (float)n), ldexpf(1.0f, n));
     }
-    assert_true(rg_exp(0.0f) == 1.0f && rg_log(1.0f) == 0.0f);
-    assert_true(rg_sin(0.0f) == 0.0f && rg_cos(0.0f) == 1.0f);
-    assert_true(rg_rsqrt(4.0f) == 0.5f);
+    assert_equals(rg_exp(0.0f), 1.0f);
+    assert_equals(rg_log(1.0f), 0.0f);
+    assert_equals(rg_sin(0.0f), 0.0f);
+    assert_equals(rg_cos(0.0f), 1.0f);
+    assert_equals(rg_rsqrt(4.0f), 0.5f);
 }
 
 static void edges_are_as_documented(void **state)
 {
     (void)state;
-    assert_true(rg_atan2(0.0f, 0.0f) == 0.0f && rg_atan2(-0.0f, -0.0f) == 0.0f);
-    assert_true(rg_atan2(0.0f, -2.0f) == RG_PI && rg_atan2(-0.0f, -2.0f) == RG_PI);
-    assert_true(rg_atan2(0.0f, 2.0f) == 0.0f && rg_atan2(1e-38f, 1e20f) == 0.0f);
-    assert_true(rg_atan2(3.0f, 0.0f) == RG_PI / 2 && rg_atan2(-3.0f, 0.0f) == -RG_PI / 2);
-    assert_true(rg_atan2(5.0f, 5.0f) == RG_PI / 4 && rg_atan2(1.7e38f, 1.7e38f) == RG_PI / 4);
-    assert_true(rg_atan2(9e-31f, -9e-31f) == 0.0f && rg_atan2(-1e-40f, 0.0f) == 0.0f);
-    assert_true(rg_asin(2.0f) == RG_PI / 2 && rg_asin(-2.0f) == -RG_PI / 2);
-    assert_true(rg_acos(2.0f) == 0.0f && rg_acos(-2.0f) == RG_PI && rg_acos(0.0f) == RG_PI / 2);
-    assert_true(rg_exp2(-126.00001f) == 0.0f && rg_exp2(-1e30f) == 0.0f);
-    assert_true(rg_exp2(128.0f) == FLT_MAX && rg_exp2(1e30f) == FLT_MAX);
-    assert_true(rg_exp(-87.4f) == 0.0f && rg_exp(-1e30f) == 0.0f);
-    assert_true(rg_exp(88.8f) == FLT_MAX && rg_exp(1e30f) == FLT_MAX);
-    assert_true(rg_log2(0.0f) == -126.0f && rg_log2(-1.0f) == -126.0f &&
-                rg_log2(1e-40f) == -126.0f);
-    assert_true(rg_sin(1e30f) == rg_sin(8192.0f) && rg_cos(-1e30f) == rg_cos(-8192.0f));
-    assert_true(rg_pow(0.0f, 2.0f) == 0.0f && rg_pow(0.0f, 0.0f) == 1.0f);
-    assert_true(rg_pow(1e-40f, 0.5f) == 0.0f && rg_pow(7.0f, 0.0f) == 1.0f);
-    assert_true(rg_pow(2.0f, 1e30f) == FLT_MAX && rg_pow(2.0f, -1e30f) == 0.0f);
-    assert_true(rg_pow(0.5f, 1e30f) == 0.0f && rg_pow(0.5f, -1e30f) == FLT_MAX);
-    assert_true(rg_pow(1.0f, 1e30f) == 1.0f);
+    assert_equals(rg_atan2(0.0f, 0.0f), 0.0f);
+    assert_equals(rg_atan2(-0.0f, -0.0f), 0.0f);
+    assert_equals(rg_atan2(0.0f, -2.0f), RG_PI);
+    assert_equals(rg_atan2(-0.0f, -2.0f), RG_PI);
+    assert_equals(rg_atan2(0.0f, 2.0f), 0.0f);
+    assert_equals(rg_atan2(1e-38f, 1e20f), 0.0f);
+    assert_equals(rg_atan2(3.0f, 0.0f), RG_PI / 2);
+    assert_equals(rg_atan2(-3.0f, 0.0f), -RG_PI / 2);
+    assert_equals(rg_atan2(5.0f, 5.0f), RG_PI / 4);
+    assert_equals(rg_atan2(1.7e38f, 1.7e38f), RG_PI / 4);
+    assert_equals(rg_atan2(9e-31f, -9e-31f), 0.0f);
+    assert_equals(rg_atan2(-1e-40f, 0.0f), 0.0f);
+    assert_equals(rg_asin(2.0f), RG_PI / 2);
+    assert_equals(rg_asin(-2.0f), -RG_PI / 2);
+    assert_equals(rg_acos(2.0f), 0.0f);
+    assert_equals(rg_acos(-2.0f), RG_PI);
+    assert_equals(rg_acos(0.0f), RG_PI / 2);
+    assert_equals(rg_exp2(-126.00001f), 0.0f);
+    assert_equals(rg_exp2(-1e30f), 0.0f);
+    assert_equals(rg_exp2(128.0f), FLT_MAX);
+    assert_equals(rg_exp2(1e30f), FLT_MAX);
+    assert_equals(rg_exp(-87.4f), 0.0f);
+    assert_equals(rg_exp(-1e30f), 0.0f);
+    assert_equals(rg_exp(88.8f), FLT_MAX);
+    assert_equals(rg_exp(1e30f), FLT_MAX);
+    assert_equals(rg_log2(0.0f), -126.0f);
+    assert_equals(rg_log2(-1.0f), -126.0f);
+    assert_equals(rg_log2(1e-40f), -126.0f);
+    assert_equals(rg_sin(1e30f), rg_sin(8192.0f));
+    assert_equals(rg_cos(-1e30f), rg_cos(-8192.0f));
+    assert_equals(rg_pow(0.0f, 2.0f), 0.0f);
+    assert_equals(rg_pow(0.0f, 0.0f), 1.0f);
+    assert_equals(rg_pow(1e-40f, 0.5f), 0.0f);
+    assert_equals(rg_pow(7.0f, 0.0f), 1.0f);
+    assert_equals(rg_pow(2.0f, 1e30f), FLT_MAX);
+    assert_equals(rg_pow(2.0f, -1e30f), 0.0f);
+    assert_equals(rg_pow(0.5f, 1e30f), 0.0f);
+    assert_equals(rg_pow(0.5f, -1e30f), FLT_MAX);
+    assert_equals(rg_pow(1.0f, 1e30f), 1.0f);
 }
 
 static bool normal_or_zero(float v)

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "tests/dialect/spirv.h"
+#include "tests/expect.h"
 
 static bool is_float_operation(uint32_t op)
 {
@@ -131,7 +132,7 @@ static void every_kernel_is_exact(void **state)
     (void)state;
     const struct rg_kernel *const *all;
     int count = rg_kernel_all(&all);
-    assert_true(count > 0);
+    assert_above(count, 0);
     for (int i = 0; i < count; i++) {
         for (int s = 0; s < SPIRV_STAGES; s++) {
             struct findings found = inspect_module(spirv_module(all[i], spirv_stages[s].kind));
@@ -157,7 +158,7 @@ static void every_module_is_valid(void **state)
             modules += module.count > 0;
         }
     }
-    assert_true(modules >= count);
+    assert_at_least(modules, count);
 }
 
 // A GRID kernel has one stage, a DRAW program the two others.
@@ -181,10 +182,11 @@ static void the_inspection_sees_operations(void **state)
 {
     (void)state;
     struct findings found = inspect_module(find_module("test_precise", RG_CODE_SPIRV));
-    assert_true(found.operations >= 25);
-    assert_true(found.functions >= 3);
-    assert_true(inspect_module(find_module("test_quads", RG_CODE_VERTEX_SPIRV)).operations >= 2);
-    assert_true(inspect_module(find_module("test_quads", RG_CODE_FRAGMENT_SPIRV)).operations >= 5);
+    assert_at_least(found.operations, 25);
+    assert_at_least(found.functions, 3);
+    assert_at_least(inspect_module(find_module("test_quads", RG_CODE_VERTEX_SPIRV)).operations, 2);
+    assert_at_least(inspect_module(find_module("test_quads", RG_CODE_FRAGMENT_SPIRV)).operations,
+                    5);
 }
 
 // How often a fault was found in a module with one decoration, one square root or one fetch made
@@ -245,9 +247,9 @@ static struct faults spoil(const char *kernel, enum rg_code_kind kind)
 static void the_inspection_finds_faults(void **state)
 {
     (void)state;
-    assert_true(spoil("test_precise", RG_CODE_SPIRV).roots >= 1);
-    assert_true(spoil("test_quads", RG_CODE_VERTEX_SPIRV).decorations >= 2);
-    assert_true(spoil("test_quads", RG_CODE_FRAGMENT_SPIRV).fetches >= 1);
+    assert_at_least(spoil("test_precise", RG_CODE_SPIRV).roots, 1);
+    assert_at_least(spoil("test_quads", RG_CODE_VERTEX_SPIRV).decorations, 2);
+    assert_at_least(spoil("test_quads", RG_CODE_FRAGMENT_SPIRV).fetches, 1);
 }
 
 // --- rounding ---
@@ -325,8 +327,9 @@ static void no_quotient_is_left_to_the_driver(void **state)
                          all[i]->name, spirv_stages[s].name, left);
             plain_left += rounds ? 0 : left;
         }
-    assert_true(rough > 1000 && plain > 500);
-    assert_true(plain_left > plain / 2); // so that one that is left would be seen
+    assert_above(rough, 1000);
+    assert_above(plain, 500);
+    assert_above(plain_left, plain / 2); // so that one that is left would be seen
 }
 
 int main(void)

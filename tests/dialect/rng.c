@@ -8,6 +8,7 @@
 #include <Random123/philox.h>
 
 #include "kernels/dialect/rng.h"
+#include "tests/expect.h"
 
 // Random123's kat_vectors for philox4x32, 10 rounds.
 static void known_answers(void **state)
@@ -53,15 +54,16 @@ static void equals_random123(void **state)
 static void uniforms_fill_the_unit_interval(void **state)
 {
     (void)state;
-    assert_true(rg_uniform(0) == 0.0f && rg_uniform(0xff) == 0.0f);
-    assert_true(rg_uniform(0x100) == 0x1p-24f);
-    assert_true(rg_uniform(0xffffffff) == 1.0f - 0x1p-24f);
+    assert_equals(rg_uniform(0), 0.0f);
+    assert_equals(rg_uniform(0xff), 0.0f);
+    assert_equals(rg_uniform(0x100), 0x1p-24f);
+    assert_equals(rg_uniform(0xffffffff), 1.0f - 0x1p-24f);
     double sum = 0.0;
     const int count = 100000;
     for (int i = 0; i < count; i++)
         sum += (double)rg_uniform(rg_random(1, (uint)i, 0, 0).x);
     // the mean's standard deviation is 1 / sqrt(12 count) = 0.0009
-    assert_true(fabs(sum / count - 0.5) < 0.004);
+    assert_below(fabs(sum / count - 0.5), 0.004);
 }
 
 int main(void)

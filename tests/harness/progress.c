@@ -15,6 +15,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/duration.h"
 #include "harness/console/progress.h"
+#include "tests/expect.h"
 
 static char told[256];
 static int lines;
@@ -59,7 +60,7 @@ static void what_is_left_follows_from_what_was_done(void **state)
     assert_about(rg_progress_left_ms(&p, now_ms), 90000);
     assert_about(rg_progress_unit_ms(&p, now_ms), 100);
     p.total = 1001; // of which less than a tenth is behind
-    assert_true(rg_progress_left_ms(&p, now_ms) == 0);
+    assert_equals(rg_progress_left_ms(&p, now_ms), 0);
     p = after(6000);
     p.first = (struct rg_progress_mark){20, 500 + 4000}; // which took half as long again
     p.total = 800;
@@ -67,8 +68,8 @@ static void what_is_left_follows_from_what_was_done(void **state)
     assert_about(rg_progress_left_ms(&p, now_ms), 700 * 75);
     p = after(6000);
     p.marks[0].done = 0; // too few are done to be told apart
-    assert_true(rg_progress_left_ms(&p, now_ms) == 0);
-    assert_true(rg_progress_unit_ms(&(struct rg_progress){.total = 9}, now_ms) == 0);
+    assert_equals(rg_progress_left_ms(&p, now_ms), 0);
+    assert_equals(rg_progress_unit_ms(&(struct rg_progress){.total = 9}, now_ms), 0);
 }
 
 // Where the last units took more than twice as long as all, or less than half, nothing follows: as
@@ -78,17 +79,17 @@ static void units_that_are_not_alike_tell_nothing(void **state)
     (void)state;
     const double now_ms = 500 + 10000;
     struct rg_progress p = after(3001); // half as long; 45 s are left, or 90
-    assert_true(rg_progress_left_ms(&p, now_ms) > 0);
+    assert_above(rg_progress_left_ms(&p, now_ms), 0);
     p = after(2999);
-    assert_true(rg_progress_left_ms(&p, now_ms) == 0);
+    assert_equals(rg_progress_left_ms(&p, now_ms), 0);
     p = after(9999);
     p.total = 160; // 1.67 times as long
-    assert_true(rg_progress_left_ms(&p, now_ms) > 0);
+    assert_above(rg_progress_left_ms(&p, now_ms), 0);
     p.marks[0].done = 60; // 2.5 times
-    assert_true(rg_progress_left_ms(&p, now_ms) == 0);
+    assert_equals(rg_progress_left_ms(&p, now_ms), 0);
     p.marks[0].done = 40;
     rg_progress_unlike(&p, true);
-    assert_true(rg_progress_left_ms(&p, now_ms) == 0);
+    assert_equals(rg_progress_left_ms(&p, now_ms), 0);
 }
 
 static void run(const char *long_s, int units)

@@ -10,6 +10,7 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "tests/expect.h"
 
 static void elements_stay_while_an_array_grows(void **state)
 {
@@ -20,13 +21,13 @@ static void elements_stay_while_an_array_grows(void **state)
     for (int64_t count = 0; count < 10000; count++) {
         const int64_t before = room;
         assert_true(rg_array_fit(&numbers, &room, count + 1, sizeof(*numbers), "numbers"));
-        assert_true(room > count);
+        assert_above(room, count);
         moves += room != before;
         numbers[count] = (uint32_t)(count * count);
     }
     for (int64_t i = 0; i < 10000; i++)
         assert_int_equal(numbers[i], (uint32_t)(i * i));
-    assert_true(moves < 10); // it doubles: 64, 128, ...
+    assert_below(moves, 10); // it doubles: 64, 128, ...
     free(numbers);
 }
 
@@ -64,7 +65,7 @@ static void an_array_without_memory_is_as_it_was(void **state)
     assert_int_equal(lines, 1);
     assert_non_null(strstr(rg_last_error(), "values: no memory"));
     assert_int_equal(room, had);
-    assert_true(values[0] == 7);
+    assert_equals(values[0], 7);
     rg_log_listen(NULL, NULL);
     free(values);
 }

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "core/base/cage/cage.h"
+#include "tests/expect.h"
 
 static pid_t parent; // a caged program cannot ask for it
 
@@ -233,7 +234,9 @@ static void a_reply_has_an_end(void **state)
                                 NULL};
     assert_int_equal(rg_caged_run(args, -1, 20, MANY + 1, &caged), 0);
     assert_int_equal(rg_caged_end(&caged, "sh", why, sizeof(why)), RG_CAGED_SOUND);
-    assert_true(caged.bytes == MANY + 1 && !caged.reply[MANY - 1] && caged.reply[MANY] == 'x');
+    assert_equals(caged.bytes, MANY + 1);
+    assert_true(!caged.reply[MANY - 1]);
+    assert_equals(caged.reply[MANY], 'x');
     free(caged.reply);
     assert_int_equal(rg_caged_run(args, -1, 20, MANY, &caged), 0);
     assert_int_equal(rg_caged_end(&caged, "sh", why, sizeof(why)), RG_CAGED_FILE);

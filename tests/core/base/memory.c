@@ -13,6 +13,7 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "tests/core/root.h"
+#include "tests/expect.h"
 
 #define MIB ((int64_t)1 << 20)
 
@@ -33,12 +34,13 @@ static void without_a_choice_a_tenth_of_what_is_free_is_kept(void **state)
     const int64_t available = rg_memory_available(), left = rg_memory_left();
     rg_log_listen(NULL, NULL);
     assert_int_equal(warnings, 1);
-    assert_true(available > 0);
+    assert_above(available, 0);
     // Others take and give meanwhile.
-    assert_true(left > available / 2 && left < available * 95 / 100);
+    assert_above(left, available / 2);
+    assert_below(left, available * 95 / 100);
     assert_false(rg_memory_take(available));
     assert_true(rg_memory_take(100 * MIB));
-    assert_true(rg_memory_left() <= left - 50 * MIB);
+    assert_at_most(rg_memory_left(), left - 50 * MIB);
     rg_memory_give(100 * MIB);
 }
 

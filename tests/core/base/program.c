@@ -15,12 +15,13 @@
 #include <cmocka.h>
 
 #include "core/base/program.h"
+#include "tests/expect.h"
 
 // A file in memory with a text, at its start.
 static int file_of(const char *text)
 {
     const int fd = memfd_create("text", 0); // which an exec would leave open
-    assert_true(fd >= 0);
+    assert_at_least(fd, 0);
     assert_int_equal(pwrite(fd, text, strlen(text), 0), (ssize_t)strlen(text));
     return fd;
 }
@@ -36,7 +37,7 @@ static const char *run(const char *const args[], const int fds[], int fd_count)
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_int_equal(status, 0);
     const ssize_t length = pread(fds[1], text, sizeof(text) - 1, 0);
-    assert_true(length >= 0);
+    assert_at_least(length, 0);
     text[length] = 0;
     close(fds[1]);
     return text;
@@ -54,7 +55,11 @@ static void descriptors_are_those_that_were_given(void **state)
     (void)state;
     const int gaps[] = {file_of(""), file_of("")}, a = file_of("first"), b = file_of("second");
     int fds[8] = {-1, file_of(""), -1, -1, -1, -1, -1, -1};
-    assert_true(gaps[0] > 2 && gaps[1] > gaps[0] && a > gaps[1] && b > a && b < 8);
+    assert_above(gaps[0], 2);
+    assert_above(gaps[1], gaps[0]);
+    assert_above(a, gaps[1]);
+    assert_above(b, a);
+    assert_below(b, 8);
     fds[a] = b, fds[b] = a; // each gets the number of the other
     close(gaps[0]);         // numbers that the copies of these two must not have
     close(gaps[1]);

@@ -6,6 +6,7 @@
 #include "core/device/shared.h"
 #include "kernels/probe/copy_params.h"
 #include "tests/core/device/suite.h"
+#include "tests/expect.h"
 
 enum { ROUNDS = 1000, WARM_UP = 100, MAX_GROWTH_BYTES = 16 << 20 };
 
@@ -52,7 +53,7 @@ static void buffers_leave_nothing_behind(void **state)
         rg_buf_destroy(make_buf(*state, words, WORDS, "short-lived"));
     }
     free(words);
-    assert_true(grown_bytes(before) < MAX_GROWTH_BYTES);
+    assert_below(grown_bytes(before), MAX_GROWTH_BYTES);
     check_as_many_live(*state, &work);
 }
 
@@ -71,7 +72,7 @@ static void images_leave_nothing_behind(void **state)
         rg_image_destroy(image);
     }
     free(texels);
-    assert_true(grown_bytes(before) < MAX_GROWTH_BYTES);
+    assert_below(grown_bytes(before), MAX_GROWTH_BYTES);
     check_as_many_live(*state, &work);
 }
 
@@ -93,7 +94,7 @@ static void passes_leave_nothing_behind(void **state)
         rg_pass_destroy(pass);
     }
     assert_true(rg_device_sync(*state));
-    assert_true(grown_bytes(before) < MAX_GROWTH_BYTES);
+    assert_below(grown_bytes(before), MAX_GROWTH_BYTES);
     rg_buf_destroy(source);
     rg_buf_destroy(target);
     check_as_many_live(*state, &work);
@@ -124,7 +125,7 @@ static void devices_open_and_close(void **state)
         rg_buf_destroy(buf);
         assert_true(rg_device_close(device));
     }
-    assert_true(grown_bytes(before) < 4 * MAX_GROWTH_BYTES);
+    assert_below(grown_bytes(before), 4 * MAX_GROWTH_BYTES);
 }
 
 // Two devices take turns in one thread, each call on the other one.
@@ -321,7 +322,7 @@ static void time_goes_on(void **state)
     assert_true(rg_device_time(*state, &first_ns));
     assert_true(rg_device_sync(*state));
     assert_true(rg_device_time(*state, &second_ns));
-    assert_true(second_ns >= first_ns);
+    assert_at_least(second_ns, first_ns);
 }
 
 static double wall_ns(void)
@@ -343,8 +344,8 @@ static void time_is_in_nanoseconds(void **state)
     const double to_ns = wall_ns();
     assert_true(rg_device_time(*state, &second_ns));
     const double found_ns = (double)(second_ns - first_ns);
-    assert_true(found_ns > (to_ns - from_ns) / 2);
-    assert_true(found_ns < (wall_ns() - before_ns) * 2);
+    assert_above(found_ns, (to_ns - from_ns) / 2);
+    assert_below(found_ns, (wall_ns() - before_ns) * 2);
 }
 
 static const struct CMUnitTest tests[] = {

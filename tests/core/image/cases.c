@@ -10,6 +10,7 @@
 
 #include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
+#include "tests/expect.h"
 
 // Tiles of 16 pixels do not fit: the last are 8 wide and 4 high.
 enum { WIDTH = 40, HEIGHT = 20, GREY = 100 };
@@ -122,7 +123,7 @@ static void test_usual_screen(void **state)
         assert_true(rg_compare(&a, "a", &b, "b", NULL, &options[i], &found[i]));
     assert_float_equal(found[0].pixels_per_degree, usual, 1e-4);
     assert_float_equal(found[0].flip.mean, found[1].flip.mean, 1e-6);
-    assert_true(found[0].flip.mean > 0);
+    assert_above(found[0].flip.mean, 0);
     for (int i = 0; i < 2; i++)
         rg_comparison_destroy(&found[i]);
     rg_picture_destroy(&a);
@@ -143,12 +144,12 @@ static void test_differences(void **state)
         struct rg_tiers tiers = judge(&pair);
         assert_int_equal(tiers.mask_pixels, 40);
         assert_int_equal(tiers.max_codes, 3);
-        assert_true(tiers.above_one_fraction == 1 / 40.0);
+        assert_equals(tiers.above_one_fraction, 1 / 40.0);
         assert_fails(&tiers, RG_T1, "largest difference 3/255");
         pair.b[2][3][channel]++; // two codes
         tiers = judge(&pair);
         assert_int_equal(tiers.max_codes, 2);
-        assert_true(tiers.above_one_fraction == 1 / 40.0);
+        assert_equals(tiers.above_one_fraction, 1 / 40.0);
         assert_fails(&tiers, RG_T1, "of the mask is above 1/255");
     }
 }
@@ -167,7 +168,7 @@ static void test_bias(void **state)
             pair.b[12][x][0] = (uint8_t)(GREY + sign); // no rain
         const struct rg_tiers tiers = judge(&pair);
         assert_int_equal(tiers.mask_pixels, 20);
-        assert_true(tiers.bias_codes == sign * 0.5);
+        assert_equals(tiers.bias_codes, sign * 0.5);
         assert_fails(&tiers, RG_T1, "bias");
     }
 }
@@ -182,7 +183,8 @@ static void test_matches(void **state)
         set(pair.a[9][9], 200, 200, 200);
         set(pair.b[8 + way / 3][8 + way % 3], 200, 200, 200);
         const struct rg_tiers tiers = judge(&pair);
-        assert_true(tiers.matched_a == 1 && tiers.matched_b == 1);
+        assert_equals(tiers.matched_a, 1);
+        assert_equals(tiers.matched_b, 1);
     }
     for (int only_b = 0; only_b < 2; only_b++) {
         struct pair pair;
@@ -191,8 +193,8 @@ static void test_matches(void **state)
         set(only_b ? pair.b[9][9] : pair.a[9][9], 200, 200, 200);
         const struct rg_tiers tiers = judge(&pair);
         assert_int_equal(tiers.mask_pixels, 20);
-        assert_true(tiers.matched_a == (only_b ? 1 : 1 - 1 / 20.0));
-        assert_true(tiers.matched_b == (only_b ? 1 - 1 / 20.0 : 1));
+        assert_equals(tiers.matched_a, (only_b ? 1 : 1 - 1 / 20.0));
+        assert_equals(tiers.matched_b, (only_b ? 1 - 1 / 20.0 : 1));
         assert_fails(&tiers, RG_T2, "is found within 1 pixel");
     }
 }
@@ -210,7 +212,7 @@ static void test_tiles(void **state)
             for (int x = tiles[i][0]; x < tiles[i][2]; x++)
                 pair.b[y][x][2] = GREY + 6;
         const struct rg_tiers tiers = judge(&pair);
-        assert_true(tiers.tile_max_codes == 6);
+        assert_equals(tiers.tile_max_codes, 6);
     }
 }
 
@@ -223,12 +225,12 @@ static void test_energy(void **state)
     for (int x = 0; x < 20; x++)
         set(pair.b[2][x], 145, 145, 145);
     struct rg_tiers tiers = judge(&pair);
-    assert_true(tiers.energy_ratio == 0.9);
+    assert_equals(tiers.energy_ratio, 0.9);
     assert_fails(&tiers, RG_T2, "energy ratio");
     for (int x = 0; x < 20; x++)
         set(pair.b[2][x], 155, 155, 155);
     tiers = judge(&pair);
-    assert_true(tiers.energy_ratio == 1.1);
+    assert_equals(tiers.energy_ratio, 1.1);
     assert_fails(&tiers, RG_T2, "energy ratio");
 }
 

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/image/disc.h"
+#include "tests/expect.h"
 
 static struct rg_picture dark(int width, int height, int channels)
 {
@@ -49,12 +50,13 @@ static void a_point_becomes_a_disc(void **state)
                 const float *t = texel(&p, x, y);
                 const double due = share_inside(x - 20, y - 18, radius);
                 const bool is_edge = due > 0 && due < 0.999 * whole;
-                assert_true(t[0] == 0 && t[2] == 0);
+                assert_equals(t[0], 0);
+                assert_equals(t[2], 0);
                 if (fabs((double)t[1] - due) > (is_edge ? 0.52 : 0.03) * whole)
                     fail_msg("disc of %g at %d %d: %g, not %g", diameter, x, y, (double)t[1], due);
                 sum += (double)t[1];
             }
-        assert_true(fabs(sum - 1) < 1e-6);
+        assert_below(fabs(sum - 1), 1e-6);
         rg_picture_destroy(&p);
     }
 }
@@ -68,7 +70,7 @@ static void beyond_its_edges_a_picture_is_mirrored(void **state)
         p.texels[i] = (float)(i % 8);
     assert_true(rg_picture_blur(&p, 4000));
     for (int i = 0; i < 48; i++)
-        assert_true(fabs((double)p.texels[i] - 3.5) < 0.01);
+        assert_below(fabs((double)p.texels[i] - 3.5), 0.01);
     rg_picture_destroy(&p);
 
     // At a corner a quarter of the disc is its own, and the rest the same quarter mirrored.
@@ -81,7 +83,7 @@ static void beyond_its_edges_a_picture_is_mirrored(void **state)
     assert_true(rg_picture_blur(&q, 7));
     for (int y = 0; y < 12; y++)
         for (int x = 0; x < 12; x++)
-            assert_true(fabsf(*texel(&p, x, y) - *texel(&q, x + 12, y + 12)) < 1e-6f);
+            assert_below(fabsf(*texel(&p, x, y) - *texel(&q, x + 12, y + 12)), 1e-6f);
     rg_picture_destroy(&p);
     rg_picture_destroy(&q);
 }
@@ -102,7 +104,9 @@ static void a_half_has_means_of_four(void **state)
         assert_true(p.texels[2 * i] == due[i] && p.texels[2 * i + 1] == 1);
     for (int i = 0; i < 3; i++)
         assert_true(rg_picture_halve(&p));
-    assert_true(p.width == 1 && p.height == 1 && p.texels[0] == 9);
+    assert_equals(p.width, 1);
+    assert_equals(p.height, 1);
+    assert_equals(p.texels[0], 9);
     rg_picture_destroy(&p);
 }
 

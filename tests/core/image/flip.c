@@ -10,6 +10,7 @@
 #include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
+#include "tests/expect.h"
 
 enum { WIDTH = 61, HEIGHT = 43, PIXELS = WIDTH * HEIGHT, BIG = 40 };
 
@@ -187,7 +188,7 @@ static double worst_error(const uint8_t *a, const uint8_t *b, float ppd)
         worst = fmax(worst, error);
         sum += error;
     }
-    assert_true(sum / PIXELS < 1e-6);
+    assert_below(sum / PIXELS, 1e-6);
     return worst;
 }
 
@@ -208,13 +209,13 @@ static void map_equals_the_paper(void **state)
     for (int blocks = 1; blocks <= 9; blocks += 4) {
         fill_noise(a, 1, blocks);
         fill_noise(b, 77, blocks);
-        assert_true(worst_error(a, b, 67.0206433f) < 1e-5);
-        assert_true(worst_error(a, b, 31.5f) < 1e-4);
+        assert_below(worst_error(a, b, 67.0206433f), 1e-5);
+        assert_below(worst_error(a, b, 31.5f), 1e-4);
     }
     memcpy(b, a, sizeof(b));
     b[(20 * WIDTH + 30) * 4] ^= 0x80; // one pixel, far from the edges
     b[3 * 4 + 1] ^= 0x40;             // and one at the top edge
-    assert_true(worst_error(a, b, 67.0206433f) < 1e-4);
+    assert_below(worst_error(a, b, 67.0206433f), 1e-4);
 }
 
 static void rain_equals_the_paper(void **state)
@@ -231,7 +232,7 @@ static void rain_equals_the_paper(void **state)
     rain_draw(&picture, look);
     rg_encode(&picture, 1.0f, b);
     rg_picture_destroy(&picture);
-    assert_true(worst_error(a, b, 67.0206433f) < 1e-5);
+    assert_below(worst_error(a, b, 67.0206433f), 1e-5);
 }
 
 // --- high dynamic range ---
@@ -307,7 +308,8 @@ static void expect_hdr(const struct rg_picture *a, const struct rg_picture *b)
     const double start = log2(bright() / largest), stop = log2(bright() / median);
     const int count = (int)fmax(2, ceil(stop - start));
     assert_true(rg_hdr_flip_map(a, b, 31.5f, map, &hdr));
-    assert_true(fabs(hdr.start_exposure - start) < 1e-5 && fabs(hdr.stop_exposure - stop) < 1e-5);
+    assert_below(fabs(hdr.start_exposure - start), 1e-5);
+    assert_below(fabs(hdr.stop_exposure - stop), 1e-5);
     assert_int_equal(hdr.exposures, count);
     for (int e = 0; e < count; e++) {
         see(a, start + e * (stop - start) / (count - 1), va);
@@ -316,10 +318,10 @@ static void expect_hdr(const struct rg_picture *a, const struct rg_picture *b)
             due[i] = fmax(e ? due[i] : 0, oracle_flip(o, va, vb, i % WIDTH, i / WIDTH));
     }
     for (int i = 0; i < PIXELS; i++) {
-        assert_true(fabs((double)map[i] - due[i]) < 1e-4);
+        assert_below(fabs((double)map[i] - due[i]), 1e-4);
         sum += fabs((double)map[i] - due[i]);
     }
-    assert_true(sum / PIXELS < 2e-6);
+    assert_below(sum / PIXELS, 2e-6);
 }
 
 static void hdr_equals_the_paper(void **state)
@@ -343,7 +345,7 @@ static void hdr_in_closed_form(void **state)
     struct rg_picture light = wide_picture(1, 1), black = wide_picture(1, 0);
     assert_true(rg_hdr_flip_map(&light, &light, 67, map, &hdr));
     for (int i = 0; i < PIXELS; i++)
-        assert_true(map[i] == 0.0f);
+        assert_equals(map[i], 0.0f);
     // Even light, before black: one exposure, at which it is 0.85, differs in L* alone.
     for (int i = 0; i < PIXELS * 3; i++)
         light.texels[i] = 512;
@@ -352,10 +354,10 @@ static void hdr_in_closed_form(void **state)
     const double due = 0.95 + (pow(116 * cbrt(0.85) - 16, 0.7) - 0.4 * cmax) / (0.6 * cmax) * 0.05;
     assert_true(rg_hdr_flip_map(&light, &black, 67, map, &hdr));
     assert_int_equal(hdr.exposures, 2);
-    assert_true(fabs(hdr.start_exposure - log2(bright() / 512)) < 1e-5);
-    assert_true(hdr.start_exposure == hdr.stop_exposure);
+    assert_below(fabs(hdr.start_exposure - log2(bright() / 512)), 1e-5);
+    assert_equals(hdr.start_exposure, hdr.stop_exposure);
     for (int i = 0; i < PIXELS; i++)
-        assert_true(fabs((double)map[i] - due) < 1e-5);
+        assert_below(fabs((double)map[i] - due), 1e-5);
     // A black reference, and values that are none, have a number, too.
     light.texels[0] = INFINITY;
     light.texels[1] = NAN;
@@ -368,7 +370,7 @@ static void hdr_in_closed_form(void **state)
         light.texels[i] = i % 2 ? -0.5f : NAN;
     assert_true(rg_hdr_flip_map(&black, &light, 67, map, &hdr));
     for (int i = 0; i < PIXELS; i++)
-        assert_true(map[i] == 0.0f);
+        assert_equals(map[i], 0.0f);
     rg_picture_destroy(&light);
     rg_picture_destroy(&black);
 }
@@ -382,22 +384,23 @@ static void known_values(void **state)
     fill_noise(noise, 5, 1);
     assert_true(rg_flip_map(noise, noise, WIDTH, HEIGHT, 67, map));
     for (int i = 0; i < PIXELS; i++)
-        assert_true(map[i] == 0.0f);
+        assert_equals(map[i], 0.0f);
     // Black to white is a difference of 100 in L* alone: closed form 0.9674.
     struct vec green = {{0, 1, 0}}, blue = {{0, 0, 1}};
     double cmax = pow(hyab(hunt(green), hunt(blue)), 0.7);
     double expected = 0.95 + (pow(100, 0.7) - 0.4 * cmax) / (0.6 * cmax) * 0.05;
-    assert_true(expected > 0.967 && expected < 0.968);
+    assert_above(expected, 0.967);
+    assert_below(expected, 0.968);
     assert_true(rg_flip_map(black, white_codes, WIDTH, HEIGHT, 67, map));
     for (int i = 0; i < PIXELS; i++)
-        assert_true(fabs((double)map[i] - expected) < 1e-5);
+        assert_below(fabs((double)map[i] - expected), 1e-5);
     // Green to blue is the largest difference there is.
     for (int i = 0; i < PIXELS; i++) {
         memcpy(black + i * 4, (uint8_t[]){0, 255, 0, 255}, 4);
         memcpy(white_codes + i * 4, (uint8_t[]){0, 0, 255, 255}, 4);
     }
     assert_true(rg_flip_map(black, white_codes, WIDTH, HEIGHT, 67, map));
-    assert_true(fabs((double)map[PIXELS / 2] - 1) < 1e-5);
+    assert_below(fabs((double)map[PIXELS / 2] - 1), 1e-5);
     assert_false(rg_flip_map(black, white_codes, WIDTH, HEIGHT, 0.5f, map));
 }
 
@@ -412,8 +415,8 @@ static void approximations_are_as_near_as_stated(void **state)
         pow_error =
             fmax(pow_error, fabs((double)rg_flip_pow(h, y) / pow((double)h, (double)y) - 1));
     }
-    assert_true(cbrt_error < 4e-7);
-    assert_true(pow_error < 4e-6);
+    assert_below(cbrt_error, 4e-7);
+    assert_below(pow_error, 4e-6);
 }
 
 static int ascending(const void *a, const void *b)
@@ -452,14 +455,14 @@ static void pooling_equals_sorting(void **state)
     }
     struct rg_flip flip;
     assert_true(rg_flip_pool(map, mask, COUNT, &flip));
-    assert_true(fabs(flip.mean - sum / COUNT) < 1e-9);
-    assert_true(flip.max == 1.0);
-    assert_true(fabs(flip.p99 - (double)sorted[(COUNT * 99 + 99) / 100 - 1]) < 1e-8);
-    assert_true(fabs(flip.weighted_quartile_1 - (double)sorted[quarter[0]]) < 1e-8);
-    assert_true(fabs(flip.weighted_median - (double)sorted[quarter[1]]) < 1e-8);
-    assert_true(fabs(flip.weighted_quartile_3 - (double)sorted[quarter[2]]) < 1e-8);
-    assert_true(fabs(flip.mask_mean - mask_sum / masked) < 1e-9);
-    assert_true(fabs(flip.mask_p99 - (double)in_mask[(masked * 99 + 99) / 100 - 1]) < 1e-8);
+    assert_below(fabs(flip.mean - sum / COUNT), 1e-9);
+    assert_equals(flip.max, 1.0);
+    assert_below(fabs(flip.p99 - (double)sorted[(COUNT * 99 + 99) / 100 - 1]), 1e-8);
+    assert_below(fabs(flip.weighted_quartile_1 - (double)sorted[quarter[0]]), 1e-8);
+    assert_below(fabs(flip.weighted_median - (double)sorted[quarter[1]]), 1e-8);
+    assert_below(fabs(flip.weighted_quartile_3 - (double)sorted[quarter[2]]), 1e-8);
+    assert_below(fabs(flip.mask_mean - mask_sum / masked), 1e-9);
+    assert_below(fabs(flip.mask_p99 - (double)in_mask[(masked * 99 + 99) / 100 - 1]), 1e-8);
 }
 
 int main(void)

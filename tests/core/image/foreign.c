@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/image/files/io.h"
+#include "tests/expect.h"
 
 enum { WIDTH = 7, HIGH = 5, MOST = 4 };
 
@@ -69,7 +70,7 @@ static void comes_back(const char *names, int channels, exr_pixel_type_t type)
     for (int y = 0; y < HIGH; y++)
         for (int x = 0; x < WIDTH; x++)
             for (int c = 0; c < channels; c++)
-                assert_true(picture.texels[(y * WIDTH + x) * channels + c] == value(x, y, c));
+                assert_equals(picture.texels[(y * WIDTH + x) * channels + c], value(x, y, c));
     rg_picture_destroy(&picture);
     unlink(path);
 }

@@ -25,6 +25,7 @@
 #include "core/image/files/temporary.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
+#include "tests/expect.h"
 
 enum { WIDTH = 37, HEIGHT = 23 };
 
@@ -154,7 +155,7 @@ static void png_is_exposed(void **state)
     assert_true(rg_picture_write(path_of("grey.png"), &picture, &options));
     assert_true(rg_picture_read(path_of("grey.png"), &back));
     int code = (int)floor(255 * rg_srgb_encode(0.1 * 3) + 0.5);
-    assert_true(back.texels[0] == (float)rg_srgb_decode(code / 255.0));
+    assert_equals(back.texels[0], (float)rg_srgb_decode(code / 255.0));
     rg_picture_destroy(&picture);
     rg_picture_destroy(&back);
     unlink(path_of("grey.png"));
@@ -171,13 +172,14 @@ static void png_of_16_bits_is_decoded(void **state)
     struct rg_picture back;
     assert_true(rg_picture_read(path_of("deep.png"), &back));
     for (int i = 0; i < 4; i++)
-        assert_true(back.texels[i] == (float)(codes[i] / 65535.0));
-    assert_true(back.decoded && back.gamma == 1);
+        assert_equals(back.texels[i], (float)(codes[i] / 65535.0));
+    assert_true(back.decoded);
+    assert_equals(back.gamma, 1);
     rg_picture_destroy(&back);
     struct rg_why why;
     assert_true(rg_png_read_codes(path_of("deep.png"), 1000, &back, &why));
     for (int i = 0; i < 4; i++)
-        assert_true(back.texels[i] == (float)codes[i] / 65535.0f);
+        assert_equals(back.texels[i], (float)codes[i] / 65535.0f);
     assert_false(back.decoded);
     rg_picture_destroy(&back);
     unlink(path_of("deep.png"));
@@ -191,11 +193,11 @@ static void encoding_is_the_formula(void **state)
         float x = (float)(rain_noise(i) >> 8) * 0x1p-24f;
         x = i % 4 ? x : x * x * x;
         assert_int_equal(rg_srgb_code(srgb, x), (int)floor(255 * rg_srgb_encode((double)x) + 0.5));
-        assert_true(rg_srgb_encoded(srgb, x) == (float)rg_srgb_encode((double)x));
+        assert_equals(rg_srgb_encoded(srgb, x), (float)rg_srgb_encode((double)x));
     }
     for (int c = 1; c < 256; c++) {
-        assert_true(rg_srgb_encoded(srgb, srgb->linear[c]) ==
-                    (float)rg_srgb_encode((double)srgb->linear[c]));
+        assert_equals(rg_srgb_encoded(srgb, srgb->linear[c]),
+                      (float)rg_srgb_encode((double)srgb->linear[c]));
         assert_int_equal(rg_srgb_code(srgb, srgb->threshold[c]), c);
         assert_int_equal(rg_srgb_code(srgb, nextafterf(srgb->threshold[c], 0)), c - 1);
     }
@@ -325,7 +327,7 @@ static void nonfinite_texels_are_kept_and_counted(void **state)
     assert_int_equal(warning_count, 1);
     assert_non_null(strstr(errors, "2 values are NaN or infinite, the first at x 7, y 5"));
     assert_true(isnan(back.texels[(5 * WIDTH + 7) * 3 + 1]));
-    assert_true(back.texels[(9 * WIDTH + 2) * 3] == -INFINITY);
+    assert_equals(back.texels[(9 * WIDTH + 2) * 3], -INFINITY);
     rg_picture_destroy(&picture);
     rg_picture_destroy(&back);
     struct rg_picture both[2];
@@ -514,7 +516,7 @@ static void a_link_is_followed(void **state)
     assert_int_equal(lstat(link, &st), 0);
     assert_true(S_ISLNK(st.st_mode));
     assert_int_equal(stat(target, &st), 0);
-    assert_true(st.st_size > 3);
+    assert_above(st.st_size, 3);
     rg_picture_destroy(&picture);
     unlink(link);
     unlink(target);

@@ -12,6 +12,7 @@
 #include "core/image/files/oiio.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
+#include "tests/expect.h"
 
 static struct rg_picture noise_picture(int width, int height, int channels, uint32_t seed)
 {
@@ -33,7 +34,10 @@ static void equal_pictures_have_no_error(void **state)
     struct rg_picture a = noise_picture(19, 7, 3, 1);
     struct rg_metrics m;
     assert_true(rg_metrics_compute(&a, &a, &m));
-    assert_true(m.mean == 0 && m.rms == 0 && m.max == 0 && isinf(m.psnr_db));
+    assert_equals(m.mean, 0);
+    assert_equals(m.rms, 0);
+    assert_equals(m.max, 0);
+    assert_true(isinf(m.psnr_db));
     assert_int_equal(m.differing_values, 0);
     assert_int_equal(m.values, 19 * 7 * 3);
     rg_picture_destroy(&a);
@@ -54,7 +58,10 @@ static void closed_form(void **state)
     assert_true(near(m.mean, 0.5 / 60, 1e-14));
     assert_true(near(m.rms, sqrt(0.25 / 60), 1e-14));
     assert_true(near(m.psnr_db, 20 * log10(1 / sqrt(0.25 / 60)), 1e-14));
-    assert_true(m.max == 0.5 && m.max_x == 2 && m.max_y == 3 && m.max_channel == 1);
+    assert_equals(m.max, 0.5);
+    assert_equals(m.max_x, 2);
+    assert_equals(m.max_y, 3);
+    assert_equals(m.max_channel, 1);
     assert_int_equal(m.differing_values, 2);
     assert_int_equal(m.differing_pixels, 2);
     for (int t = 0; t < RG_ABOVE_COUNT; t++) {
@@ -64,7 +71,10 @@ static void closed_form(void **state)
     b.texels[(4 * 4 + 1) * 3] = 0.75f; // as large, in the row below: the first is told
     b.texels[(3 * 4 + 3) * 3] = 0.75f; // and in its own
     assert_true(rg_metrics_compute(&a, &b, &m));
-    assert_true(m.max == 0.5 && m.max_x == 2 && m.max_y == 3 && m.max_channel == 1);
+    assert_equals(m.max, 0.5);
+    assert_equals(m.max_x, 2);
+    assert_equals(m.max_y, 3);
+    assert_equals(m.max_channel, 1);
     b.texels[(3 * 4 + 3) * 3 + 2] += 1e-5f; // less, behind the pixel's worst
     assert_true(rg_metrics_compute(&a, &b, &m));
     assert_int_equal(m.values_above[RG_ABOVE_COUNT - 1], 3);
@@ -81,13 +91,18 @@ static void nonfinite_values_are_counted(void **state)
     a.texels[6] = b.texels[6] = INFINITY;
     struct rg_metrics m;
     assert_true(rg_metrics_compute(&a, &b, &m));
-    assert_true(m.max == 0 && m.mean == 0 && isinf(m.psnr_db)); // they agree
+    assert_equals(m.max, 0);
+    assert_equals(m.mean, 0);
+    assert_true(isinf(m.psnr_db)); // they agree
     assert_int_equal(m.nonfinite_a, 2);
     assert_int_equal(m.nonfinite_mismatches, 0);
     a.texels[40 * 4 + 9] = -INFINITY;
     a.texels[1] += 0.5f;
     assert_true(rg_metrics_compute(&a, &b, &m));
-    assert_true(isinf(m.max) && m.max_y == 1 && m.max_x == 2 && m.max_channel == 1);
+    assert_true(isinf(m.max));
+    assert_equals(m.max_y, 1);
+    assert_equals(m.max_x, 2);
+    assert_equals(m.max_channel, 1);
     assert_true(near(m.mean, 0.5 / 480, 1e-6) && isnan(m.psnr_db));
     assert_int_equal(m.nonfinite_mismatches, 1);
     assert_int_equal(m.values_above[RG_ABOVE_COUNT - 1], 2);
@@ -116,8 +131,10 @@ static void agree_up_to(const struct rg_oiio_functions *oiio, float most, int ch
         assert_true(near(m.mean, theirs.mean, 1e-12));
         assert_true(near(m.rms, theirs.rms, 1e-12));
         assert_true(near(m.psnr_db, theirs.psnr_db, 1e-12));
-        assert_true(m.max == theirs.max && m.max_x == theirs.max_x && m.max_y == theirs.max_y &&
-                    m.max_channel == theirs.max_channel);
+        assert_equals(m.max, theirs.max);
+        assert_equals(m.max_x, theirs.max_x);
+        assert_equals(m.max_y, theirs.max_y);
+        assert_equals(m.max_channel, theirs.max_channel);
     }
     rg_picture_destroy(&a);
     rg_picture_destroy(&b);
@@ -155,8 +172,10 @@ static void codes_in_closed_form(void **state)
     const struct rg_compare_options options = {.hdr_flip = true};
     struct rg_comparison c;
     assert_true(rg_compare(&a, "a", &b, "b", NULL, &options, &c));
-    assert_true(c.has_codes && !c.has_hdr_flip && c.code_metrics.rms == m.rms);
-    assert_true(c.metrics.rms != m.rms); // of light
+    assert_true(c.has_codes);
+    assert_true(!c.has_hdr_flip);
+    assert_equals(c.code_metrics.rms, m.rms);
+    assert_differs(c.metrics.rms, m.rms); // of light
     rg_comparison_destroy(&c);
     b.decoded = false; // of one of which there are no codes
     assert_true(rg_compare(&a, "a", &b, "b", NULL, &options, &c));
@@ -164,7 +183,9 @@ static void codes_in_closed_form(void **state)
     rg_comparison_destroy(&c);
     a.decoded = false;
     assert_true(rg_compare(&a, "a", &b, "b", NULL, &options, &c));
-    assert_true(!c.has_codes && c.has_hdr_flip && c.hdr_flip.flip.mean > 0);
+    assert_true(!c.has_codes);
+    assert_true(c.has_hdr_flip);
+    assert_above(c.hdr_flip.flip.mean, 0);
     rg_comparison_destroy(&c);
     rg_picture_destroy(&a);
     rg_picture_destroy(&b);
@@ -184,9 +205,9 @@ static void threads_change_nothing(void **state)
     omp_set_num_threads(threads);
     assert_memory_equal(&one.metrics, &many.metrics, sizeof(one.metrics));
     assert_memory_equal(&one.flip, &many.flip, sizeof(one.flip));
-    assert_true(one.tiers.relative_mean == many.tiers.relative_mean);
-    assert_true(one.tiers.tile_max_codes == many.tiers.tile_max_codes);
-    assert_true(one.tiers.matched_a == many.tiers.matched_a);
+    assert_equals(one.tiers.relative_mean, many.tiers.relative_mean);
+    assert_equals(one.tiers.tile_max_codes, many.tiers.tile_max_codes);
+    assert_equals(one.tiers.matched_a, many.tiers.matched_a);
     assert_memory_equal(one.flip_map, many.flip_map, 300 * 211 * 4);
     rg_comparison_destroy(&one);
     rg_comparison_destroy(&many);

@@ -12,6 +12,7 @@
 #include "core/image/disc.h"
 #include "core/image/picture.h"
 #include "core/image/srgb.h"
+#include "tests/expect.h"
 
 // The first float at which a code begins, and the last before it, by IEC 61966-2-1's own formula.
 static void test_codes(void **state)
@@ -62,7 +63,7 @@ static void test_alpha(void **state)
             assert_int_equal(picture.channels, kept);
             for (int i = 0; i < 3; i++)
                 for (int c = 0; c < colours; c++)
-                    assert_true(picture.texels[i * kept + c] == (float)(i * channels + c));
+                    assert_equals(picture.texels[i * kept + c], (float)(i * channels + c));
             rg_picture_destroy(&picture);
         }
 }
@@ -80,8 +81,8 @@ static void test_half(void **state)
         assert_true(rg_picture_halve(&picture));
         assert_int_equal(picture.width, 2);
         assert_int_equal(picture.height, 1);
-        assert_true(picture.texels[0] == (0 + 1 + 25 + 36) / 4.0f);
-        assert_true(picture.texels[1] == (4 + 9 + 49 + 64) / 4.0f);
+        assert_equals(picture.texels[0], (0 + 1 + 25 + 36) / 4.0f);
+        assert_equals(picture.texels[1], (4 + 9 + 49 + 64) / 4.0f);
         assert_int_equal(picture.decoded, decoded);
         rg_picture_destroy(&picture);
     }

@@ -10,6 +10,7 @@
 #include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
+#include "tests/expect.h"
 
 enum { WIDTH = 320, HEIGHT = 240, CHANNELS = 4 };
 
@@ -69,9 +70,12 @@ static void the_same_rain_is_identical(void **state)
     rain_draw(&mutant, honest_rain);
     struct rg_tiers t = judge(&mutant);
     assert_holds(&t, true, true, true);
-    assert_true(t.mask_pixels > 3000 && t.mask_pixels < WIDTH * HEIGHT / 5);
+    assert_above(t.mask_pixels, 3000);
+    assert_below(t.mask_pixels, WIDTH * HEIGHT / 5);
     assert_false(t.mask_is_whole);
-    assert_true(t.energy_ratio == 1 && t.relative_mean == 0 && t.matched_a == 1);
+    assert_equals(t.energy_ratio, 1);
+    assert_equals(t.relative_mean, 0);
+    assert_equals(t.matched_a, 1);
 }
 
 static void one_bit_is_not_identical(void **state)
@@ -91,7 +95,9 @@ static void other_rounding_is_arithmetic(void **state)
         mutant.texels[i] *= 1 + 1e-5f * ((float)(rain_noise((uint32_t)i) >> 8) * 0x1p-23f - 1);
     struct rg_tiers t = judge(&mutant);
     assert_holds(&t, false, true, true);
-    assert_true(t.max_codes <= 1 && t.relative_mean > 1e-6 && t.relative_max < 2e-5);
+    assert_at_most(t.max_codes, 1);
+    assert_above(t.relative_mean, 1e-6);
+    assert_below(t.relative_max, 2e-5);
 }
 
 static void lost_streaks_are_caught_by_t1_and_t2(void **state)
@@ -102,7 +108,7 @@ static void lost_streaks_are_caught_by_t1_and_t2(void **state)
     rain_draw(&mutant, look);
     struct rg_tiers t = judge(&mutant);
     assert_holds(&t, false, false, false);
-    assert_true(t.coverage_mismatches > 20);
+    assert_above(t.coverage_mismatches, 20);
 }
 
 static void a_shift_by_one_is_geometry(void **state)
@@ -113,9 +119,10 @@ static void a_shift_by_one_is_geometry(void **state)
     rain_draw(&mutant, look);
     struct rg_tiers t = judge(&mutant);
     assert_false(t.of[RG_T1].holds);
-    assert_true(t.coverage_mismatches > 1000);
+    assert_above(t.coverage_mismatches, 1000);
     // The block's edge and tiles of few streaks apart, every streak is found again.
-    assert_true(t.matched_a > 0.97 && t.matched_b > 0.97);
+    assert_above(t.matched_a, 0.97);
+    assert_above(t.matched_b, 0.97);
 }
 
 static void a_streak_two_pixels_off_is_caught_by_t1(void **state)
@@ -127,8 +134,9 @@ static void a_streak_two_pixels_off_is_caught_by_t1(void **state)
     rain_draw(&mutant, look);
     struct rg_tiers t = judge(&mutant);
     assert_false(t.of[RG_T1].holds);
-    assert_true(t.coverage_mismatches > 10);
-    assert_true(t.matched_a < 1 && t.matched_b < 1); // seen by T2 too, below its share here
+    assert_above(t.coverage_mismatches, 10);
+    assert_below(t.matched_a, 1);
+    assert_below(t.matched_b, 1); // seen by T2 too, below its share here
 }
 
 static void stronger_rain_is_caught_by_t1_and_t2(void **state)
@@ -139,8 +147,8 @@ static void stronger_rain_is_caught_by_t1_and_t2(void **state)
     rain_draw(&mutant, look);
     struct rg_tiers t = judge(&mutant);
     assert_false(t.of[RG_T1].holds);
-    assert_true(t.bias_codes > 0.25);
-    assert_true(t.relative_mean > 0.005);
+    assert_above(t.bias_codes, 0.25);
+    assert_above(t.relative_mean, 0.005);
     if (t.of[RG_T2].holds)
         fail_msg("energy %g", t.energy_ratio);
 }
@@ -157,7 +165,7 @@ static void swapped_colours_are_caught(void **state)
     }
     struct rg_tiers t = judge(&mutant);
     assert_holds(&t, false, false, false);
-    assert_true(fabs(t.bias_codes) > 5); // of one colour; over all of them it would cancel
+    assert_above(fabs(t.bias_codes), 5); // of one colour; over all of them it would cancel
 }
 
 static void a_flip_is_caught(void **state)
@@ -225,7 +233,8 @@ static void values_that_are_not_finite_are_left_out(void **state)
         mutant.texels[0] = wrong[i / 2];
         const struct rg_picture *a = i % 2 ? &mutant : &honest, *b = i % 2 ? &honest : &mutant;
         assert_true(rg_compare(a, "a", b, "b", NULL, &(struct rg_compare_options){0}, &c));
-        assert_true(c.tiers.relative_mean == 0 && c.tiers.relative_max == 0);
+        assert_equals(c.tiers.relative_mean, 0);
+        assert_equals(c.tiers.relative_max, 0);
         assert_int_equal(c.metrics.nonfinite_mismatches, 1);
         rg_comparison_destroy(&c);
     }
@@ -310,7 +319,9 @@ static void lamps_that_clip_alike_are_told_apart(void **state)
     (void)state;
     const struct rg_tiers same = scale_lamps(1, 0, 9);
     assert_holds(&same, true, true, true);
-    assert_true(same.clamped_max == 0 && same.clamped_bias == 0 && same.clamped_ratio == 1);
+    assert_equals(same.clamped_max, 0);
+    assert_equals(same.clamped_bias, 0);
+    assert_equals(same.clamped_ratio, 1);
     struct rg_tiers t = scale_lamps(4000, 0, 0); // 1.2 and 4800: no code differs
     assert_int_equal(t.max_codes, 0);
     assert_holds(&t, false, false, false);
@@ -325,7 +336,8 @@ static void what_halves_round_is_arithmetic(void **state)
     (void)state;
     const struct rg_tiers t = scale_lamps(1 + 0x1p-11f, 0, BELOW_BLACK);
     assert_holds(&t, false, true, true);
-    assert_true(t.clamped_max > 4e-4 && t.clamped_max < 6e-4);
+    assert_above(t.clamped_max, 4e-4);
+    assert_below(t.clamped_max, 6e-4);
 }
 
 // Each within the bound of all others.
@@ -335,7 +347,8 @@ static void each_bound_beyond_white_decides(void **state)
     struct rg_tiers t =
         scale_lamps(1.003f, 0, BELOW_BLACK); // a quarter of the picture, below a code
     assert_holds(&t, false, true, true);
-    assert_true(t.clamped_bias > 5e-4 && t.clamped_bias < 1e-3);
+    assert_above(t.clamped_bias, 5e-4);
+    assert_below(t.clamped_bias, 1e-3);
     t = scale_lamps(1.011f, 3, 3); // more than a code in 2.5 % of the picture
     assert_false(t.of[RG_T1].holds);
     assert_true(t.of[RG_T2].holds);
@@ -346,7 +359,8 @@ static void each_bound_beyond_white_decides(void **state)
     mutant.texels[0] *= 1.02f; // one value
     t = judge_lamps(1);
     assert_false(t.of[RG_T1].holds);
-    assert_true(t.clamped_max > 0.0195 && t.clamped_max < 0.0197);
+    assert_above(t.clamped_max, 0.0195);
+    assert_below(t.clamped_max, 0.0197);
 }
 
 static void a_value_that_clips_on_one_side_is_told_apart(void **state)
@@ -369,7 +383,8 @@ static void the_exposure_decides_what_clips(void **state)
     for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++)
         if (is_lamp(i) && bar_of(i) == 0)
             mutant.texels[i] *= 1.004f;
-    assert_true(judge_lamps(1).clamped_max > 0.003 && judge_lamps(0.1f).clamped_max == 0);
+    assert_above(judge_lamps(1).clamped_max, 0.003);
+    assert_equals(judge_lamps(0.1f).clamped_max, 0);
     draw_lamps(&mutant);
     for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++)
         if (is_lamp(i) && bar_of(i) == 5)
@@ -392,7 +407,8 @@ static void infinite_lamps_agree_with_themselves_alone(void **state)
     other.texels[1] = nextafterf(other.texels[1], 0);
     assert_true(rg_compare(&mutant, "a", &other, "b", NULL, &(struct rg_compare_options){0}, &c));
     assert_holds(&c.tiers, false, true, true);
-    assert_true(c.tiers.clamped_max > 0 && c.tiers.clamped_max < 1e-6);
+    assert_above(c.tiers.clamped_max, 0);
+    assert_below(c.tiers.clamped_max, 1e-6);
     rg_comparison_destroy(&c);
     rg_picture_destroy(&other);
 }

@@ -12,6 +12,7 @@
 
 #include "core/image/clip/yuv.h"
 #include "core/image/srgb.h"
+#include "tests/expect.h"
 
 enum { MOST_BYTES = 64 };
 
@@ -30,7 +31,7 @@ static void encode(int width, int height, const uint8_t *codes, uint8_t yuv[MOST
 {
     struct rg_picture picture = picture_of(width, height, codes);
     const size_t bytes = rg_yuv_bytes(width, height);
-    assert_true(bytes < MOST_BYTES);
+    assert_below(bytes, MOST_BYTES);
     memset(yuv, 0x99, MOST_BYTES);
     rg_yuv_encode(&picture, 1, yuv);
     for (size_t i = bytes; i < MOST_BYTES; i++)
@@ -65,7 +66,7 @@ static void colour_bars_have_their_codes(void **state)
 // The nearest code to a value, or either where it lies amid two.
 static void expect_nearest(int code, double value)
 {
-    assert_true(fabs(code - value) <= 0.5 + 1e-9);
+    assert_at_most(fabs(code - value), 0.5 + 1e-9);
 }
 
 static void every_code_is_the_nearest_to_the_formula(void **state)

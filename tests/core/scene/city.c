@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/scene/city/city.h"
+#include "tests/expect.h"
 
 static struct city *create(int seed, enum city_size size)
 {
@@ -123,9 +124,9 @@ static void faces_are_flat_and_look_outwards(void **state)
     for (int size = CITY_FULL; size <= CITY_SMALL; size++) {
         struct city *city = create(1, (enum city_size)size);
         for (int i = 0; i < city->faces.face_count; i++) {
-            assert_true(city->faces.surface_of[i] < (uint32_t)city->faces.surface_count);
-            assert_true((surface(&city->faces, i)[SCENERY_LOOK] & 255) < 149);
-            assert_true(scenery_kind(surface(&city->faces, i)[SCENERY_LOOK]) < SCENERY_KINDS);
+            assert_below(city->faces.surface_of[i], (uint32_t)city->faces.surface_count);
+            assert_below((surface(&city->faces, i)[SCENERY_LOOK] & 255), 149);
+            assert_below(scenery_kind(surface(&city->faces, i)[SCENERY_LOOK]), SCENERY_KINDS);
             check_face(&city->faces, i);
         }
         city_destroy(city);
@@ -144,10 +145,11 @@ static void check_chunks(const struct city_faces *f)
         for (int k = 0; k < 4 * chunk->count; k++) {
             const float *p = corner(f, chunk->first + k / 4, k % 4);
             for (int c = 0; c < 3; c++) {
-                assert_true(p[c] >= chunk->low[c] && p[c] <= chunk->high[c]);
+                assert_at_least(p[c], chunk->low[c]);
+                assert_at_most(p[c], chunk->high[c]);
                 const double n = (double)chunk->normal[c];
                 if (chunk->normal[0] != 0 || chunk->normal[1] != 0 || chunk->normal[2] != 0)
-                    assert_true(fabs(normal(f, chunk->first + k / 4, c) - n) < 1e-6);
+                    assert_below(fabs(normal(f, chunk->first + k / 4, c) - n), 1e-6);
             }
         }
     }
@@ -291,8 +293,9 @@ static void buildings_rise_towards_the_middle(void **state)
         sums[outer] += (double)box->high[1];
         counts[outer]++;
     }
-    assert_true(counts[0] > 20 && counts[1] > 20);
-    assert_true(sums[0] / counts[0] > 2 * sums[1] / counts[1]);
+    assert_above(counts[0], 20);
+    assert_above(counts[1], 20);
+    assert_above(sums[0] / counts[0], 2 * sums[1] / counts[1]);
     city_destroy(city);
 }
 
@@ -306,17 +309,20 @@ static void lamps_stand_in_the_streets(void **state)
         const struct city_lamp *lamp = &city->lamps[i];
         const float *p = lamp->position, *d = lamp->direction;
         kinds[lamp->kind]++;
-        assert_true(p[1] > 2 && p[1] < 9);
-        assert_true(fabsf(p[0]) < 200 && fabsf(p[2]) < 200);
-        assert_true(fabsf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - 1) < 1e-6f);
+        assert_above(p[1], 2);
+        assert_below(p[1], 9);
+        assert_below(fabsf(p[0]), 200);
+        assert_below(fabsf(p[2]), 200);
+        assert_below(fabsf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - 1), 1e-6f);
         for (int k = 0; k < city->box_count; k++) {
             const struct city_box *b = &city->boxes[k];
             assert_false(p[0] > b->low[0] && p[0] < b->high[0] && p[2] > b->low[2] &&
                          p[2] < b->high[2]);
         }
     }
-    assert_true(kinds[CITY_STREET_LAMP] > 50);
-    assert_true(kinds[CITY_TRAFFIC_RED] > 20 && kinds[CITY_TRAFFIC_GREEN] > 20);
+    assert_above(kinds[CITY_STREET_LAMP], 50);
+    assert_above(kinds[CITY_TRAFFIC_RED], 20);
+    assert_above(kinds[CITY_TRAFFIC_GREEN], 20);
     city_destroy(city);
 }
 
@@ -340,8 +346,8 @@ static void a_seed_makes_one_city(void **state)
     (void)state;
     struct city *a = create(1, CITY_SMALL), *again = create(1, CITY_SMALL);
     struct city *b = create(2, CITY_SMALL);
-    assert_true(a->hash == again->hash);
-    assert_true(a->hash != b->hash);
+    assert_equals(a->hash, again->hash);
+    assert_differs(a->hash, b->hash);
     city_destroy(a);
     city_destroy(again);
     city_destroy(b);

@@ -16,6 +16,7 @@
 #include "core/scene/density.h"
 #include "tests/core/folder.h"
 #include "tests/core/techniques/rigs/packets.h"
+#include "tests/expect.h"
 #include "tests/oracle/streaks/packets.h"
 
 // A PNG of these bytes, of 8 or 16 bits (the more significant byte first) a channel.
@@ -95,7 +96,7 @@ static void test_colours_and_alpha(void **state)
     static const uint8_t alpha[] = {100, 255, 100, 0, 100, 51};
     density = read_and_remove(write_png(3, 1, 8, PNG_COLOR_TYPE_GRAY_ALPHA, alpha));
     expect_near(rg_density_at(density, 0, 0), 100 / 255.0, 1e-12);
-    assert_true(rg_density_at(density, 1, 0) == 0);
+    assert_equals(rg_density_at(density, 1, 0), 0);
     expect_near(rg_density_at(density, 2, 0), 20 / 255.0, 1.0 / 65535);
     rg_density_destroy(density);
 }
@@ -124,7 +125,8 @@ static void test_gradient(void **state)
     const int side = density->width;
     assert_int_equal(side, density->height);
     expect_near(rg_density_at(density, side / 2, side / 2), 1, 2.0 / side);
-    assert_true(rg_density_at(density, 0, 0) == 0 && rg_density_at(density, side - 1, 0) == 0);
+    assert_equals(rg_density_at(density, 0, 0), 0);
+    assert_equals(rg_density_at(density, side - 1, 0), 0);
     expect_near(rg_density_at(density, side / 4, side / 2), 0.5, 2.0 / side);
     uint64_t random = 5;
     for (int i = 0; i < 10; i++) {

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/scene/diorama/diorama.h"
+#include "tests/expect.h"
 
 struct vector {
     double x, y, z;
@@ -127,7 +128,7 @@ static void sizes_are_as_published(void **state)
         assert_int_equal(diorama_sizes[i].vertices, published[i][0]);
         assert_int_equal(diorama_sizes[i].faces, published[i][1]);
         for (int face = 0; face < d->mesh->face_count; face++)
-            assert_true(d->materials[face] < (uint32_t)d->material_count);
+            assert_below(d->materials[face], (uint32_t)d->material_count);
         diorama_destroy(d);
     }
 }
@@ -157,7 +158,7 @@ static void no_face_is_degenerate(void **state)
         struct diorama *d = diorama_create((enum diorama_scene)i);
         for (int face = 0; face < d->mesh->face_count; face++) {
             const struct vector area = area_of(d->mesh, face);
-            assert_true(sqrt(dot(area, area)) > 1e-7); // m2
+            assert_above(sqrt(dot(area, area)), 1e-7); // m2
         }
         diorama_destroy(d);
     }
@@ -175,11 +176,11 @@ static void normals_fit_their_faces(void **state)
             for (int k = 0; k < 3; k++) {
                 const struct vector n =
                     at(d->mesh->normals, d->mesh->indices[3 * (size_t)face + (size_t)k]);
-                assert_true(fabs(dot(n, n) - 1) < 1e-5);
+                assert_below(fabs(dot(n, n) - 1), 1e-5);
                 off += dot(n, area) < 0.05 * sqrt(dot(area, area));
             }
         }
-        assert_true(off < 3 * d->mesh->face_count / 50);
+        assert_below(off, 3 * d->mesh->face_count / 50);
         diorama_destroy(d);
     }
 }
@@ -245,7 +246,7 @@ static void solids_look_outwards(void **state)
         }
         for (size_t v = 0; v < count; v++)
             assert_true(open[v] || volume[v] >= 0);
-        assert_true(closed > mesh->face_count / 2);
+        assert_above(closed, mesh->face_count / 2);
         free(parent);
         free(open);
         free(volume);
@@ -263,7 +264,9 @@ static void scenes_stand_on_their_ground(void **state)
         for (int c = 0; c < 3; c += 2)
             assert_true(d->mesh->low[c] < -1.5f && d->mesh->low[c] > -9 &&
                         d->mesh->high[c] > 1.5f && d->mesh->high[c] < 9);
-        assert_true(d->mesh->low[1] > -0.25f && d->mesh->low[1] <= 0 && d->mesh->high[1] > 0.8f);
+        assert_above(d->mesh->low[1], -0.25f);
+        assert_at_most(d->mesh->low[1], 0);
+        assert_above(d->mesh->high[1], 0.8f);
         diorama_destroy(d);
     }
 }
@@ -274,7 +277,8 @@ static void a_mesh_stands_on_a_ground(void **state)
     struct diorama *d = diorama_of_mesh("torus");
     assert_non_null(d);
     assert_int_equal(d->mesh->face_count, 32832);
-    assert_true(fabsf(d->mesh->low[1]) < 1e-6f && fabsf(d->mesh->high[0] - 4.5f) < 1e-3f);
+    assert_below(fabsf(d->mesh->low[1]), 1e-6f);
+    assert_below(fabsf(d->mesh->high[0] - 4.5f), 1e-3f);
     assert_int_not_equal(d->materials[0], d->materials[32831]);
     diorama_destroy(d);
     assert_null(diorama_of_mesh(""));

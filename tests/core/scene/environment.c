@@ -19,6 +19,7 @@
 #include "kernels/dialect/image/cube.h"
 #include "kernels/dialect/image/memory.h"
 #include "tests/core/folder.h"
+#include "tests/expect.h"
 
 static void write_file(const char *path, const void *data, size_t bytes)
 {
@@ -102,7 +103,7 @@ static void test_a_good_ktx_is_read(void **state)
         for (int y = -1; y <= FACE_PX; y++)
             for (int x = -1; x <= FACE_PX; x++)
                 for (int c = 0; c < 3; c++)
-                    assert_true(rg_environment_texel(environment, face, x, y)[c] == 1.0f);
+                    assert_equals(rg_environment_texel(environment, face, x, y)[c], 1.0f);
     rg_environment_destroy(environment);
 }
 
@@ -194,8 +195,8 @@ static void test_locating_inverts_direction(void **state)
                 assert_int_equal(c.face, face);
                 assert_int_equal(cube_texel(c.x, SIZE), x);
                 assert_int_equal(cube_texel(c.y, SIZE), y);
-                assert_true(fabs((double)c.x - (x + 0.5)) < 1e-5);
-                assert_true(fabs((double)c.y - (y + 0.5)) < 1e-5);
+                assert_below(fabs((double)c.x - (x + 0.5)), 1e-5);
+                assert_below(fabs((double)c.y - (y + 0.5)), 1e-5);
             }
         }
     }
@@ -212,7 +213,7 @@ static void test_seams_are_on_a_face(void **state)
         const cube_point c = cube_locate(d, SIZE);
         const float along[6] = {d.x, -d.x, d.y, -d.y, d.z, -d.z};
         assert_in_range(c.face, 0, 5);
-        assert_true(along[c.face] == 1.0f);
+        assert_equals(along[c.face], 1.0f);
         assert_in_range(cube_texel(c.x, SIZE), 0, SIZE - 1);
         assert_in_range(cube_texel(c.y, SIZE), 0, SIZE - 1);
     }
@@ -253,8 +254,9 @@ static void test_borders_come_from_the_neighbour(void **state)
                 unit_light(d, NULL, light);
                 // A border's texel is its neighbour's nearest: at most a texel away, 2 / SIZE.
                 for (int c = 0; c < 3; c++)
-                    assert_true(fabs((double)rg_environment_texel(environment, face, x, y)[c] -
-                                     light[c]) < 2.0 / SIZE);
+                    assert_below(
+                        fabs((double)rg_environment_texel(environment, face, x, y)[c] - light[c]),
+                        2.0 / SIZE);
             }
         }
     }
@@ -322,7 +324,7 @@ static void test_light_is_smooth_across_edges(void **state)
                 double wide[3] = {(double)d[0], (double)d[1], (double)d[2]}, light[3];
                 unit_light(wide, NULL, light);
                 // RG11B10F keeps 6 bits of red and green: 1/32 at 2 to 3, dithered either way.
-                assert_true(fabs(red_of(texel) - light[0]) < 2.0 / SIZE + 1.0 / 32);
+                assert_below(fabs(red_of(texel) - light[0]), 2.0 / SIZE + 1.0 / 32);
             }
         }
     }
@@ -443,12 +445,14 @@ static void test_a_lat_long_is_read_between_texels(void **state)
     // Towards +z lies the edge: a texel beside it is of both columns.
     for (int x = half - 1; x <= half; x++) {
         const float red = rg_environment_texel(environment, 4, x, half)[0];
-        assert_true(red > 0.05f && red < 0.95f);
+        assert_above(red, 0.05f);
+        assert_below(red, 0.95f);
     }
     for (int face = 4; face < 6; face++) {
         const float above = rg_environment_texel(environment, face, half, half - 1)[1];
         const float below = rg_environment_texel(environment, face, half, half)[1];
-        assert_true(above < below && fabsf(above + below - 1) < 1e-3f);
+        assert_below(above, below);
+        assert_below(fabsf(above + below - 1), 1e-3f);
     }
     rg_environment_destroy(environment);
     assert_int_equal(unlink(path), 0);
@@ -477,7 +481,7 @@ static void test_packing_is_right_on_average(void **state)
         sums[2] += (double)c.b;
     }
     for (int c = 0; c < 3; c++)
-        assert_true(fabs(sums[c] / (6 * PX * PX) - light) < 5e-4);
+        assert_below(fabs(sums[c] / (6 * PX * PX) - light), 5e-4);
     rg_environment_destroy(environment);
 }
 

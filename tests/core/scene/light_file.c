@@ -12,6 +12,7 @@
 
 #include "core/base/log.h"
 #include "core/techniques/scenery/lights/lights.h"
+#include "tests/expect.h"
 
 static int errors;
 
@@ -28,7 +29,8 @@ static bool read_text(const char *text, struct rg_lights *lights)
 {
     char path[] = "/tmp/lights-XXXXXX";
     const int fd = mkstemp(path);
-    assert_true(fd >= 0 && write(fd, text, strlen(text)) == (ssize_t)strlen(text));
+    assert_at_least(fd, 0);
+    assert_equals(write(fd, text, strlen(text)), (ssize_t)strlen(text));
     close(fd);
     errors = 0;
     const bool ok = rg_light_file_read(path, lights);
@@ -71,14 +73,23 @@ static void a_file_says_all_of_its_lights(void **state)
     assert_int_equal(l[2].kind, SCENERY_POINT);
     assert_float_equal(l[0].direction[1], -0.6f, 1e-7f);
     assert_float_equal(l[0].direction[2], 0.8f, 1e-7f);
-    assert_true(l[0].colour[0] == 1 && l[0].colour[1] == 0.5f && l[0].colour[2] == 0.25f);
+    assert_equals(l[0].colour[0], 1);
+    assert_equals(l[0].colour[1], 0.5f);
+    assert_equals(l[0].colour[2], 0.25f);
     assert_true(l[0].shadows && !l[1].shadows && l[2].shadows);
-    assert_true(l[1].position_m[0] == 1 && l[1].position_m[1] == 2 && l[1].position_m[2] == 3);
-    assert_true(l[1].direction[1] == -1);
-    assert_true(l[1].colour[0] == 40 && l[1].colour[2] == 20);
-    assert_true(l[1].inner_deg == 20 && l[1].outer_deg == 50 && l[1].near_m == 0.25f);
-    assert_true(l[2].position_m[2] == 100 && l[2].near_m == 0.1f);
-    assert_true(l[0].outer_deg > l[0].inner_deg && l[2].outer_deg > l[2].inner_deg);
+    assert_equals(l[1].position_m[0], 1);
+    assert_equals(l[1].position_m[1], 2);
+    assert_equals(l[1].position_m[2], 3);
+    assert_equals(l[1].direction[1], -1);
+    assert_equals(l[1].colour[0], 40);
+    assert_equals(l[1].colour[2], 20);
+    assert_equals(l[1].inner_deg, 20);
+    assert_equals(l[1].outer_deg, 50);
+    assert_equals(l[1].near_m, 0.25f);
+    assert_equals(l[2].position_m[2], 100);
+    assert_equals(l[2].near_m, 0.1f);
+    assert_above(l[0].outer_deg, l[0].inner_deg);
+    assert_above(l[2].outer_deg, l[2].inner_deg);
     assert_float_equal(lights.sky[1], 0.1f, 1e-7f);
 }
 
@@ -89,8 +100,11 @@ static void what_is_left_out_has_defaults(void **state)
     assert_true(read_text("{\"lights\": [{\"type\": \"spot\", \"position_m\": [0, 0, 0],"
                           "\"direction\": [1, 0, 0], \"colour\": [1, 1, 1], \"outer_deg\": 20}]}",
                           &lights));
-    assert_true(lights.lights[0].inner_deg == 15 && lights.lights[0].shadows);
-    assert_true(lights.sky[0] == 0 && lights.sky[1] == 0 && lights.sky[2] == 0);
+    assert_equals(lights.lights[0].inner_deg, 15);
+    assert_true(lights.lights[0].shadows);
+    assert_equals(lights.sky[0], 0);
+    assert_equals(lights.sky[1], 0);
+    assert_equals(lights.sky[2], 0);
 }
 
 #define SPOT(more)                                                                                 \
@@ -167,7 +181,7 @@ static void there_are_sixteen_lights_at_most(void **state)
         for (int i = 0; i < count; i++)
             snprintf(text + strlen(text), sizeof(text) - strlen(text), "%s%s", i ? "," : "", one);
         strcat(text, "]}");
-        assert_true(read_text(text, &lights) == (count == 16));
+        assert_equals(read_text(text, &lights), (count == 16));
         assert_true(count == 16 ? lights.count == 16 : !!strstr(rg_last_error(), "17 lights"));
     }
 }
@@ -229,7 +243,8 @@ static void check_lights(enum scenery_time time, const int *due, int count)
     for (int i = 0; i < count; i++) {
         const struct rg_light *light = &lights.lights[i];
         assert_int_equal(light->kind, due[i] < 0 ? SCENERY_SUN : SCENERY_SPOT);
-        assert_true(light->outer_deg > light->inner_deg && light->shadows);
+        assert_above(light->outer_deg, light->inner_deg);
+        assert_true(light->shadows);
         const float *d = light->direction;
         assert_float_equal(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], 1, 1e-6f);
         if (due[i] < 0)

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/scene/matrix.h"
+#include "tests/expect.h"
 
 static uint32_t state_of_noise = 7;
 
@@ -61,8 +62,8 @@ static void test_products(void **state)
             double sum = 0;
             for (int k = 0; k < 4; k++)
                 sum += (double)a[4 * row + k] * (double)b[4 * k + column];
-            assert_true((double)product[4 * row + column] == sum); // small integers
-            assert_true(exact.rows[row][column] == sum);
+            assert_equals((double)product[4 * row + column], sum); // small integers
+            assert_equals(exact.rows[row][column], sum);
         }
     }
     rg_matrix_multiply(a, b, a);
@@ -86,7 +87,7 @@ static void test_turns(void **state)
             double sum = 0;
             for (int k = 0; k < 3; k++)
                 sum += left[row][k] * right[k][column];
-            assert_true(product[row][column] == sum); // small integers
+            assert_equals(product[row][column], sum); // small integers
         }
 }
 
@@ -99,14 +100,15 @@ static void test_inverses(void **state)
         assert_true(rg_matrix_inverse(&m, &inverse));
         const struct rg_matrix there = rg_matrix_product(&inverse, &m);
         const struct rg_matrix back = rg_matrix_product(&m, &inverse);
-        assert_true(off_unit(&there) < 1e-9 && off_unit(&back) < 1e-9);
+        assert_below(off_unit(&there), 1e-9);
+        assert_below(off_unit(&back), 1e-9);
     }
     // Its diagonal has nothing to divide by.
     const struct rg_matrix turned = {{{0, 0, 1, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}, {0, 1, 0, 0}}};
     struct rg_matrix inverse;
     assert_true(rg_matrix_inverse(&turned, &inverse));
     const struct rg_matrix unit = rg_matrix_product(&inverse, &turned);
-    assert_true(off_unit(&unit) == 0);
+    assert_equals(off_unit(&unit), 0);
 }
 
 static void test_motions(void **state)
@@ -115,7 +117,7 @@ static void test_motions(void **state)
     for (int i = 0; i < 1000; i++) {
         const struct rg_matrix m = any_motion(), back = rg_matrix_back(&m);
         const struct rg_matrix unit = rg_matrix_product(&back, &m);
-        assert_true(off_unit(&unit) < 1e-12);
+        assert_below(off_unit(&unit), 1e-12);
     }
 }
 
@@ -154,7 +156,7 @@ static void test_points_undone(void **state)
                                (float)(seen[2] / seen[3])};
         assert_true(rg_matrix_undo(rows, clip, at));
         for (int c = 0; c < 3; c++)
-            assert_true(fabs((double)at[c] - point[c]) < 0.002);
+            assert_below(fabs((double)at[c] - point[c]), 0.002);
     }
 }
 
@@ -165,8 +167,12 @@ static void test_what_kernels_read(void **state)
     for (int i = 0; i < 16; i++)
         rows[i] = (float)i;
     const m4 m = rg_m4_of(rows);
-    assert_true(m.xx == 0.0f && m.xw == 3.0f && m.yx == 4.0f && m.zz == 10.0f && m.wx == 12.0f &&
-                m.ww == 15.0f);
+    assert_equals(m.xx, 0.0f);
+    assert_equals(m.xw, 3.0f);
+    assert_equals(m.yx, 4.0f);
+    assert_equals(m.zz, 10.0f);
+    assert_equals(m.wx, 12.0f);
+    assert_equals(m.ww, 15.0f);
     rg_m4_rows(&m, again);
     assert_memory_equal(again, rows, sizeof(rows));
 }
@@ -194,7 +200,7 @@ static void test_from_pixel(void **state)
             for (int c = 0; c < 4; c++)
                 found[r] += (double)rows[4 * r + c] * pixel[c];
         for (int c = 0; c < 3; c++)
-            assert_true(fabs(found[c] / found[3] - p[c]) < 1e-5);
+            assert_below(fabs(found[c] / found[3] - p[c]), 1e-5);
     }
 }
 

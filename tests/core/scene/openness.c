@@ -10,6 +10,7 @@
 
 #include "core/scene/city/city.h"
 #include "kernels/scenery/openness_grid.h"
+#include "tests/expect.h"
 
 enum { SIDE = SCENERY_OPEN_SIDE, LEVELS = SCENERY_OPEN_LEVELS, MIDDLE = SIDE / 2, WAYS = 16 };
 
@@ -72,8 +73,8 @@ static void a_wall_hides_what_it_must(void **state)
             for (int level = 0; level < LEVELS; level++) {
                 const double open = point(words, x, z, level, 0) / 255.0,
                              rounding = 0.5 / 255 + 1e-6;
-                assert_true(open >= open_beside(cells - 0.5, 0, level) - rounding);
-                assert_true(open <= open_beside(cells - 0.5, 1, level) + rounding);
+                assert_at_least(open, open_beside(cells - 0.5, 0, level) - rounding);
+                assert_at_most(open, open_beside(cells - 0.5, 1, level) + rounding);
                 // A word holds its neighbours' points too.
                 for (int corner = 1; corner < 4; corner++)
                     assert_int_equal(point(words, x, z, level, corner),

@@ -11,6 +11,7 @@
 
 #include "core/scene/rain_space.h"
 #include "tests/core/techniques/rigs/packets.h"
+#include "tests/expect.h"
 #include "tests/oracle/streaks/packets.h"
 
 static void expect_near(const double *actual, const double *expected, int count, double within)
@@ -82,10 +83,11 @@ static void test_any_fall(void **state)
         apply(to_rain, world, back);
         expect_near(there, world, 3, 1e-4);
         expect_near(back, rain, 3, 1e-4);
-        assert_true(there[3] == 1 && back[3] == 1);
+        assert_equals(there[3], 1);
+        assert_equals(back[3], 1);
         rg_rain_to_clip(&space, to_rain, to_world); // there and back: nothing
         for (int k = 0; k < 16; k++)
-            assert_true(fabs((double)to_world[k] - (k % 5 == 0)) < 1e-4);
+            assert_below(fabs((double)to_world[k] - (k % 5 == 0)), 1e-4);
     }
 }
 
@@ -101,7 +103,7 @@ static void test_fall_along_x(void **state)
         for (int i = 0; i < 3; i++) {
             const int j = (i + 1) % 3, k = (i + 2) % 3;
             const double s = space.x[j] * space.y[k] - space.x[k] * space.y[j];
-            assert_true(fabs(s - settings.fall[i]) < 1e-12);
+            assert_below(fabs(s - settings.fall[i]), 1e-12);
         }
     }
 }
@@ -140,18 +142,18 @@ static void test_view_corners(void **state)
     double far_m = 0;
     for (int i = 0; i < 8; i++) {
         apply(rain_to_clip, corners[i], clip);
-        assert_true(fabs(fabs(clip[0] / clip[3]) - 1) < 1e-4);
-        assert_true(fabs(fabs(clip[1] / clip[3]) - 1) < 1e-4);
+        assert_below(fabs(fabs(clip[0] / clip[3]) - 1), 1e-4);
+        assert_below(fabs(fabs(clip[1] / clip[3]) - 1), 1e-4);
         seen |= 1 << ((clip[0] > 0) + 2 * (clip[1] > 0) + 4 * (i > 3));
         if (i < 4)
-            assert_true(fabs(clip[2]) < 1e-4);
+            assert_below(fabs(clip[2]), 1e-4);
         else
             far_m = clip[3];
     }
     for (int i = 0; i < 8; i++) {
         const double corner[3] = {i & 1 ? 50 : -50, i & 2 ? 30 : -30, i & 4 ? 80 : 0};
         apply(rain_to_clip, corner, clip);
-        assert_true(clip[3] < far_m);
+        assert_below(clip[3], far_m);
     }
     assert_int_equal(seen, 255);
 }
@@ -179,20 +181,22 @@ static void test_drops_stay_where_they_are(void **state)
         const double other_top = top + oracle_uniform(&random, -1.5, 1.5) * height;
         const double s = place(start, time, top, height);
         const double other = place(start, time, other_top, height);
-        assert_true(s >= top && s <= top + height);
+        assert_at_least(s, top);
+        assert_at_most(s, top + height);
         const double whole = (other - s) / height;
-        assert_true(fabs(whole - rint(whole)) < 1e-9);
+        assert_below(fabs(whole - rint(whole)), 1e-9);
         const bool inside = s > other_top + 1e-6 && s < other_top + height - 1e-6;
         if (inside)
-            assert_true(fabs(other - s) < 1e-6);
+            assert_below(fabs(other - s), 1e-6);
         stayed += inside;
         came_in_again += !inside;
         // and it falls at its speed
         const double later = place(start, time + 0.25, top, height);
         const double fallen = (later - s - 8.16 * 0.25) / height;
-        assert_true(fabs(fallen - rint(fallen)) < 1e-9);
+        assert_below(fabs(fallen - rint(fallen)), 1e-9);
     }
-    assert_true(stayed > 1000 && came_in_again > 1000);
+    assert_above(stayed, 1000);
+    assert_above(came_in_again, 1000);
 }
 
 // Against the thesis's way, which adds to the run position frame by frame: time over (height over
@@ -214,9 +218,10 @@ static void test_run_is_the_thesis_sum(void **state)
         time += dt;
         eye = next;
         const double ours = rg_rain_run(8.16, time, rg_rain_local_top(eye, local), local);
-        assert_true(ours >= 0 && ours < 1);
+        assert_at_least(ours, 0);
+        assert_below(ours, 1);
         const double apart = ours - run;
-        assert_true(fabs(apart - rint(apart)) < 1e-9);
+        assert_below(fabs(apart - rint(apart)), 1e-9);
         expect_near((const double[]){rg_rain_local_top(eye, local)},
                     (const double[]){eye - local / 2}, 1, 1e-12);
     }

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/scene/city/build.h"
+#include "tests/expect.h"
 
 static void begin(struct city_builder *b)
 {
@@ -121,7 +122,7 @@ static void test_ways(void **state)
         city_quad_on(&b, corners, city_surface(&b, &look, east, NULL));
         assert_true(city_faces_sort(&b.city->faces));
         assert_int_equal(b.city->faces.chunk_count, 1);
-        assert_true(b.city->faces.chunks[0].normal[0] == (leaves ? 0.0f : 1.0f));
+        assert_equals(b.city->faces.chunks[0].normal[0], (leaves ? 0.0f : 1.0f));
         end(&b);
     }
 }

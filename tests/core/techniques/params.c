@@ -14,6 +14,7 @@
 #include "core/base/log.h"
 #include "core/techniques/params.h"
 #include "core/techniques/technique.h"
+#include "tests/expect.h"
 
 struct settings {
     int drops, look, size;
@@ -86,7 +87,7 @@ static void test_defaults(void **state)
     (void)state;
     const struct settings settings = defaults();
     assert_int_equal(settings.drops, 40);
-    assert_true(settings.slope == 0.625);
+    assert_equals(settings.slope, 0.625);
     assert_int_equal(settings.size, 1);
     assert_string_equal(settings.model, "bunny");
     assert_int_equal(settings.behind, 0);
@@ -101,9 +102,9 @@ static void test_numbers(void **state)
     assert_takes(&settings, "drops=1e2");
     assert_int_equal(settings.drops, 100);
     assert_takes(&settings, "slope=-2");
-    assert_true(settings.slope == -2);
+    assert_equals(settings.slope, -2);
     assert_takes(&settings, "slope=0.1");
-    assert_true(settings.slope == 0.1);
+    assert_equals(settings.slope, 0.1);
     assert_refuses("drops=2.5", "is no whole number");
     assert_refuses("drops=", "is no whole number");
     assert_refuses("drops=3 4", "is no whole number");
@@ -180,9 +181,13 @@ static void test_presets(void **state)
     (void)state;
     struct settings settings = defaults();
     assert_takes(&settings, "look=plain");
-    assert_true(settings.slope == 0.5 && settings.drops == 7 && settings.look == 0);
+    assert_equals(settings.slope, 0.5);
+    assert_equals(settings.drops, 7);
+    assert_equals(settings.look, 0);
     assert_true(rg_params_set_all(&table, &settings, "look=steep drops=9"));
-    assert_true(settings.slope == 1.5 && settings.drops == 9 && settings.look == 1);
+    assert_equals(settings.slope, 1.5);
+    assert_equals(settings.drops, 9);
+    assert_equals(settings.look, 1);
     assert_true(rg_params_set_all(&table, &settings, " drops=3  look=plain "));
     assert_int_equal(settings.drops, 7);
     assert_false(rg_params_set_all(&table, &settings, "drops=4 nonsense=1 drops=5"));

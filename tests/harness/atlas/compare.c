@@ -19,6 +19,7 @@
 #include "harness/atlas/compare.h"
 #include "kernels/dialect/rng.h"
 #include "tests/core/scene/atlas/codes.h"
+#include "tests/expect.h"
 
 // Widths 8 and 4 are levels 2 and 3, the first two of the small atlas.
 enum { LEVEL = 2, WIDTH = 8, MOST = WIDTH * 400 };
@@ -184,7 +185,7 @@ static void the_way_is_told(void **state)
         }
         assert_int_equal(rg_cave_figures(&comparison, 3, way).pictures, 10);
         assert_int_equal(rg_cave_figures(&comparison, 1, way).pictures, 0);
-        assert_true(rg_cave_figures(&comparison, RG_CAVE_ENV, way).worst > 0.9999);
+        assert_above(rg_cave_figures(&comparison, RG_CAVE_ENV, way).worst, 0.9999);
         free(comparison.rows);
     }
 }
@@ -218,7 +219,8 @@ static void noise_lowers_the_correlation(void **state)
             continue;
         const double due = correlation_due(&noisy, row->found.oscillation, row->found.view);
         assert_float_equal((float)row->correlation[RG_CAVE_AS_IT_IS], (float)due, 1e-3f);
-        assert_true(due > 0.8 && due < 0.97);
+        assert_above(due, 0.8);
+        assert_below(due, 0.97);
         if (!row->found.view) {
             values[row->found.oscillation] = row->correlation[RG_CAVE_AS_IT_IS];
             above += due > 0.9;
@@ -232,8 +234,11 @@ static void noise_lowers_the_correlation(void **state)
                 values[k] = kept;
             }
     const struct rg_cave_figures f = rg_cave_figures(&comparison, 0, RG_CAVE_AS_IT_IS);
-    assert_true(fabs(f.median - (values[4] + values[5]) / 2) < 1e-12 && f.worst == values[0]);
-    assert_true(fabs(f.above - above / 10.0) < 1e-12 && above > 0 && above < 10);
+    assert_below(fabs(f.median - (values[4] + values[5]) / 2), 1e-12);
+    assert_equals(f.worst, values[0]);
+    assert_below(fabs(f.above - above / 10.0), 1e-12);
+    assert_above(above, 0);
+    assert_below(above, 10);
     free(comparison.rows);
 }
 
@@ -303,7 +308,8 @@ static void an_even_picture_has_no_correlation(void **state)
     snprintf(path, sizeof(path), "%s/cv0_v10_h90_osc0.png", folder);
     write_codes(path, WIDTH, height_of(0), codes);
     struct rg_cave_comparison comparison = compared(folder);
-    assert_true(comparison.count == 1 && comparison.rows[0].flat);
+    assert_equals(comparison.count, 1);
+    assert_true(comparison.rows[0].flat);
     assert_int_equal(rg_cave_figures(&comparison, RG_CAVE_LIGHTS, RG_CAVE_AS_IT_IS).pictures, 0);
     free(comparison.rows);
 }
@@ -337,7 +343,9 @@ static void what_is_no_picture_is_refused(void **state)
     write_codes(path, WIDTH, height_of(0) / 2, codes);
     expect_refused(folder, "cv0_osc3.png: 8 x ");
     FILE *file = fopen(path, "w");
-    assert_true(file && fputs("no picture", file) >= 0 && !fclose(file));
+    assert_true(file);
+    assert_at_least(fputs("no picture", file), 0);
+    assert_true(!fclose(file));
     expect_refused(folder, "cv0_osc3.png");
 }
 

@@ -15,6 +15,7 @@
 
 #include "core/image/files/io.h"
 #include "harness/atlas/textures.h"
+#include "tests/expect.h"
 
 static char folder[] = "/tmp/raingauge-textures-XXXXXX";
 static struct rg_texture_rows rows;
@@ -84,7 +85,7 @@ static void expect_looks(const char *name, const uint32_t *words)
         const double part = byte_of(words[i / 4], (int)(i % 4)) / 255.0;
         const double due = i % 4 == 3 ? alpha : alpha > 0 ? display(fmin(part / alpha, 1)) : 0;
         const double found = i % 4 == 3 ? (double)p.texels[i] : display((double)p.texels[i]);
-        assert_true(fabs(found - due) * 255 < 0.51);
+        assert_below(fabs(found - due) * 255, 0.51);
     }
     rg_picture_destroy(&p);
 }
@@ -143,9 +144,9 @@ static void the_sheet_shows_each_texture(void **state)
             const float *texel = sheet.texels + (int64_t)sheet.channels * (y * sheet.width + x);
             sums[i] += fabs((double)(texel[0] - ground[0])) * (1 + k % 256);
         }
-        assert_true(sums[i] > 0);
+        assert_above(sums[i], 0);
         for (int other = 0; other < i; other++)
-            assert_true(sums[i] != sums[other]);
+            assert_differs(sums[i], sums[other]);
     }
     rg_picture_destroy(&sheet);
 }

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "harness/commands/commands.h"
+#include "tests/expect.h"
 
 static const size_t value_sizes[] = {
     [RG_OPTION_FLAG] = sizeof(bool),           [RG_OPTION_INT] = sizeof(int),
@@ -46,9 +47,11 @@ static void check_row(const struct rg_command *command, const struct rg_option *
     const char *argument = rg_option_argument(row, text);
     assert_non_null(row->about);
     assert_null(strchr(row->about, '\n'));
-    assert_true(strlen(argument) < RG_ARGUMENT_SIZE - 1);
+    assert_below(strlen(argument), RG_ARGUMENT_SIZE - 1);
     if (row->kind == RG_OPTION_OPERAND) {
-        assert_true(row->first >= 1 && (!row->last || row->last >= row->first) && *argument);
+        assert_at_least(row->first, 1);
+        assert_true((!row->last || row->last >= row->first));
+        assert_true(*argument);
         return;
     }
     if (!row->name)
@@ -58,7 +61,7 @@ static void check_row(const struct rg_command *command, const struct rg_option *
     assert_int_equal(row->choices != NULL, row->kind == RG_OPTION_CHOICE);
     check_excluded(rows, count, row);
     if (row->kind != RG_OPTION_HELP)
-        assert_true(row->offset + value_sizes[row->kind] <= command->options_size);
+        assert_at_most(row->offset + value_sizes[row->kind], command->options_size);
 }
 
 static bool overlap(const struct rg_option *a, const struct rg_option *b)
@@ -103,7 +106,7 @@ static void defaults_are_what_a_user_could_write(void **state)
         }
         free(values);
     }
-    assert_true(defaults >= 10);
+    assert_at_least(defaults, 10);
 }
 
 // Counts how many rows of other commands' tables have a name of this one's. What an option excludes
@@ -134,7 +137,7 @@ static void an_option_means_the_same_in_every_command(void **state)
         for (int i = 0; i < count; i++)
             shared += rows[i].name ? compare_with_others(c, &rows[i]) : 0;
     }
-    assert_true(shared >= 30);
+    assert_at_least(shared, 30);
 }
 
 int main(void)

@@ -20,6 +20,7 @@
 #include "harness/frames/session.h"
 #include "harness/measure/drawing.h"
 #include "harness/measure/messages.h"
+#include "tests/expect.h"
 
 // What is written over a struct that is put into a reply.
 struct damage {
@@ -285,14 +286,17 @@ static void what_is_sound_is_taken(void **state)
     assert_string_equal(e.probe[2].name, "multiply");
     assert_int_equal(e.probe[1].different, 2);
     assert_int_equal(e.probe[1].largest_ulps, 0);
-    assert_true(e.probe[2].largest_ulps == UINT32_MAX);
+    assert_equals(e.probe[2].largest_ulps, UINT32_MAX);
     assert_true(e.probe[RG_PROBE_COUNT - 1].builtin && !e.probe[0].builtin);
     assert_int_equal(e.drawing.count, 1);
     assert_int_equal(e.drawing.formats[0].format, RG_RGBA16F);
     assert_int_equal(e.drawing.formats[0].differing, RG_DRAWING_PIXELS);
     assert_int_equal(e.timer.passes, 3);
-    assert_true(e.timer.has_timer && !e.timer.trusted && e.timer.round_trip_us == 7);
-    assert_true(e.ceilings.memory_gb_s == 1 && e.ceilings.arithmetic_gop_s == 3);
+    assert_true(e.timer.has_timer);
+    assert_true(!e.timer.trusted);
+    assert_equals(e.timer.round_trip_us, 7);
+    assert_equals(e.ceilings.memory_gb_s, 1);
+    assert_equals(e.ceilings.arithmetic_gop_s, 3);
     assert_int_equal(lines, 0);
 }
 
@@ -314,7 +318,7 @@ static void hear(const char *kernel, double ms, void *user)
 {
     (void)user;
     assert_string_equal(kernel, "k");
-    assert_true(ms == 1);
+    assert_equals(ms, 1);
 }
 
 static bool ask(struct rg_session *session, enum rg_call call)

@@ -13,6 +13,7 @@
 
 #include "core/base/log.h"
 #include "harness/devices/workers/channel.h"
+#include "tests/expect.h"
 
 static int lines;
 
@@ -54,7 +55,7 @@ static void values_come_out_in_order(void **state)
     assert_int_equal(size, 0);
     free(block);
     assert_true(RG_TAKE(&message, number));
-    assert_true(number == 0.1);
+    assert_equals(number, 0.1);
     assert_false(message.failed);
     rg_message_free(&message);
 }

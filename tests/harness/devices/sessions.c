@@ -18,6 +18,7 @@
 #include "harness/frames/session.h"
 #include "harness/devices/serving/serving.h"
 #include "harness/devices/workers/device.h"
+#include "tests/expect.h"
 
 enum { LOCAL, REMOTE, FRAMES = 5 };
 
@@ -111,7 +112,7 @@ static void pictures_are_the_same(void **state)
             free(texels[i]);
             double wall_ms = -1;
             assert_true(rg_session_frames(pair.sessions[i], 2, &wall_ms));
-            assert_true(wall_ms > 0);
+            assert_above(wall_ms, 0);
         }
     }
     close_pair(&pair);
@@ -122,7 +123,7 @@ static void states_are_the_same(void **state)
     (void)state;
     struct pair pair = open_flow(FRAMES);
     const int count = rg_session_state_count(pair.sessions[LOCAL]);
-    assert_true(count > 0);
+    assert_above(count, 0);
     assert_int_equal(count, rg_session_state_count(pair.sessions[REMOTE]));
     for (int s = 0; s < count; s++) {
         struct rg_state layouts[2];
@@ -154,12 +155,13 @@ static void accounts_and_counts_are_the_same(void **state)
         assert_true(rg_session_tell(pair.sessions[i], &accounts[i]));
     }
     assert_memory_equal(&tallies[LOCAL], &tallies[REMOTE], sizeof(tallies[LOCAL]));
-    assert_true(tallies[LOCAL].runs > 0);
+    assert_above(tallies[LOCAL].runs, 0);
     assert_int_equal(accounts[LOCAL].frame, FRAMES + 1);
     assert_int_equal(accounts[REMOTE].frame, FRAMES + 1);
     assert_int_equal(accounts[LOCAL].counter_count, accounts[REMOTE].counter_count);
     assert_int_equal(accounts[LOCAL].fact_count, accounts[REMOTE].fact_count);
-    assert_true(accounts[LOCAL].counter_count > 0 && accounts[LOCAL].fact_count > 0);
+    assert_above(accounts[LOCAL].counter_count, 0);
+    assert_above(accounts[LOCAL].fact_count, 0);
     for (int i = 0; i < accounts[LOCAL].counter_count; i++) {
         assert_string_equal(accounts[LOCAL].counters[i].name, accounts[REMOTE].counters[i].name);
         assert_int_equal(accounts[LOCAL].counters[i].value, accounts[REMOTE].counters[i].value);
@@ -167,7 +169,7 @@ static void accounts_and_counts_are_the_same(void **state)
     for (int i = 0; i < accounts[LOCAL].fact_count; i++) {
         assert_string_equal(accounts[LOCAL].facts[i].name, accounts[REMOTE].facts[i].name);
         assert_string_equal(accounts[LOCAL].facts[i].text, accounts[REMOTE].facts[i].text);
-        assert_true(accounts[LOCAL].facts[i].number == accounts[REMOTE].facts[i].number);
+        assert_equals(accounts[LOCAL].facts[i].number, accounts[REMOTE].facts[i].number);
     }
     close_pair(&pair);
 }
@@ -192,11 +194,11 @@ static void stages_are_told_in_the_same_order(void **state)
     struct stages told[2] = {{0}};
     for (int i = 0; i < 2; i++)
         assert_true(rg_session_stages(pair.sessions[i], note_stage, &told[i]));
-    assert_true(told[LOCAL].count > 3);
+    assert_above(told[LOCAL].count, 3);
     assert_int_equal(told[LOCAL].count, told[REMOTE].count);
     for (int i = 0; i < told[LOCAL].count; i++)
         assert_string_equal(told[LOCAL].kernels[i], told[REMOTE].kernels[i]);
-    assert_true(told[REMOTE].ms > 0);
+    assert_above(told[REMOTE].ms, 0);
     close_pair(&pair);
 }
 
@@ -214,7 +216,7 @@ static void laws_and_textures_are_the_same(void **state)
         assert_ptr_equal(rg_session_law(pair.sessions[REMOTE], laws), law);
         laws++;
     }
-    assert_true(laws > 0);
+    assert_above(laws, 0);
     assert_null(rg_session_law(pair.sessions[REMOTE], laws));
     struct rg_image_desc descs[2];
     int levels[2];
@@ -355,7 +357,7 @@ static void workers_share_what_the_user_allows(void **state)
     rg_session_close(pair.sessions[LOCAL]);
     const int64_t idle = rg_memory_taken();
     const int64_t one = (before - idle) / 2;
-    assert_true(one > 1 << 16);
+    assert_above(one, 1 << 16);
     rg_memory_allow(idle + 2 * one + one / 2);
     struct rg_device *other = rg_devices_open_one("cpu:reference");
     pair.sessions[REMOTE] = rg_session_open(pair.devices[REMOTE], &pair.subject);

@@ -16,6 +16,7 @@
 #include "core/image/compare/compare.h"
 #include "harness/frames/frame.h"
 #include "harness/measure/measure.h"
+#include "tests/expect.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
@@ -158,7 +159,7 @@ static void test_what_a_record_keeps(void **state)
     assert_int_equal(record.outcome, RG_OK);
     assert_int_equal(record.fact_count, 3); // behind flow's own, the vertices and faces of its pane
     assert_string_equal(record.facts[2].name, "panes");
-    assert_true(record.facts[2].number == 6 + RG_CHECK_FRAMES);
+    assert_equals(record.facts[2].number, 6 + RG_CHECK_FRAMES);
     // Every name once; flow's own passes came too late for a name of their own.
     assert_int_equal(record.pass_count, RG_MAX_PASS_TIMES);
     for (int i = 0; i < RG_MAX_PASS_TIMES - 1; i++) {
@@ -168,7 +169,7 @@ static void test_what_a_record_keeps(void **state)
     }
     const struct rg_pass_time *other = &record.passes[RG_MAX_PASS_TIMES - 1];
     assert_string_equal(other->name, "other");
-    assert_true(other->ms >= 2); // the last pass is in it, both times
+    assert_at_least(other->ms, 2); // the last pass is in it, both times
     rg_job_close(&job);
     rg_expected_free(&expected);
     assert_true(rg_device_close(device));
@@ -215,7 +216,7 @@ static void test_samples(void **state)
         assert_in_range(records[i].pass_frames, 2, 40);
         rg_job_close(&jobs[i]);
     }
-    assert_true(records[1].sample_count <= 5); // of 40 ms, with the frame before it
+    assert_at_most(records[1].sample_count, 5); // of 40 ms, with the frame before it
     assert_true(rg_device_close(device));
     free(settings);
 }
@@ -254,8 +255,8 @@ static void test_window(void **state)
     assert_int_equal(record.frames_a_sample, WINDOW_FRAMES - 1); // and the one before it
     assert_int_equal(frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES], 0);
     // Each sample lies behind check frames of its own, where a frame of it was.
-    assert_true(frames_of_age[0] >= 9);
-    assert_true(frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES - 1] >= 9);
+    assert_at_least(frames_of_age[0], 9);
+    assert_at_least(frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES - 1], 9);
     rg_job_close(&job);
     assert_true(rg_device_close(device));
     free(settings);

@@ -11,6 +11,7 @@
 #include "core/base/log.h"
 #include "harness/console/interrupt.h"
 #include "harness/measure/measure.h"
+#include "tests/expect.h"
 #include "tests/harness/measuring/fake.h"
 
 #define assert_ms(value, ms) assert_near(value, ms, 1e-6)
@@ -253,8 +254,8 @@ static void test_calibration(void **state)
     begin(&bench);
     add(&bench, &script, 1);
     measure(&bench, &plain); // without a load nothing is told
-    assert_true(bench.records[0].calibration_begin_ms == 0);
-    assert_true(bench.records[0].calibration_end_ms == 0);
+    assert_equals(bench.records[0].calibration_begin_ms, 0);
+    assert_equals(bench.records[0].calibration_end_ms, 0);
     end(&bench);
 }
 
@@ -452,7 +453,7 @@ static void test_api_clock(void **state)
     assert_near(api_over_wall(1, true, &reads), 1, 1e-4);
     assert_int_equal(reads, 2);
     assert_near(api_over_wall(0.85, true, &reads), 0.85, 1e-4);
-    assert_true(api_over_wall(1, false, &reads) == 0);
+    assert_equals(api_over_wall(1, false, &reads), 0);
     assert_int_equal(reads, 0);
 }
 
@@ -525,11 +526,12 @@ static void test_interrupted(void **state)
     options.user = &share;
     measure(&bench, &options);
     assert_true(rg_interrupted());
-    assert_true(share > 0 && share < 0.5); // all rounds are 6/11 of the run, and not all were taken
+    assert_above(share, 0);
+    assert_below(share, 0.5); // all rounds are 6/11 of the run, and not all were taken
     for (int i = 0; i < 2; i++) {
-        assert_true(bench.records[i].sample_count < bench.jobs[i].record->wanted_samples);
+        assert_below(bench.records[i].sample_count, bench.jobs[i].record->wanted_samples);
         assert_int_equal(bench.records[i].pass_frames, 0);
-        assert_true(bench.records[i].frame_ms.median == 0);
+        assert_equals(bench.records[i].frame_ms.median, 0);
     }
     end(&bench);
     rg_interrupt_watch();
@@ -570,13 +572,13 @@ static void test_lost(void **state)
         bench.fake->waits_left = waits;
         const bool opened = rg_job_open(job) && rg_job_warm_up(job, &plain);
         assert_true(rg_job_open(well) && rg_job_warm_up(well, &plain));
-        assert_true(opened == (job->record->outcome == RG_OK));
+        assert_equals(opened, (job->record->outcome == RG_OK));
         rg_jobs_measure(bench.jobs, 2, &plain);
         assert_int_equal(job->record->outcome, RG_ERROR);
         assert_non_null(strstr(job->record->detail, "lost"));
         // It is asked for no more than the sample in which it was lost.
-        assert_true(bench.fake->waits <= waits + 3);
-        assert_true(job->record->sample_count <= job->record->wanted_samples);
+        assert_at_most(bench.fake->waits, waits + 3);
+        assert_at_most(job->record->sample_count, job->record->wanted_samples);
         assert_int_equal(well->record->outcome, RG_OK);
         assert_int_equal(well->record->sample_count, well->record->wanted_samples);
         rg_job_close(well);

@@ -9,6 +9,7 @@
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "harness/measure/timer_audit.h"
+#include "tests/expect.h"
 
 static const struct rg_backend *honest;
 
@@ -72,10 +73,12 @@ static void an_honest_timer_is_read(void **state)
     struct rg_timer_audit result;
     assert_true(audit(*honest, &result));
     assert_true(result.has_timer);
-    assert_true(result.ratio >= 1);
+    assert_at_least(result.ratio, 1);
     assert_int_equal(result.trusted, result.ratio <= 1.05);
-    assert_true(result.wall_ms > 0 && result.passes > 0);
-    assert_true(result.round_trip_us > 0 && result.dispatch_us > 0);
+    assert_above(result.wall_ms, 0);
+    assert_above(result.passes, 0);
+    assert_above(result.round_trip_us, 0);
+    assert_above(result.dispatch_us, 0);
 }
 
 static void a_lying_timer_is_not_trusted(void **state)
@@ -86,7 +89,7 @@ static void a_lying_timer_is_not_trusted(void **state)
     liar.time = half_the_time;
     assert_true(audit(liar, &result));
     assert_true(result.has_timer);
-    assert_true(result.ratio < 0.8);
+    assert_below(result.ratio, 0.8);
     assert_false(result.trusted);
 }
 
@@ -101,7 +104,7 @@ static void an_absent_timer_is_a_result(void **state)
     has_clock = true;
     assert_false(result.has_timer);
     assert_false(result.trusted);
-    assert_true(result.wall_ms > 0);
+    assert_above(result.wall_ms, 0);
 }
 
 static void a_timer_that_fails_is_a_failure(void **state)

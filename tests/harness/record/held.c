@@ -8,6 +8,7 @@
 #include "core/base/log.h"
 #include "harness/record/disk/journal.h"
 #include "harness/record/disk/stored.h"
+#include "tests/expect.h"
 #include "tests/harness/record/made.h"
 
 static char folder[64];
@@ -158,7 +159,7 @@ static void test_folder(void **state)
     struct rg_result made = make_result();
     json_t *document = rg_result_json(&made);
     char *text = json_dumps(document, 0), twice[1 << 20], path[128];
-    assert_true(strlen(text) < sizeof(twice) / 2 - 8);
+    assert_below(strlen(text), sizeof(twice) / 2 - 8);
     snprintf(twice, sizeof(twice), "\n%s\n\n%s\n \n", text, text);
     write_result("a.json", twice);
     write_result("b.journal", text);

@@ -21,6 +21,7 @@
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/measuring/measure.h"
+#include "tests/expect.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
@@ -331,8 +332,8 @@ static void test_rows_stay_apart(void **state)
     for (int row = 1; row >= 0; row--) {
         assert_true(rg_journal_take(journal, &second, row));
         for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(&second, &at);)
-            assert_true(rg_result_at(&second, at)->create_ms ==
-                        rg_result_at(&first, at)->create_ms);
+            assert_equals(rg_result_at(&second, at)->create_ms,
+                          rg_result_at(&first, at)->create_ms);
     }
     rg_journal_remove(journal);
     rg_journal_close(journal);
@@ -431,7 +432,7 @@ static void test_quick_settings(void **state)
     free(full);
     result.full = false;
     assert_true(rg_table_measure(&result, &table, &rig->kept, NULL, NULL, NULL));
-    assert_true(rg_result_at(&result, bare)->counters[0].value == 25); // drops that landed
+    assert_equals(rg_result_at(&result, bare)->counters[0].value, 25); // drops that landed
     rg_result_free(&result);
 }
 

@@ -11,6 +11,7 @@
 
 #include "harness/record/passport/machine.h"
 #include "tests/core/root.h"
+#include "tests/expect.h"
 
 static struct rg_machine read_machine(void)
 {
@@ -38,7 +39,7 @@ static void a_machine_is_read(void **state)
     assert_int_equal(machine.cores_online, 8);
     assert_string_equal(machine.distribution, "Toy Linux 3");
     assert_int_equal(machine.gpu_nodes, 1);
-    assert_true(machine.quota_cpus == 0);
+    assert_equals(machine.quota_cpus, 0);
 }
 
 static void an_empty_root_is_all_unknown(void **state)
@@ -49,7 +50,7 @@ static void an_empty_root_is_all_unknown(void **state)
     assert_int_equal(machine.cores_allowed, 0);
     assert_int_equal(machine.cores_online, 0);
     assert_int_equal(machine.memory_bytes, 0);
-    assert_true(machine.quota_cpus == 0);
+    assert_equals(machine.quota_cpus, 0);
 }
 
 // The tightest of the group and those around it holds.
@@ -58,13 +59,13 @@ static void version_2_quotas_are_found(void **state)
     (void)state;
     put("/proc/self/cgroup", "0::/outer/inner\n");
     put("/sys/fs/cgroup/outer/inner/cpu.max", "max 100000\n");
-    assert_true(read_machine().quota_cpus == 0);
+    assert_equals(read_machine().quota_cpus, 0);
     put("/sys/fs/cgroup/outer/cpu.max", "150000 100000\n");
-    assert_true(read_machine().quota_cpus == 1.5);
+    assert_equals(read_machine().quota_cpus, 1.5);
     put("/sys/fs/cgroup/outer/inner/cpu.max", "50000 100000\n");
-    assert_true(read_machine().quota_cpus == 0.5);
+    assert_equals(read_machine().quota_cpus, 0.5);
     put("/sys/fs/cgroup/outer/cpu.max", "25000 100000\n");
-    assert_true(read_machine().quota_cpus == 0.25);
+    assert_equals(read_machine().quota_cpus, 0.25);
 }
 
 static void version_1_quotas_are_found(void **state)
@@ -73,9 +74,9 @@ static void version_1_quotas_are_found(void **state)
     put("/proc/self/cgroup", "9:cpuset:/elsewhere\n4:cpu,cpuacct:/docker/abc\n");
     put("/sys/fs/cgroup/cpu/docker/abc/cpu.cfs_quota_us", "-1\n");
     put("/sys/fs/cgroup/cpu/docker/abc/cpu.cfs_period_us", "100000\n");
-    assert_true(read_machine().quota_cpus == 0);
+    assert_equals(read_machine().quota_cpus, 0);
     put("/sys/fs/cgroup/cpu/docker/abc/cpu.cfs_quota_us", "250000\n");
-    assert_true(read_machine().quota_cpus == 2.5);
+    assert_equals(read_machine().quota_cpus, 2.5);
 }
 
 // In a container the path is the host's, and the group is mounted at the top.
@@ -85,7 +86,7 @@ static void a_containers_quota_is_found(void **state)
     put("/proc/self/cgroup", "4:cpu:/docker/abc\n");
     put("/sys/fs/cgroup/cpu/cpu.cfs_quota_us", "100000\n");
     put("/sys/fs/cgroup/cpu/cpu.cfs_period_us", "50000\n");
-    assert_true(read_machine().quota_cpus == 2);
+    assert_equals(read_machine().quota_cpus, 2);
 }
 
 // Only what bounds the clocks is told, however it is told.

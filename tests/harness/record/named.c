@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "harness/record/named.h"
+#include "tests/expect.h"
 
 // A character that does not fit whole is left out; what is no UTF-8 is marked.
 static void test_texts(void **state)
@@ -51,13 +52,14 @@ static void test_numbers(void **state)
         json_t *json = rg_number_json(cases[i].number);
         assert_int_equal(json_typeof(json), cases[i].type);
         if (cases[i].type != JSON_NULL)
-            assert_true(json_number_value(json) == cases[i].number);
+            assert_equals(json_number_value(json), cases[i].number);
         json_decref(json);
     }
     assert_true(isnan(rg_number_kept(INFINITY)));
-    assert_true(rg_number_kept(123456789) == 123456789);
-    assert_true(rg_number_kept(rg_number_kept(M_PI)) == rg_number_kept(M_PI));
-    assert_true(rg_number_kept(M_PI) != M_PI && fabs(rg_number_kept(M_PI) - M_PI) < 1e-6);
+    assert_equals(rg_number_kept(123456789), 123456789);
+    assert_equals(rg_number_kept(rg_number_kept(M_PI)), rg_number_kept(M_PI));
+    assert_differs(rg_number_kept(M_PI), M_PI);
+    assert_below(fabs(rg_number_kept(M_PI) - M_PI), 1e-6);
 }
 
 static void test_named(void **state)
@@ -69,14 +71,14 @@ static void test_named(void **state)
     rg_named_set_number(&named[1], "fps", 25.5);
     rg_named_set_number(&named[2], "ms", NAN);
     assert_true(isnan(named[0].number));
-    assert_true(*rg_named_number(named, 3, "fps") == 25.5); // a text is no number
+    assert_equals(*rg_named_number(named, 3, "fps"), 25.5); // a text is no number
     assert_null(rg_named_number(named, 1, "fps"));
     assert_null(rg_named_number(named, 3, "fp"));
     static const char *const except[] = {"ms", NULL};
     rg_named_text(named, 3, except, text, sizeof(text));
     assert_string_equal(text, "fps many, fps 25.5");
     json_t *json = rg_named_json(named + 1, 2);
-    assert_true(json_real_value(json_object_get(json, "fps")) == 25.5);
+    assert_equals(json_real_value(json_object_get(json, "fps")), 25.5);
     assert_true(json_is_null(json_object_get(json, "ms")));
     json_decref(json);
 }

@@ -6,6 +6,7 @@
 
 #include "harness/record/disk/cells.h"
 #include "harness/tables/print.h"
+#include "tests/expect.h"
 #include "tests/harness/record/made.h"
 
 // What is printed of a made result, read again.
@@ -117,7 +118,8 @@ static void test_each_field(void **state)
     cells += change_each(document, cell_of(document, 7), "cells[7] (row ");
     assert_taken(document);
     print_message("%d changes before the cells, %d of two cells\n", head, cells);
-    assert_true(head > 60 && cells > 120);
+    assert_above(head, 60);
+    assert_above(cells, 120);
     json_decref(document);
 }
 

@@ -9,6 +9,7 @@
 
 #include "harness/record/slope.h"
 #include "kernels/dialect/rng.h"
+#include "tests/expect.h"
 
 #define assert_near(value, due, within) assert_true(fabs((value) - (due)) <= (within))
 
@@ -32,9 +33,9 @@ static void test_ranks(void **state)
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         fill(samples, rows[i].count);
         const struct rg_interval interval = rg_median(samples, rows[i].count);
-        assert_true(interval.median == (rows[i].count + 1) / 2.0);
-        assert_true(interval.low == rows[i].low);
-        assert_true(interval.high == rows[i].count + 1 - rows[i].low);
+        assert_equals(interval.median, (rows[i].count + 1) / 2.0);
+        assert_equals(interval.low, rows[i].low);
+        assert_equals(interval.high, rows[i].count + 1 - rows[i].low);
     }
 }
 
@@ -46,7 +47,7 @@ static void test_few(void **state)
     for (int count = 1; count <= 5; count++) {
         fill(samples, count);
         const struct rg_interval interval = rg_median(samples, count);
-        assert_true(interval.median == (count + 1) / 2.0);
+        assert_equals(interval.median, (count + 1) / 2.0);
         assert_true(isnan(interval.low) && isnan(interval.high));
     }
 }
@@ -117,8 +118,9 @@ static void test_coverage(void **state)
         }
         const double sigma = sqrt(squares - sum * sum);
         assert_near(sum, 0.7, 0.02);
-        assert_true(held >= 0.95 * TRIALS);
-        assert_true(width < 6 * sigma && width > 3.5 * sigma);
+        assert_at_least(held, 0.95 * TRIALS);
+        assert_below(width, 6 * sigma);
+        assert_above(width, 3.5 * sigma);
     }
 }
 

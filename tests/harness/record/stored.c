@@ -8,6 +8,7 @@
 #include "core/base/log.h"
 #include "harness/record/disk/stored.h"
 #include "harness/tables/print.h"
+#include "tests/expect.h"
 #include "tests/harness/record/made.h"
 
 // Each record is the same to the last bit, but for what a file does not hold.
@@ -29,10 +30,11 @@ static void assert_same_records(const struct rg_result *a, const struct rg_resul
         assert_memory_equal(x->passes, y->passes, sizeof(x->passes));
         assert_memory_equal(x->samples_ms, y->samples_ms, sizeof(x->samples_ms));
         assert_memory_equal(&x->frame_ms, &y->frame_ms, sizeof(x->frame_ms));
-        assert_true(x->create_ms == y->create_ms && x->api_over_wall == y->api_over_wall);
-        assert_true(x->calibration_begin_ms == y->calibration_begin_ms &&
-                    x->calibration_end_ms == y->calibration_end_ms);
-        assert_true(x->truth_error.flip_mask_mean == y->truth_error.flip_mask_mean);
+        assert_equals(x->create_ms, y->create_ms);
+        assert_equals(x->api_over_wall, y->api_over_wall);
+        assert_equals(x->calibration_begin_ms, y->calibration_begin_ms);
+        assert_equals(x->calibration_end_ms, y->calibration_end_ms);
+        assert_equals(x->truth_error.flip_mask_mean, y->truth_error.flip_mask_mean);
         assert_int_equal(x->outcome, y->outcome);
         assert_string_equal(x->detail, y->detail);
     }
@@ -74,7 +76,9 @@ static void test_budget(void **state)
     assert_false(json_boolean_value(json_object_get(document, "interrupted")));
     if (!rg_result_from_json(document, "file", &found, why))
         fail_msg("%s", why);
-    assert_true(found.budget_s == 240 && found.size_divisor == 4 && found.few_samples);
+    assert_equals(found.budget_s, 240);
+    assert_equals(found.size_divisor, 4);
+    assert_true(found.few_samples);
     assert_true(!found.left_out[0] && found.left_out[1] && !found.left_out[2]);
     assert_same_records(&made, &found);
     assert_prints_same(&made, &found);

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "harness/tables/claims/claim.h"
+#include "tests/expect.h"
 
 enum { ROWS = 5, SAMPLES = 10, TRIALS = 200 };
 
@@ -100,10 +101,10 @@ static void test_rows_that_fall(void **state)
     // Noise hides the order: whatever is decided, is decided rightly.
     int counts[RG_CLAIM_VERDICTS];
     count_verdicts(&falls, rising, 0.6, counts);
-    assert_true(counts[RG_CLAIM_NOT_REPRODUCED] <= TRIALS / 20);
-    assert_true(counts[RG_CLAIM_UNDECIDED] > TRIALS / 2);
+    assert_at_most(counts[RG_CLAIM_NOT_REPRODUCED], TRIALS / 20);
+    assert_above(counts[RG_CLAIM_UNDECIDED], TRIALS / 2);
     count_verdicts(&falls, turned, 0.6, counts);
-    assert_true(counts[RG_CLAIM_REPRODUCED] <= TRIALS / 20);
+    assert_at_most(counts[RG_CLAIM_REPRODUCED], TRIALS / 20);
 }
 
 static void test_ratios(void **state)
@@ -130,7 +131,9 @@ static void test_ratios(void **state)
     alike.most = apart.least;
     const struct rg_judgement a = rg_claim_judge(&alike, &result, 0);
     const struct rg_judgement b = rg_claim_judge(&apart, &result, 0);
-    assert_true(a.against == b.in_favour && a.in_favour == b.against && a.against > a.in_favour);
+    assert_equals(a.against, b.in_favour);
+    assert_equals(a.in_favour, b.against);
+    assert_above(a.against, a.in_favour);
     rg_result_free(&result);
 }
 
@@ -238,15 +241,15 @@ static void test_rates_jointly(void **state)
     int counts[RG_CLAIM_VERDICTS];
     rate.least = 100;
     count_verdicts(&rate, level, 0.05, counts);
-    assert_true(counts[RG_CLAIM_NOT_REPRODUCED] <= TRIALS / 20);
-    assert_true(counts[RG_CLAIM_REPRODUCED] <= TRIALS / 20);
+    assert_at_most(counts[RG_CLAIM_NOT_REPRODUCED], TRIALS / 20);
+    assert_at_most(counts[RG_CLAIM_REPRODUCED], TRIALS / 20);
     struct rg_result result;
     uint32_t x = 9;
     make_result(&result, level, level, 0.01, &x);
     rate.least = 90;
-    assert_true(fabs(rg_claim_judge(&rate, &result, 0).against - 1.0 / 1024) < 1e-12);
+    assert_below(fabs(rg_claim_judge(&rate, &result, 0).against - 1.0 / 1024), 1e-12);
     rate.least = 110;
-    assert_true(fabs(rg_claim_judge(&rate, &result, 0).in_favour - 5.0 / 1024) < 1e-12);
+    assert_below(fabs(rg_claim_judge(&rate, &result, 0).in_favour - 5.0 / 1024), 1e-12);
     rg_result_free(&result);
 }
 

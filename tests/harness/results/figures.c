@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "harness/frames/figures/figures.h"
+#include "tests/expect.h"
 
 // Those that are to be drawn anew.
 static const char *const creus[] = {"4.1", "4.4", "4.11", "4.13", "4.14", "4.15", "4.16", "5.2",
@@ -25,11 +26,11 @@ static void test_settings_are_taken(void **state)
         void *settings = rg_settings_create(technique);
         assert_true(rg_params_set_all(technique->params, settings, figure->settings));
         free(settings);
-        assert_true(strlen(figure->caption) > 20);
-        assert_true(!figure->parameter == !figure->ending);
-        assert_true(!figure->parameter == !(figure->text || figure->greys));
+        assert_above(strlen(figure->caption), 20);
+        assert_equals(!figure->parameter, !figure->ending);
+        assert_equals(!figure->parameter, !(figure->text || figure->greys));
     }
-    assert_true(count > 0);
+    assert_above(count, 0);
     assert_null(rg_figure_find("creus-0.0"));
 }
 

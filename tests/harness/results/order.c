@@ -12,6 +12,7 @@
 
 #include "harness/tables/claims/margin.h"
 #include "harness/tables/claims/order.h"
+#include "tests/expect.h"
 
 // --- the order of two sets ---
 
@@ -44,7 +45,7 @@ static void check_drawn(int m, int n)
     for (int i = 0; i < m * n; i++)
         pairs += low[i % m] < high[i / m];
     const double found = rg_order_probability(low, m, 1, high, n);
-    assert_true(fabs(found - enumerated(m, n, pairs)) < 1e-12);
+    assert_below(fabs(found - enumerated(m, n, pairs)), 1e-12);
 }
 
 static void test_order_by_enumeration(void **state)
@@ -65,8 +66,8 @@ static void test_ties(void **state)
 {
     (void)state;
     const double low[3] = {1, 2, 3}, high[3] = {3, 4, 5}, same[2] = {1, 1};
-    assert_true(fabs(rg_order_probability(low, 3, 1, high, 3) - enumerated(3, 3, 8)) < 1e-12);
-    assert_true(fabs(rg_order_probability(same, 2, 1, same, 2) - enumerated(2, 2, 2)) < 1e-12);
+    assert_below(fabs(rg_order_probability(low, 3, 1, high, 3) - enumerated(3, 3, 8)), 1e-12);
+    assert_below(fabs(rg_order_probability(same, 2, 1, same, 2) - enumerated(2, 2, 2)), 1e-12);
 }
 
 // Beyond 20 samples the normal distribution stands in: of samples that are alike, as many are as
@@ -134,8 +135,8 @@ static void test_a_factor(void **state)
 {
     (void)state;
     const double low[5] = {1, 1.1, 1.2, 1.3, 1.4}, high[5] = {2.5, 2.6, 2.7, 2.8, 2.9};
-    assert_true(rg_order_probability(low, 5, 1.7, high, 5) < 0.01);
-    assert_true(rg_order_probability(low, 5, 3, high, 5) > 0.99);
+    assert_below(rg_order_probability(low, 5, 1.7, high, 5), 0.01);
+    assert_above(rg_order_probability(low, 5, 3, high, 5), 0.99);
 }
 
 // --- medians and what is due ---
@@ -145,12 +146,12 @@ static void test_signs(void **state)
 {
     (void)state;
     const double samples[7] = {1, 2, 3, 4, 5, 6, 7};
-    assert_true(fabs(rg_sign_probability(samples, 6, 10, 1) - 1.0 / 64) < 1e-12);
-    assert_true(fabs(rg_sign_probability(samples, 6, 10, -1) - 1) < 1e-12);
-    assert_true(fabs(rg_sign_probability(samples, 6, 5.5, 1) - 7.0 / 64) < 1e-12);
-    assert_true(fabs(rg_sign_probability(samples, 6, 5.5, -1) - 63.0 / 64) < 1e-12);
-    assert_true(fabs(rg_sign_probability(samples, 7, 7, 1) - 1.0 / 64) < 1e-12);
-    assert_true(fabs(rg_sign_probability(samples, 6, 0, -1) - 1.0 / 64) < 1e-12);
+    assert_below(fabs(rg_sign_probability(samples, 6, 10, 1) - 1.0 / 64), 1e-12);
+    assert_below(fabs(rg_sign_probability(samples, 6, 10, -1) - 1), 1e-12);
+    assert_below(fabs(rg_sign_probability(samples, 6, 5.5, 1) - 7.0 / 64), 1e-12);
+    assert_below(fabs(rg_sign_probability(samples, 6, 5.5, -1) - 63.0 / 64), 1e-12);
+    assert_below(fabs(rg_sign_probability(samples, 7, 7, 1) - 1.0 / 64), 1e-12);
+    assert_below(fabs(rg_sign_probability(samples, 6, 0, -1) - 1.0 / 64), 1e-12);
 }
 
 // --- what print does not tell ---
@@ -158,10 +159,10 @@ static void test_signs(void **state)
 static void test_rounding(void **state)
 {
     (void)state;
-    assert_true(fabs(rg_margin_rounding(25) - 0.5 / 25) < 1e-12);
-    assert_true(fabs(rg_margin_rounding(22.5) - 0.05 / 22.5) < 1e-12);
-    assert_true(fabs(rg_margin_rounding(1.66) - 0.005 / 1.66) < 1e-12);
-    assert_true(rg_margin_rounding(NAN) == 0);
+    assert_below(fabs(rg_margin_rounding(25) - 0.5 / 25), 1e-12);
+    assert_below(fabs(rg_margin_rounding(22.5) - 0.05 / 22.5), 1e-12);
+    assert_below(fabs(rg_margin_rounding(1.66) - 0.005 / 1.66), 1e-12);
+    assert_equals(rg_margin_rounding(NAN), 0);
     assert_true(rg_margin_orders(26.5, 25) && !rg_margin_orders(25.5, 25));
     assert_true(!rg_margin_orders(25, 26) && !rg_margin_orders(NAN, 1) &&
                 !rg_margin_orders(1, NAN));
@@ -187,13 +188,14 @@ static void test_scatter_of_print(void **state)
 {
     (void)state;
     const double sigma = 0.1 / sqrt(1.5) / 0.6745;
-    assert_true(fabs(margin_of_line(0.2) - 1.96 * sigma / sqrt(10)) < 1e-4);
-    assert_true(margin_of_line(0) < 1e-4);
+    assert_below(fabs(margin_of_line(0.2) - 1.96 * sigma / sqrt(10)), 1e-4);
+    assert_below(margin_of_line(0), 1e-4);
     // Rounding alone, of two rows: half of 10 and of 20 either way, evenly.
     const struct rg_slope_point two[] = {{.x = 0}, {.x = 1}};
     const double printed[] = {20, 10}, weights[] = {-1, 1};
-    assert_true(fabs(rg_margin_slope(two, weights, printed, 2) -
-                     1.96 * sqrt((0.025 * 0.025 + 0.05 * 0.05) / 3)) < 1e-9);
+    assert_below(fabs(rg_margin_slope(two, weights, printed, 2) -
+                      1.96 * sqrt((0.025 * 0.025 + 0.05 * 0.05) / 3)),
+                 1e-9);
 }
 int main(void)
 {

@@ -13,6 +13,7 @@
 #include "core/techniques/technique.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/table.h"
+#include "tests/expect.h"
 
 static const char *folder;
 
@@ -28,7 +29,7 @@ static int split(char *line, char *fields[MAX_FIELDS])
     char *rest = NULL;
     int count = 0;
     for (char *one = strtok_r(line, ",\r\n", &rest); one; one = strtok_r(NULL, ",\r\n", &rest)) {
-        assert_true(count < MAX_FIELDS);
+        assert_below(count, MAX_FIELDS);
         fields[count++] = one;
     }
     return count;
@@ -78,7 +79,7 @@ static void compare(const struct rg_table *table)
     const int count = split(header, names);
     int rows = 0;
     for (; fgets(line, sizeof(line), file); rows++) {
-        assert_true(rows < table->row_count);
+        assert_below(rows, table->row_count);
         assert_int_equal(split(line, fields), count);
         compare_row(table, rows, names, fields, count);
     }
@@ -100,7 +101,8 @@ static void check_print(const struct rg_record *record)
 {
     double low, high;
     rg_record_published_range(record, &low, &high);
-    assert_true(0 < low && low <= high);
+    assert_below(0, low);
+    assert_at_most(low, high);
 }
 
 // A key that is a parameter's name is what the row sets it to, in full.
@@ -199,7 +201,7 @@ static void test_works(void **state)
                 assert_true(works[0].reading && strcmp(works[0].reading, works[w].reading) != 0);
         }
     }
-    assert_true(found > 0);
+    assert_above(found, 0);
 }
 
 // Work `paper` of each published table of which something can be saved is whole: no row of it has a

@@ -12,6 +12,7 @@
 #include "harness/measure/expected.h"
 #include "harness/tables/runs/regenerate.h"
 #include "harness/tables/measuring/measure.h"
+#include "tests/expect.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
@@ -165,7 +166,8 @@ static void test_table(void **state)
     // Both assignments of a row are taken, the number of texels and that of drops.
     const int64_t small = record_at(&rig, 0, 1)->counters[0].value;
     const int64_t few = record_at(&rig, 2, 1)->counters[0].value;
-    assert_true(small == 40 && few == 10);
+    assert_equals(small, 40);
+    assert_equals(few, 10);
     finish(&rig);
 }
 
@@ -178,7 +180,7 @@ static void test_no_rain(void **state)
     measure(&rig, &table, 4);
     const struct rg_record *rainy = record_at(&rig, 3, 0), *dry = record_at(&rig, 3, 1);
     assert_int_equal(rainy->outcome, RG_OK);
-    assert_true(rainy->sample_count >= RG_LEAST_SAMPLES);
+    assert_at_least(rainy->sample_count, RG_LEAST_SAMPLES);
     assert_int_equal(dry->outcome, RG_NOTHING);
     assert_int_equal(dry->truth_error.outcome, RG_NOTHING);
     assert_int_equal(dry->sample_count, 0);
@@ -286,8 +288,8 @@ static void test_textures(void **state)
     measure(&rig, &texture_table, 4);
     const struct rg_record *whole = record_at(&rig, 0, 0);
     assert_int_equal(whole->outcome, RG_OK);
-    assert_true(told(whole, "width_px") == 16);
-    assert_true(told(whole, "height_px") == 16);
+    assert_equals(told(whole, "width_px"), 16);
+    assert_equals(told(whole, "height_px"), 16);
     assert_int_equal(record_at(&rig, 1, 0)->outcome, RG_FAIL); // no such level
     assert_int_equal(record_at(&rig, 2, 0)->outcome, RG_ERROR);
     assert_int_equal(record_at(&rig, 3, 0)->outcome, RG_ERROR);
@@ -328,12 +330,12 @@ static void test_kept(void **state)
     assert_ptr_not_equal(rg_kept_open(&kept, reference, &subject), first);
     subject.settings = others;
     assert_non_null(rg_kept_open(&kept, cpu, &subject));
-    assert_true(rg_device_work(cpu)->live_bytes == bytes);
+    assert_equals(rg_device_work(cpu)->live_bytes, bytes);
     // A truth is drawn once.
     const struct rg_picture *truth = rg_kept_truth(&kept, &subject, 2);
     const int64_t runs = rg_device_work(cpu)->runs;
     assert_ptr_equal(rg_kept_truth(&kept, &subject, 2), truth);
-    assert_true(rg_device_work(cpu)->runs == runs);
+    assert_equals(rg_device_work(cpu)->runs, runs);
     assert_ptr_not_equal(rg_kept_truth(&kept, &subject, 3), truth);
     subject.settings = settings;
     assert_ptr_not_equal(rg_kept_truth(&kept, &subject, 2), truth);

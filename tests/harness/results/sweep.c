@@ -10,6 +10,7 @@
 
 #include "core/techniques/technique.h"
 #include "harness/tables/sweep/grid.h"
+#include "tests/expect.h"
 
 static void expect_axis(const char *text, const char *name, const char *const *values)
 {
@@ -71,7 +72,7 @@ static void rows_are_all_combinations(void **state)
     for (int row = 0; row < 12; row++) {
         char mirror[16];
         assert_string_equal(table->rows[row].name, row < 6 ? "none" : "bunny");
-        assert_true(rg_table_value(table, row, "resolution_px") == 64 * (row / 2 % 3 + 1));
+        assert_equals(rg_table_value(table, row, "resolution_px"), 64 * (row / 2 % 3 + 1));
         rg_table_value_text(table, row, 1, mirror, sizeof(mirror));
         assert_string_equal(mirror, row % 2 ? "mirror" : "glass");
     }

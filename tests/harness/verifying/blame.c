@@ -12,6 +12,7 @@
 
 #include "core/techniques/technique.h"
 #include "harness/compare/blame/blame.h"
+#include "tests/expect.h"
 #include "tests/harness/verifying/rig.h"
 
 enum { WORDS = 16 };
@@ -304,7 +305,7 @@ static void where_devices_part_is_found(void **state)
     assert_true(blame.found);
     assert_false(blame.is_alone);
     assert_int_equal(blame.first.frame, 2);
-    assert_true(blame.first.hash != blame.expected);
+    assert_differs(blame.first.hash, blame.expected);
     assert_false(blame.is_image);
     assert_int_equal(blame.differing, 1);
     assert_non_null(strstr(blame.text, "frame 2, stage flow_"));

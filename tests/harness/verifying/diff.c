@@ -15,6 +15,7 @@
 #include "core/image/files/io.h"
 #include "harness/compare/diff/files.h"
 #include "tests/core/image/rain_picture.h"
+#include "tests/expect.h"
 
 static char folder[] = "/tmp/raingauge-diff-XXXXXX";
 static char a[64], b[64], background[64], small[64], three[64], output[64], prefix[64];
@@ -102,7 +103,7 @@ static void json_has_the_documented_shape(void **state)
     assert_string_equal(json_string_value(json_object_get(pair, "tier")), "none");
     static const char *const numbers[] = {"max", "differing", "mask", "flip_mean", "psnr"};
     for (int i = 0; i < 5; i++)
-        assert_true(json_number_value(json_object_get(pair, numbers[i])) > 0);
+        assert_above(json_number_value(json_object_get(pair, numbers[i])), 0);
     json_decref(root);
     assert_int_equal(run(&(struct rg_diff_request){.a = a, .b = a, .json = true}), 0);
     root = json_loads(text, 0, NULL);
@@ -184,15 +185,17 @@ static void what_figures_are_of(void **state)
     json_t *pair = json_array_get(json_object_get(root, "pairs"), 0);
     const double light = json_number_value(json_object_get(pair, "psnr"));
     const double codes = json_number_value(json_object_get(json_object_get(pair, "codes"), "psnr"));
-    assert_true(light > 0 && codes > 0 && light != codes);
+    assert_above(light, 0);
+    assert_above(codes, 0);
+    assert_differs(light, codes);
     assert_true(json_is_null(json_object_get(pair, "hdr_flip")));
-    assert_true(json_number_value(json_object_get(pair, "flip_weighted_quartile_1")) > 0);
+    assert_above(json_number_value(json_object_get(pair, "flip_weighted_quartile_1")), 0);
     json_decref(root);
     assert_int_equal(run(&(struct rg_diff_request){.a = a, .b = b, .json = true}), 1);
     root = json_loads(text, 0, NULL);
     pair = json_array_get(json_object_get(root, "pairs"), 0);
     assert_true(json_is_null(json_object_get(pair, "codes")));
-    assert_true(json_number_value(json_object_get(json_object_get(pair, "hdr_flip"), "mean")) > 0);
+    assert_above(json_number_value(json_object_get(json_object_get(pair, "hdr_flip"), "mean")), 0);
     json_decref(root);
     unlink(png[0]);
     unlink(png[1]);
@@ -210,16 +213,18 @@ static void heat_maps_are_written(void **state)
         snprintf(path, sizeof(path), "%s-%s.png", prefix, names[i]);
         struct rg_picture heat;
         assert_true(rg_picture_read(path, &heat));
-        assert_true(heat.width > 160 + 50 && heat.height == 80);
+        assert_above(heat.width, 160 + 50);
+        assert_equals(heat.height, 80);
         float brightest = 0;
         for (int y = 0; y < 80; y++)
             for (int x = 0; x < 160; x++)
                 brightest = fmaxf(brightest, heat.texels[(y * heat.width + x) * 3]);
-        assert_true(brightest > 0.2f);
+        assert_above(brightest, 0.2f);
         // The scale runs from light yellow at the top to black.
         const float *top = heat.texels + (160 + 10) * 3;
         const float *bottom = heat.texels + (79 * heat.width + 160 + 10) * 3;
-        assert_true(top[0] > 0.9f && bottom[0] < 0.01f);
+        assert_above(top[0], 0.9f);
+        assert_below(bottom[0], 0.01f);
         rg_picture_destroy(&heat);
         unlink(path);
     }
@@ -236,7 +241,8 @@ static void heat_colours_are_magma(void **state)
     assert_true(fabsf(middle[0] - 0.4735f) < 1e-3f && fabsf(middle[1] - 0.0382f) < 1e-3f);
     assert_memory_equal(middle + 3 * 84, middle, 3 * sizeof(float));
     assert_memory_equal(middle + 3 * heat.width * 84, middle, 3 * sizeof(float));
-    assert_true(fabsf(heat.texels[3 * 254] - 0.9734f) < 1e-3f && fabsf(last[0]) < 1e-3f);
+    assert_below(fabsf(heat.texels[3 * 254] - 0.9734f), 1e-3f);
+    assert_below(fabsf(last[0]), 1e-3f);
     rg_picture_destroy(&heat);
 }
 

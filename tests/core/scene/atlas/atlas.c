@@ -20,6 +20,7 @@
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/splash.h"
+#include "tests/expect.h"
 
 static const char *published;
 static struct rg_atlas *small;
@@ -37,7 +38,7 @@ static void tell(void *user, int done, int total)
 {
     (void)user;
     assert_int_equal(done, ++calls);
-    assert_true(done <= total);
+    assert_at_most(done, total);
 }
 
 static int setup(void **state)
@@ -84,7 +85,7 @@ static void test_published_sizes(void **state)
     FILE *file = open_table("creus-5.1.csv");
     while (fscanf(file, " %31[a-z],%d,%d,%d", name, &level, &width, &height) == 4) {
         const int part = name[0] == 'p' ? RG_ATLAS_POINT : RG_ATLAS_ENV;
-        assert_true(level < full->images[part].levels);
+        assert_below(level, full->images[part].levels);
         assert_int_equal(rg_level_size(full->images[part].width, level), width);
         assert_int_equal(rg_level_size(full->images[part].height, level), height);
         rows++;
@@ -144,8 +145,8 @@ static void test_cells(void **state)
                     }
                 assert_int_equal(largest, 0x3c00); // 1
                 assert_true(edge == 0 || k > 0);   // others swing into the margin
-                assert_true((&small->point_factor[k][view][0][0])[cell] > 1e-5f);
-                assert_true((&small->point_factor[k][view][0][0])[cell] < 10);
+                assert_above((&small->point_factor[k][view][0][0])[cell], 1e-5f);
+                assert_below((&small->point_factor[k][view][0][0])[cell], 10);
             }
 }
 
@@ -159,8 +160,8 @@ static void test_poles(void **state)
                 const int x = light * 72;
                 assert_memory_equal(texel(RG_ATLAS_POINT, 3, 0, x, r),
                                     texel(RG_ATLAS_POINT, 3, 0, x + 8 * phi, r), 16);
-                assert_true(small->point_factor[3][r % 5][light][0] ==
-                            small->point_factor[3][r % 5][light][phi]);
+                assert_equals(small->point_factor[3][r % 5][light][0],
+                              small->point_factor[3][r % 5][light][phi]);
             }
 }
 
@@ -194,7 +195,7 @@ static void test_levels_keep_light(void **state)
     for (int i = 0; i < 90 * 112; i++)
         means[0] += (double)rg_half_value(rg_atlas_texels(small, RG_ATLAS_POINT, 6, 3)[i]);
     means[1] = (double)rg_half_value(*rg_atlas_texels(small, RG_ATLAS_POINT, 6, 9));
-    assert_true(fabs(means[0] / (90 * 112) / means[1] - 1) < 5e-3);
+    assert_below(fabs(means[0] / (90 * 112) / means[1] - 1), 5e-3);
 }
 
 // Of oscillation 0, seen from the front.
@@ -209,14 +210,14 @@ static void test_factors(void **state)
 {
     (void)state;
     const float(*front)[RG_ATLAS_PHIS] = small->point_factor[0][0];
-    assert_true(front[5][8] > 30 * front[5][0]);
-    assert_true(front[5][1] > 2 * front[5][3]); // the primary rainbow's glow
+    assert_above(front[5][8], 30 * front[5][0]);
+    assert_above(front[5][1], 2 * front[5][3]); // the primary rainbow's glow
     for (int light = 0; light < 10; light++)    // of a sphere seen from the front
         for (int phi = 0; phi < 9; phi++)
-            assert_true(fabs(scaled_mean(light, phi) / scaled_mean(9 - light, phi) - 1) < 0.02);
+            assert_below(fabs(scaled_mean(light, phi) / scaled_mean(9 - light, phi) - 1), 0.02);
     for (int view = 0; view < RG_ATLAS_VIEWS; view++)
-        assert_true(fabs((double)small->env_factor[0][view] * 42.5 * cos(view * 0.349065850) - 1) <
-                    0.1);
+        assert_below(fabs((double)small->env_factor[0][view] * 42.5 * cos(view * 0.349065850) - 1),
+                     0.1);
 }
 
 // --- splashes ---
@@ -228,7 +229,8 @@ static double splash_mean(int material, int frame)
     double sum = 0;
     for (int i = 0; i < 48 * 32; i++) {
         const double value = (double)rg_half_value(texels[i]);
-        assert_true(value >= 0 && value <= 1);
+        assert_at_least(value, 0);
+        assert_at_most(value, 1);
         sum += value;
     }
     return sum / (48 * 32);
@@ -267,10 +269,10 @@ static void test_splashes(void **state)
             highest = fmax(highest, splash_mean(material, frame));
         if (!(highest > 0.02 && highest < 0.5))
             fail_msg("material %d: %g of the picture", material, highest);
-        assert_true(splash_mean(material, 0) > 0.005);
-        assert_true(splash_mean(material, RG_ATLAS_FRAMES - 1) < 0.02 * highest);
+        assert_above(splash_mean(material, 0), 0.005);
+        assert_below(splash_mean(material, RG_ATLAS_FRAMES - 1), 0.02 * highest);
     }
-    assert_true(splash_mean(1, 5) > 3 * splash_mean(2, 5)); // a puddle's crown, and asphalt's
+    assert_above(splash_mean(1, 5), 3 * splash_mean(2, 5)); // a puddle's crown, and asphalt's
 }
 
 // R = D (2 / (3 h))^(1/4) sqrt(v t / D) at first, of a drop of 3.2 mm at 8.16 m/s, and the sheet
@@ -280,16 +282,16 @@ static void test_crown(void **state)
     (void)state;
     const double time = 2e-4,
                  wanted = 3.2e-3 * pow(2 / (3 * 0.3), 0.25) * sqrt(8.16 * time / 3.2e-3);
-    assert_true(fabs(rg_splash_crown(0, time).radius_m / wanted - 1) < 0.03);
+    assert_below(fabs(rg_splash_crown(0, time).radius_m / wanted - 1), 0.03);
     double last = 0;
     for (int i = 1; i < 60; i++) {
         const double radius = rg_splash_crown(0, i * 1e-3).radius_m;
-        assert_true(radius > last);
+        assert_above(radius, last);
         last = radius;
     }
-    assert_true(rg_splash_crown(1, 0.03).height_m > 3 * rg_splash_crown(1, 0.001).height_m);
-    assert_true(rg_splash_crown(1, 0.07).height_m < rg_splash_crown(1, 0.04).height_m);
-    assert_true(rg_splash_crown(1, 0.1).height_m <= 0);
+    assert_above(rg_splash_crown(1, 0.03).height_m, 3 * rg_splash_crown(1, 0.001).height_m);
+    assert_below(rg_splash_crown(1, 0.07).height_m, rg_splash_crown(1, 0.04).height_m);
+    assert_at_most(rg_splash_crown(1, 0.1).height_m, 0);
 }
 
 // --- from the cache ---

@@ -20,6 +20,7 @@
 #include "core/base/log.h"
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/levels.h"
+#include "tests/expect.h"
 
 static char folder[] = "/tmp/raingauge-atlas-XXXXXX";
 static char path[RG_ATLAS_PATH_SIZE], why[256];
@@ -88,7 +89,7 @@ static void expect_state(enum rg_atlas_cached wanted)
     enum rg_atlas_cached state;
     why[0] = 0;
     struct rg_atlas *atlas = rg_atlas_cache_read(RG_ATLAS_SMALL, &state, why);
-    assert_true((atlas != NULL) == (wanted == RG_ATLAS_SOUND));
+    assert_equals((atlas != NULL), (wanted == RG_ATLAS_SOUND));
     if (state != wanted)
         fail_msg("state %d, expected %d: %s", (int)state, (int)wanted, why);
     assert_true(atlas || why[0]);
@@ -124,7 +125,7 @@ static void flip(long offset, int whence, unsigned char bits)
     assert_int_equal(fseek(file, offset, whence), 0);
     const long at = ftell(file);
     const int byte = fgetc(file);
-    assert_true(byte != EOF);
+    assert_differs(byte, EOF);
     fseek(file, at, SEEK_SET);
     fputc(byte ^ bits, file);
     assert_int_equal(fclose(file), 0);
@@ -233,7 +234,7 @@ static void test_killed(void **state)
     write_atlas(8);
     struct rg_atlas *atlas = make(9);
     const pid_t writer = fork();
-    assert_true(writer >= 0);
+    assert_at_least(writer, 0);
     if (!writer) {
         const struct rlimit none = {0, 0}, small = {1000000, 1000000};
         signal(SIGXFSZ, SIG_DFL);
@@ -242,7 +243,8 @@ static void test_killed(void **state)
     }
     int status;
     assert_int_equal(waitpid(writer, &status, 0), writer);
-    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ);
+    assert_true(WIFSIGNALED(status));
+    assert_equals(WTERMSIG(status), SIGXFSZ);
     assert_int_equal(files_beside(), 1);
     expect_state(RG_ATLAS_SOUND);
     rg_atlas_destroy(atlas);
@@ -279,7 +281,7 @@ static void test_writers_at_once(void **state)
     pid_t writers[2];
     for (uint32_t w = 0; w < 2; w++) {
         writers[w] = fork();
-        assert_true(writers[w] >= 0);
+        assert_at_least(writers[w], 0);
         if (writers[w])
             continue;
         struct rg_atlas *atlas = rg_atlas_allocate(RG_ATLAS_SMALL);

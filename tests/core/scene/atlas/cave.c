@@ -20,6 +20,7 @@
 #include "core/scene/atlas/levels.h"
 #include "core/techniques/streaks/instance.h"
 #include "tests/core/scene/atlas/codes.h"
+#include "tests/expect.h"
 
 enum { PATH_SIZE = 512 };
 
@@ -210,10 +211,10 @@ static void test_packed(void **state)
                 const int light = cell / 9, phi = light % 9 ? cell % 9 : 8;
                 const double wanted = factor_of(view, light, phi, k) * (double)RG_CAVE_POINT_SCALE;
                 const double factor = (double)atlas->point_factor[k][view][light][cell % 9];
-                assert_true(fabs(factor / wanted - 1) < 1e-5);
+                assert_below(fabs(factor / wanted - 1), 1e-5);
             }
             const double wanted = (0.5 + view + 0.01 * k) / 0.5 / 42.5;
-            assert_true(fabs((double)atlas->env_factor[k][view] / wanted - 1) < 1e-5);
+            assert_below(fabs((double)atlas->env_factor[k][view] / wanted - 1), 1e-5);
         }
     rg_atlas_destroy(atlas);
 }
@@ -322,7 +323,7 @@ static void expect_texels(const struct streaks *s, const struct rg_atlas *atlas)
     for (int view = 0; view < RG_ATLAS_VIEWS; view++) {
         const int rows = rg_atlas_row_height(view, level) / 3;
         const int first = (rg_atlas_row_start(view, level) + rows) * pitch;
-        assert_true(rows > 2);
+        assert_above(rows, 2);
         assert_memory_equal(texels + first, rg_atlas_texels(atlas, RG_ATLAS_POINT, 7, 1) + first,
                             (size_t)(rows * pitch) * sizeof(*texels));
     }

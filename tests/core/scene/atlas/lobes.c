@@ -11,6 +11,7 @@
 #include "core/scene/atlas/atlas.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/lights.h"
+#include "tests/expect.h"
 
 static struct rg_lobes lobes;
 
@@ -25,8 +26,9 @@ static void assert_direction(double elevation, double azimuth, double x, double 
 {
     float d[3];
     rg_lobe_direction(elevation, azimuth, d);
-    assert_true(fabs((double)d[0] - x) < 1e-6 && fabs((double)d[1] - y) < 1e-6 &&
-                fabs((double)d[2] - z) < 1e-6);
+    assert_below(fabs((double)d[0] - x), 1e-6);
+    assert_below(fabs((double)d[1] - y), 1e-6);
+    assert_below(fabs((double)d[2] - z), 1e-6);
 }
 
 // The viewer is at +z, its right at +x, up at +y.
@@ -53,7 +55,7 @@ static void test_cells(void **state)
             float d[3];
             rg_lobe_direction(20 * light - 90, 10 + 20 * phi, d);
             for (int c = 0; c < 3; c++)
-                assert_true(fabsf(d[c] - lobes.direction[lobe][c]) < 1e-6f);
+                assert_below(fabsf(d[c] - lobes.direction[lobe][c]), 1e-6f);
         }
     for (int lobe = 0; lobe < RG_LOBE_COUNT; lobe++)
         assert_int_equal(cells[lobe], lobe == 0 || lobe == RG_LOBE_COUNT - 1 ? 9 : 1);
@@ -65,8 +67,8 @@ static void test_shares(void **state)
     double sum = 0;
     for (int lobe = 0; lobe < RG_LOBE_COUNT; lobe++)
         sum += rg_lobe_share_sr(lobe);
-    assert_true(fabs(sum - 4 * M_PI) < 1e-9);
-    assert_true(fabs(rg_lobe_share_sr(0) - 2 * M_PI * (1 - cos(M_PI / 18))) < 1e-9);
+    assert_below(fabs(sum - 4 * M_PI), 1e-9);
+    assert_below(fabs(rg_lobe_share_sr(0) - 2 * M_PI * (1 - cos(M_PI / 18))), 1e-9);
 }
 
 // A lobe's radiance over the sphere is an irradiance of 1, and falls as a Gaussian of 3 degrees.
@@ -81,9 +83,9 @@ static void test_radiance(void **state)
         sum += (double)rg_lobe_radiance(&lobes, (float)cos(angle)) * 2 * M_PI * sin(angle) *
                widest / STEPS;
     }
-    assert_true(fabs(sum - 1) < 2e-3);
+    assert_below(fabs(sum - 1), 2e-3);
     const double at_3 = (double)rg_lobe_radiance(&lobes, (float)cos(3 * M_PI / 180));
-    assert_true(fabs(at_3 / (double)lobes.peak - exp(-0.5)) < 2e-3);
+    assert_below(fabs(at_3 / (double)lobes.peak - exp(-0.5)), 2e-3);
 }
 
 // Every light that a direction can look into is in its square's list.
@@ -122,9 +124,12 @@ static void test_shrinking(void **state)
     static const float from[] = {0, 3, 6, 9, 12, 15};
     float to[4];
     rg_shrink(from, 3, 2, to, 3, 1);
-    assert_true(to[0] == 4.5f && to[1] == 7.5f && to[2] == 10.5f);
+    assert_equals(to[0], 4.5f);
+    assert_equals(to[1], 7.5f);
+    assert_equals(to[2], 10.5f);
     rg_shrink(from, 3, 1, to, 2, 1);
-    assert_true(fabsf(to[0] - 1) < 1e-6f && fabsf(to[1] - 5) < 1e-6f);
+    assert_below(fabsf(to[0] - 1), 1e-6f);
+    assert_below(fabsf(to[1] - 5), 1e-6f);
 }
 
 // Halves are rounded to the nearest: 11 bits of a number.
@@ -134,11 +139,11 @@ static void test_halves(void **state)
     for (int i = 0; i < 4096; i++) {
         const double value = 1 + i / 4096.0;
         const double kept = (double)rg_half_value(rg_half_of((float)value));
-        assert_true(fabs(kept - value) <= 1 / 2048.0);
+        assert_at_most(fabs(kept - value), 1 / 2048.0);
         if (i % 4 != 2)
-            assert_true(kept == rint(value * 1024) / 1024);
+            assert_equals(kept, rint(value * 1024) / 1024);
     }
-    assert_true(rg_half_value(rg_half_of(1e-6f)) == 0);
+    assert_equals(rg_half_value(rg_half_of(1e-6f)), 0);
 }
 
 int main(void)

@@ -11,6 +11,7 @@
 
 #include "core/scene/atlas/cave/cave.h"
 #include "core/scene/atlas/streak.h"
+#include "tests/expect.h"
 
 #define PI 3.14159265358979323846
 
@@ -66,7 +67,7 @@ static void test_published_brightness(void **state)
         if (fabs(exp(logs[i] - mean) - 1) > 0.3)
             fail_msg("light %d, azimuth %d: %.3f times the published brightness", i < 9 ? 10 : 50,
                      10 + 20 * (i % 9), exp(logs[i] - mean));
-    assert_true(fabs(exp(mean) / (double)RG_CAVE_POINT_SCALE - 1) < 0.01);
+    assert_below(fabs(exp(mean) / (double)RG_CAVE_POINT_SCALE - 1), 0.01);
     rg_streaks_free(&streaks);
 }
 
@@ -121,7 +122,8 @@ static void test_heights(void **state)
             last--;
         const double length = FALL_PX * cos(20 * view * PI / 180) + DIAMETER_PX;
         const double wanted = 0.5 * (s.height - length);
-        assert_true(fabs(first - wanted) < 1.5 && fabs(s.height - 1 - last - wanted) < 1.5);
+        assert_below(fabs(first - wanted), 1.5);
+        assert_below(fabs(s.height - 1 - last - wanted), 1.5);
         rg_streaks_free(&s);
     }
 }
@@ -223,7 +225,7 @@ static void test_mirror_images(void **state)
         if (!(difference < 2e-3))
             fail_msg("oscillations %d and %d: %g", pairs[i / 3][0], pairs[i / 3][1], difference);
         // and that is no matter of both being the same to the left and to the right
-        assert_true(mirror_difference(a.point, a.point, a.width, a.height) > 0.1);
+        assert_above(mirror_difference(a.point, a.point, a.width, a.height), 0.1);
         rg_streaks_free(&a);
         rg_streaks_free(&b);
     }
@@ -277,7 +279,7 @@ static void test_scattered_light(void **state)
         rg_streaks_free(&s);
     }
     // the mean over the width of the chord is pi / 4 of its middle
-    assert_true(fabs(total / (PI / 4 / 42.5) - 0.997) < 0.01);
+    assert_below(fabs(total / (PI / 4 / 42.5) - 0.997), 0.01);
 }
 
 int main(void)

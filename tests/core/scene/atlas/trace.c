@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "core/scene/atlas/optics/trace.h"
+#include "tests/expect.h"
 #include "tests/oracle/drop.h"
 
 #define PI    3.14159265358979323846
@@ -75,10 +76,10 @@ static void test_rainbows(void **state)
         primary = fmin(primary, deviation_of(2, i));
         secondary = fmax(secondary, deviation_of(3, i)); // it has turned beyond half a circle
     }
-    assert_true(fabs(primary - rainbow(1)) < 1e-3);
-    assert_true(fabs(secondary - (2 * PI - rainbow(2))) < 1e-3);
-    assert_true(fabs(primary * 180 / PI - 137.9) < 0.1);
-    assert_true(fabs(secondary * 180 / PI - 129.1) < 0.1);
+    assert_below(fabs(primary - rainbow(1)), 1e-3);
+    assert_below(fabs(secondary - (2 * PI - rainbow(2))), 1e-3);
+    assert_below(fabs(primary * 180 / PI - 137.9), 0.1);
+    assert_below(fabs(secondary * 180 / PI - 129.1), 0.1);
 }
 
 static void test_normal_incidence(void **state)
@@ -86,10 +87,10 @@ static void test_normal_incidence(void **state)
     (void)state;
     trace_sphere(0.0f, 1.0f, 1);
     const double f0 = (INDEX - 1) * (INDEX - 1) / ((INDEX + 1) * (INDEX + 1));
-    assert_true(fabs((double)row.share[0][0] - f0) < 1e-6);
-    assert_true(fabs(f0 - 0.0204) < 5e-5);
+    assert_below(fabs((double)row.share[0][0] - f0), 1e-6);
+    assert_below(fabs(f0 - 0.0204), 5e-5);
     for (int way = 0; way < RG_DROP_WAYS; way++)
-        assert_true(fabs((double)row.x[way][0]) < 1e-6);
+        assert_below(fabs((double)row.x[way][0]), 1e-6);
 }
 
 // What is not reflected a fourth time leaves the drop: of a sphere all but t r^4.
@@ -103,7 +104,7 @@ static void test_energy(void **state)
         double sum = 0;
         for (int way = 0; way < RG_DROP_WAYS; way++)
             sum += (double)row.share[way][i];
-        assert_true(fabs(sum - (1 - (1 - r) * pow(r, RG_DROP_WAYS - 1))) < 1e-5);
+        assert_below(fabs(sum - (1 - (1 - r) * pow(r, RG_DROP_WAYS - 1))), 1e-5);
     }
     for (int oscillation = 0; oscillation < 10; oscillation++) {
         const struct rg_drop_shape shape = rg_drop_shape(oscillation, 0.0043);
@@ -115,7 +116,8 @@ static void test_energy(void **state)
                 double sum = 0;
                 for (int way = 0; way < RG_DROP_WAYS; way++)
                     sum += (double)row.share[way][i];
-                assert_true(sum >= 0 && sum < 1 + 1e-5);
+                assert_at_least(sum, 0);
+                assert_below(sum, 1 + 1e-5);
                 all += sum;
                 rays += sum > 0;
             }
@@ -137,7 +139,7 @@ static void expect_oracle(const struct oracle_drop *drop, const double start[3],
     double direction[ORACLE_WAYS][3], share[ORACLE_WAYS];
     if (!oracle_drop_light(drop, start, ray, direction, share)) {
         for (int way = 0; way < RG_DROP_WAYS; way++)
-            assert_true(row.share[way][i] <= 0);
+            assert_at_most(row.share[way][i], 0);
         return;
     }
     for (int way = 0; way < RG_DROP_WAYS; way++) {
@@ -181,7 +183,7 @@ static void test_oscillating(void **state)
             }
         }
     }
-    assert_true(compared > 5000);
+    assert_above(compared, 5000);
 }
 
 // What is seen left and right of an upright drop's middle is mirrored.
@@ -193,9 +195,9 @@ static void test_mirrored(void **state)
     rg_drop_trace(&shape, &view, 0.3f, -0.95f, 0.1f, 20, &row);
     for (int way = 0; way < RG_DROP_WAYS; way++)
         for (int i = 0; i < 10; i++) {
-            assert_true(fabsf(row.x[way][i] + row.x[way][19 - i]) < 1e-4f);
-            assert_true(fabsf(row.y[way][i] - row.y[way][19 - i]) < 1e-4f);
-            assert_true(fabsf(row.share[way][i] - row.share[way][19 - i]) < 1e-5f);
+            assert_below(fabsf(row.x[way][i] + row.x[way][19 - i]), 1e-4f);
+            assert_below(fabsf(row.y[way][i] - row.y[way][19 - i]), 1e-4f);
+            assert_below(fabsf(row.share[way][i] - row.share[way][19 - i]), 1e-5f);
         }
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/scene/mesh/edges.h"
 #include "core/scene/mesh/mesh.h"
+#include "tests/expect.h"
 
 // A roof along z from (0, 0, 0) to (0, 0, 1), the eaves at x = -1 and 1 and y = -1, and a third
 // face that stands upright on the ridge.
@@ -96,7 +97,8 @@ static void test_a_middle(void **state)
         const float *p = fine->positions + 3 * i, *n = fine->normals + 3 * i;
         if (fabsf(p[0]) != 0.5f)
             continue;
-        assert_true(p[1] == -0.5f && p[2] == 0.5f);
+        assert_equals(p[1], -0.5f);
+        assert_equals(p[2], 0.5f);
         const double normal[3] = {fabs((double)n[0]), (double)n[1], (double)n[2]};
         assert_vector(normal, sin(M_PI / 8), cos(M_PI / 8), 0);
         found++;

@@ -13,6 +13,7 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/scene/mesh/read.h"
+#include "tests/expect.h"
 
 static const char *fuzz_folder; // the program's argument
 
@@ -63,7 +64,7 @@ static void test_one_box_in_every_format(void **state)
         if (!turned) { // Assimp makes 3DS's normals itself, by smoothing groups
             assert_int_equal(mesh->vertex_count, BOX_VERTICES);
             assert_memory_equal(mesh->normals, plain->normals, 3 * BOX_VERTICES * sizeof(float));
-            assert_true(mesh->hash == plain->hash);
+            assert_equals(mesh->hash, plain->hash);
         }
         rg_mesh_destroy(mesh);
     }
@@ -80,7 +81,7 @@ static void test_polygons_points_and_lines(void **state)
     assert_int_equal(mesh->face_count, 2 + 3);
     assert_int_equal(mesh->vertex_count, 5);
     for (int i = 0; i < mesh->vertex_count; i++)
-        assert_true(mesh->normals[3 * i + 2] == 1.0f);
+        assert_equals(mesh->normals[3 * i + 2], 1.0f);
     rg_mesh_destroy(mesh);
 }
 
@@ -124,10 +125,11 @@ static void test_nodes_place_meshes(void **state)
     for (int i = 0; i < 6; i++) {
         const uint32_t vertex = mesh->indices[i];
         for (int c = 0; c < 3; c++) {
-            assert_true(fabsf(mesh->positions[3 * vertex + (uint32_t)c] - expected[3 * i + c]) <
-                        1e-5f);
-            assert_true(fabsf(mesh->normals[3 * vertex + (uint32_t)c] -
-                              (float)(c == (i < 3 ? 0 : 2))) < 1e-6f);
+            assert_below(fabsf(mesh->positions[3 * vertex + (uint32_t)c] - expected[3 * i + c]),
+                         1e-5f);
+            assert_below(
+                fabsf(mesh->normals[3 * vertex + (uint32_t)c] - (float)(c == (i < 3 ? 0 : 2))),
+                1e-6f);
         }
     }
     rg_mesh_destroy(mesh);
@@ -142,10 +144,10 @@ static void test_the_hash_is_the_geometrys(void **state)
     struct rg_mesh *moved = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1.0000001 0\nf 1 2 3\n");
     struct rg_mesh *turned = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 3 2 1\n");
     // XXH3 of nine floats and the indices 0, 1, 2, by the xxhsum program
-    assert_true(mesh->hash == UINT64_C(0xa28a642a01fc25be));
-    assert_true(again->hash == mesh->hash);
-    assert_true(moved->hash != mesh->hash);
-    assert_true(turned->hash != mesh->hash);
+    assert_equals(mesh->hash, UINT64_C(0xa28a642a01fc25be));
+    assert_equals(again->hash, mesh->hash);
+    assert_differs(moved->hash, mesh->hash);
+    assert_differs(turned->hash, mesh->hash);
     rg_mesh_destroy(mesh);
     rg_mesh_destroy(again);
     rg_mesh_destroy(moved);
@@ -333,7 +335,7 @@ static void test_free_lines_of_a_ply_header(void **state)
         load_text("free.ply", "ply\nformat ascii 1.0\nauthor somebody\n\n"
                               "of an element of surprise\n" PLY_ELEMENTS PLY_BODY);
     assert_int_equal(mesh->face_count, 2);
-    assert_true(mesh->hash == plain->hash);
+    assert_equals(mesh->hash, plain->hash);
     rg_mesh_destroy(mesh);
     rg_mesh_destroy(plain);
     expect_text_refused("indented.ply",
@@ -408,7 +410,7 @@ static void test_the_corpus(void **state)
         files++;
     }
     closedir(corpus);
-    assert_true(files >= 5);
+    assert_at_least(files, 5);
 }
 
 static uint32_t next_random(uint32_t *seed)

@@ -11,6 +11,7 @@
 #include "core/base/memory.h"
 #include "core/scene/mesh/edges.h"
 #include "core/scene/mesh/models.h"
+#include "tests/expect.h"
 
 // --- in memory ---
 
@@ -49,7 +50,7 @@ static void test_normals_weigh_areas(void **state)
     check_mesh(mesh);
     const double areas[3] = {6, 2, 3}, length = 7; // twice: 3 * 2, 2 * 1, 1 * 3
     for (int c = 0; c < 3; c++)
-        assert_true(fabs((double)mesh->normals[c] - areas[c] / length) < 1e-7);
+        assert_below(fabs((double)mesh->normals[c] - areas[c] / length), 1e-7);
     rg_mesh_destroy(mesh);
 }
 
@@ -88,7 +89,7 @@ static void expect_closed(const struct rg_mesh *mesh, int euler)
         sum += (a << 32 | b) * UINT64_C(0x9e3779b97f4a7c15) ^ a * b; // multisets, compared
         back += (b << 32 | a) * UINT64_C(0x9e3779b97f4a7c15) ^ a * b;
     }
-    assert_true(sum == back);
+    assert_equals(sum, back);
 }
 
 static double volume(const struct rg_mesh *mesh)
@@ -117,11 +118,12 @@ static void test_computed_models(void **state)
     assert_int_equal(sphere->face_count, 27648);
     assert_int_equal(torus->face_count, 32768);
     // the faces look outwards, and lie just inside the curved surface
-    assert_true(volume(sphere) < 4 * pi / 3 && volume(sphere) > 0.999 * 4 * pi / 3);
-    assert_true(volume(torus) < 2 * pi * pi * 0.7 * 0.09 &&
-                volume(torus) > 0.998 * 2 * pi * pi * 0.7 * 0.09);
+    assert_below(volume(sphere), 4 * pi / 3);
+    assert_above(volume(sphere), 0.999 * 4 * pi / 3);
+    assert_below(volume(torus), 2 * pi * pi * 0.7 * 0.09);
+    assert_above(volume(torus), 0.998 * 2 * pi * pi * 0.7 * 0.09);
     for (int i = 0; i < 3 * sphere->vertex_count; i++)
-        assert_true(fabsf(sphere->normals[i] - sphere->positions[i]) < 1e-6f);
+        assert_below(fabsf(sphere->normals[i] - sphere->positions[i]), 1e-6f);
     rg_mesh_destroy(sphere);
     rg_mesh_destroy(torus);
 }
@@ -141,15 +143,15 @@ static void test_decimation(void **state)
         check_mesh(coarse);
         assert_int_equal(coarse->face_count, wanted[i] / 2 * 2); // a closed surface's is even
         // 10 divided by the faces is what regular subdivision of an icosahedron loses
-        assert_true(fabs(volume(coarse) / whole - 1) < 20.0 / wanted[i]);
-        assert_true(coarse->hash == again->hash);
+        assert_below(fabs(volume(coarse) / whole - 1), 20.0 / wanted[i]);
+        assert_equals(coarse->hash, again->hash);
         snprintf(name, sizeof(name), "sphere, decimated to %d faces", wanted[i] / 2 * 2);
         assert_string_equal(coarse->name, name);
         rg_mesh_destroy(coarse);
         rg_mesh_destroy(again);
     }
     struct rg_mesh *same = rg_mesh_decimate(sphere, sphere->face_count);
-    assert_true(same->hash == sphere->hash);
+    assert_equals(same->hash, sphere->hash);
     rg_mesh_destroy(same);
     rg_mesh_destroy(sphere);
 }
@@ -233,13 +235,13 @@ static void test_refinement(void **state)
         assert_int_equal(fine->face_count, wanted[i] / 2 * 2);
         expect_closed(fine, 2); // no face's side ends in the middle of another's
         // coordinates are halves of halves, so that nothing is rounded
-        assert_true(fabs(volume(fine) - 198) < 1e-9);
-        assert_true(fabs(surface(fine) - 234) < 1e-9);
+        assert_below(fabs(volume(fine) - 198), 1e-9);
+        assert_below(fabs(surface(fine) - 234), 1e-9);
         rg_mesh_destroy(fine);
     }
     struct rg_mesh *fine = rg_mesh_refine(box, 5000);
     // As long as a side of equal halvings would be, and twice that at most: none was forgotten.
-    assert_true(longest_side(fine) < 2 * sqrt(4 * 234.0 / 5000));
+    assert_below(longest_side(fine), 2 * sqrt(4 * 234.0 / 5000));
     rg_mesh_destroy(fine);
     rg_mesh_destroy(box);
 }
@@ -254,7 +256,7 @@ static void test_refinement_of_an_open_surface(void **state)
         struct rg_mesh *fine = rg_mesh_refine(open, faces);
         check_mesh(fine);
         assert_int_equal(fine->face_count, faces);
-        assert_true(fabs(surface(fine) - (234 - 33.0)) < 1e-9);
+        assert_below(fabs(surface(fine) - (234 - 33.0)), 1e-9);
         rg_mesh_destroy(fine);
     }
     rg_mesh_destroy(open);
@@ -345,14 +347,14 @@ static void test_packaged_models_are_upright(void **state)
     struct rg_mesh *as_it_lies = rg_mesh_read("/usr/share/glmark2/models/cat.3ds", NULL);
     check_mesh(cat);
     check_mesh(head);
-    assert_true(head->high[1] - head->low[1] > 1.1f * (head->high[2] - head->low[2]));
+    assert_above(head->high[1] - head->low[1], 1.1f * (head->high[2] - head->low[2]));
     // about x by a quarter: y became z, z became -y
     assert_int_equal(cat->vertex_count, as_it_lies->vertex_count);
     for (int i = 0; i < 3 * cat->vertex_count; i += 3) {
-        assert_true(cat->positions[i] == as_it_lies->positions[i]);
-        assert_true(cat->positions[i + 1] == -as_it_lies->positions[i + 2]);
-        assert_true(cat->positions[i + 2] == as_it_lies->positions[i + 1]);
-        assert_true(fabsf(cat->normals[i + 1] + as_it_lies->normals[i + 2]) < 1e-6f);
+        assert_equals(cat->positions[i], as_it_lies->positions[i]);
+        assert_equals(cat->positions[i + 1], -as_it_lies->positions[i + 2]);
+        assert_equals(cat->positions[i + 2], as_it_lies->positions[i + 1]);
+        assert_below(fabsf(cat->normals[i + 1] + as_it_lies->normals[i + 2]), 1e-6f);
     }
     rg_mesh_destroy(cat);
     rg_mesh_destroy(head);

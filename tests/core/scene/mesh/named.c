@@ -1,6 +1,7 @@
 // Files of meshes as editors and exporters leave them: texts that begin with a byte order mark, and
 // buffers of glTF by any name.
 #include "tests/core/scene/mesh/rig.h"
+#include "tests/expect.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -26,7 +27,7 @@ static void test_texts_with_a_mark(void **state)
             put_bytes(&marked, plain.data, plain.size);
             snprintf(name, sizeof(name), "box.%s", box_formats[i].extension);
             struct rg_mesh *mesh = load_bytes(name, &plain), *same = load_bytes(name, &marked);
-            assert_true(mesh->hash == same->hash);
+            assert_equals(mesh->hash, same->hash);
             rg_mesh_destroy(mesh);
             rg_mesh_destroy(same);
             found++;
@@ -40,7 +41,8 @@ static void test_a_mark_before_a_vertex(void **state)
     (void)state;
     static const char text[] = "\xef\xbb\xbfv 5 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n";
     struct rg_mesh *mesh = load_text("first.obj", text), *plain = load_text("first.obj", text + 3);
-    assert_true(mesh->high[0] == 5 && mesh->hash == plain->hash);
+    assert_equals(mesh->high[0], 5);
+    assert_equals(mesh->hash, plain->hash);
     rg_mesh_destroy(mesh);
     rg_mesh_destroy(plain);
 }
@@ -123,7 +125,8 @@ static void test_buffers_by_any_name(void **state)
         struct rg_mesh *same = load_bytes("named.glb", &binary);
         unlink(buffer);
         assert_int_equal(mesh->face_count, 1);
-        assert_true(mesh->high[0] == 1 && mesh->hash == same->hash);
+        assert_equals(mesh->high[0], 1);
+        assert_equals(mesh->hash, same->hash);
         rg_mesh_destroy(mesh);
         rg_mesh_destroy(same);
     }
@@ -142,7 +145,7 @@ static void test_the_decoded_name_is_meant(void **state)
     write_file(decoded, triangle, sizeof(triangle));
     write_file(coded, other, sizeof(other));
     struct rg_mesh *mesh = load_bytes("named.gltf", &text);
-    assert_true(mesh->high[0] == 1);
+    assert_equals(mesh->high[0], 1);
     rg_mesh_destroy(mesh);
     unlink(decoded);
     unlink(coded);

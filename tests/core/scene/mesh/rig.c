@@ -7,6 +7,7 @@
 
 #include "core/base/log.h"
 #include "tests/core/scene/mesh/fault.h"
+#include "tests/expect.h"
 
 // --- the box ---
 
@@ -17,7 +18,7 @@ const uint32_t box_indices[3 * BOX_FACES] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
 
 void put_bytes(struct bytes *file, const void *data, size_t size)
 {
-    assert_true(file->size + size <= sizeof(file->data));
+    assert_at_most(file->size + size, sizeof(file->data));
     memcpy(file->data + file->size, data, size);
     file->size += size;
 }

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/drops/rig.h"
+#include "tests/expect.h"
 
 #define PANE "columns=128 rows=96 cell_mm=0.5 "
 
@@ -45,8 +46,12 @@ static void drops_land_anywhere(void **state)
     double x = 0, y = 0, xx = 0, yy = 0, xy = 0, mg = 0, spread = 0;
     for (int i = 0; i < MANY; i++) {
         const double mass = all[i].mass / (double)DROPS_QUANTA_MG, middle = 0.25 + 99.75 / 5;
-        assert_true(all[i].x >= 0 && (double)all[i].x <= WIDE_MM && all[i].y >= 0 &&
-                    (double)all[i].y <= HIGH_MM && all[i].vx == 0 && all[i].vy == 0);
+        assert_at_least(all[i].x, 0);
+        assert_at_most((double)all[i].x, WIDE_MM);
+        assert_at_least(all[i].y, 0);
+        assert_at_most((double)all[i].y, HIGH_MM);
+        assert_equals(all[i].vx, 0);
+        assert_equals(all[i].vy, 0);
         x += (double)all[i].x;
         y += (double)all[i].y;
         xx += pow((double)all[i].x - WIDE_MM / 2, 2);
@@ -76,7 +81,8 @@ static void affinity_is_normal(void **state)
         none += f == 0;
         most += f == 1;
         half += f < 0.5F;
-        assert_true(f >= 0 && f <= 1);
+        assert_at_least(f, 0);
+        assert_at_most(f, 1);
     }
     const double beyond = 0.36944; // of a normal number, a third of its deviation from its mean
     expect_mean("no affinity", none, beyond, sqrt(beyond * (1 - beyond)));
@@ -122,7 +128,8 @@ static void drops_meander(void **state)
     for (int i = 0; i < MANY; i++) {
         const double angle = atan2((double)all[i].vx, (double)all[i].vy);
         const double speed = hypot((double)all[i].vx, (double)all[i].vy);
-        assert_true(fabs(angle) <= 0.4001 && fabs(speed / (20 + 9800.0 / 3 / 60) - 1) < 1e-4);
+        assert_at_most(fabs(angle), 0.4001);
+        assert_below(fabs(speed / (20 + 9800.0 / 3 / 60) - 1), 1e-4);
         sum += angle;
         squares += angle * angle;
     }
@@ -156,9 +163,13 @@ static void drops_shed(void **state)
             const double share = child->mass / (cases[c].mg * (double)DROPS_QUANTA_MG);
             assert_int_equal(parent->id, child->parent);
             assert_int_equal(parent->mass + child->mass, (uint32_t)(cases[c].mg * DROPS_QUANTA_MG));
-            assert_true(parent->since_s == 0 && child->since_s == 0 && child->vy == 0);
-            assert_true(child->x == parent->x && child->y < parent->y);
-            assert_true(share <= 0.3 && child->mass <= d->params.critical);
+            assert_equals(parent->since_s, 0);
+            assert_equals(child->since_s, 0);
+            assert_equals(child->vy, 0);
+            assert_equals(child->x, parent->x);
+            assert_below(child->y, parent->y);
+            assert_at_most(share, 0.3);
+            assert_at_most(child->mass, d->params.critical);
             shares += share;
             squares += pow(share - 0.25, 2);
         }
@@ -186,7 +197,7 @@ static void drops_shed_while_there_is_room(void **state)
     drops_drop *all = rig_drops(d, &count);
     assert_int_equal(count, MANY + ROOM);
     for (int i = 0; i < MANY; i++)
-        assert_true(all[i].since_s == 0); // whether a child came about or not
+        assert_equals(all[i].since_s, 0); // whether a child came about or not
     for (int i = 0; i < ROOM; i++)
         assert_int_equal(all[MANY + i].parent, i + 1);
     free(all);

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/drops/rig.h"
+#include "tests/expect.h"
 
 #define PANE  "columns=200 rows=160 drops_s=0 meander_rad=0 "
 #define RAINY "columns=250 rows=150 drops_s=30 max_drops=300 "
@@ -84,8 +85,9 @@ static void light_drops_stay(void **state)
         int count;
         rig_step(d, 3);
         drops_drop *all = rig_drops(d, &count);
-        assert_true(all[0].x == 30 && all[0].y == 20);
-        assert_true((all[1].y > 20) == (c < 2));
+        assert_equals(all[0].x, 30);
+        assert_equals(all[0].y, 20);
+        assert_equals((all[1].y > 20), (c < 2));
         free(all);
         rig_close(d);
     }
@@ -156,7 +158,8 @@ static void rain_obeys_its_laws(void **state)
             uint32_t mass = 0, id = 0;
             for (int i = 0; i < count; i++) {
                 mass += all[i].mass;
-                assert_true(all[i].id > id && all[i].mass > 0);
+                assert_above(all[i].id, id);
+                assert_above(all[i].mass, 0);
                 id = all[i].id;
                 if (all[i].mass > d->params.critical && !all[i].is_new)
                     assert_true(all[i].vx != 0 || all[i].vy != 0);
@@ -165,14 +168,14 @@ static void rain_obeys_its_laws(void **state)
                              mass + rig_tally(d, DROPS_DRAINED) + rig_tally(d, DROPS_REMOVED));
             uint32_t *ids = rig_words(d, "ids");
             for (int64_t i = 0; i < (int64_t)rg_asset_find(&d->base, "ids")->buf->size / 4; i++)
-                assert_true(ids[i] < rig_tally(d, DROPS_NEXT_ID));
+                assert_below(ids[i], rig_tally(d, DROPS_NEXT_ID));
             free(ids);
             free(all);
         }
-        assert_true(rig_tally(d, DROPS_LANDED) > 40);
-        assert_true((rig_tally(d, DROPS_BORN) > 0) == (c != 4));
-        assert_true((rig_tally(d, DROPS_MERGED) > 0) == (c != 3));
-        assert_true((rig_tally(d, DROPS_REMOVED) > 0) == (c == 5));
+        assert_above(rig_tally(d, DROPS_LANDED), 40);
+        assert_equals((rig_tally(d, DROPS_BORN) > 0), (c != 4));
+        assert_equals((rig_tally(d, DROPS_MERGED) > 0), (c != 3));
+        assert_equals((rig_tally(d, DROPS_REMOVED) > 0), (c == 5));
         rig_close(d);
     }
 }
@@ -197,7 +200,7 @@ static void sleep_changes_no_bit(void **state)
             free(due);
         }
     }
-    assert_true(a->base.counters[DROPS_CELLS].value < b->base.counters[DROPS_CELLS].value / 2);
+    assert_below(a->base.counters[DROPS_CELLS].value, b->base.counters[DROPS_CELLS].value / 2);
     rig_close(a);
     rig_close(b);
 }
@@ -215,7 +218,7 @@ static void water_comes_to_rest_and_vanishes(void **state)
     rig_step(d, 200);
     float *height = rig_words(d, "height");
     for (int64_t i = 0; i < (int64_t)rg_asset_find(&d->base, "height")->buf->size / 4; i++)
-        assert_true(height[i] == 0);
+        assert_equals(height[i], 0);
     assert_int_equal(rig_tally(d, DROPS_COUNT), 0);
     free(height);
     rig_close(d);
@@ -238,7 +241,8 @@ static void waters_that_meet_merge(void **state)
     assert_int_equal(left[0].id, 4);
     assert_int_equal(left[1].id, 5);
     assert_int_equal(left[1].mass, 37 * (int)DROPS_QUANTA_MG);
-    assert_true(left[1].x == (float)52.4 && left[1].y == 31);
+    assert_equals(left[1].x, (float)52.4);
+    assert_equals(left[1].y, 31);
     uint32_t *ids = rig_words(d, "ids");
     for (int k = 0; k < 3; k++)
         assert_int_equal(ids[drops_cell(d->params, (int)(all[k].x / 0.5f), (int)(all[k].y / 0.5f))],

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/drops/rig.h"
+#include "tests/expect.h"
 
 enum { FAR, WIDE, HIGH, STILL_WIDE, STILL_HIGH, MEASURES };
 
@@ -87,8 +88,8 @@ static void size_and_speed_hold_across_resolutions(void **state)
     static const double bounds[MEASURES] = {0.01, 0.08, 0.08, 0.08, 0.08};
     static const double cells_mm[] = {0.25, 0.125, 0.1};
     for (int i = 0; i < 3; i++)
-        assert_true(worst("physical", cells_mm[i], bounds) <= 1);
-    assert_true(worst("paper", 0.25, bounds) > 1);
+        assert_at_most(worst("physical", cells_mm[i], bounds), 1);
+    assert_above(worst("paper", 0.25, bounds), 1);
 }
 
 // With the paper's cells and steps both rules are the same, to the bit.

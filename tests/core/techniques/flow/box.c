@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/flow/rig.h"
+#include "tests/expect.h"
 #include "tests/oracle/flow/box.h"
 
 static const char *device = "cpu:reference";
@@ -248,7 +249,7 @@ static void test_without_run_on_edges_drain(void **state)
         after[rig_texel(&rig, BOX_TOP, 5, 0)] + after[rig_texel(&rig, BOX_FRONT, 9, SIZE - 1)];
     assert_int_equal(rig_sum(&rig), stayed);
     assert_int_equal(rig_ledger(&rig, FLOW_LEDGER_DRAINED), UNIT - stayed);
-    assert_true(stayed < UNIT);
+    assert_below(stayed, UNIT);
     free(water);
     free(after);
     rig_close(&rig);
@@ -276,7 +277,7 @@ static void balance(const char *assignments)
                      assignments, step, (long long)sum, came, left);
         rig_step(&rig, 1);
     }
-    assert_true(rig_ledger(&rig, FLOW_LEDGER_DRAINED) > 0);
+    assert_above(rig_ledger(&rig, FLOW_LEDGER_DRAINED), 0);
     rig_close(&rig);
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/techniques/flow/instance.h"
 #include "tests/core/techniques/flow/rig.h"
+#include "tests/expect.h"
 
 enum { WIDTH = 160, HEIGHT = 120 };
 
@@ -73,7 +74,7 @@ static void a_coarser_level_keeps_the_volume(const char *move)
         int64_t four = 0;
         for (int k = 0; k < 4; k++)
             four += fine[(pane * 128 + 2 * y + k / 2) * 128 + 2 * x + k % 2];
-        assert_true(llabs(four - 4 * coarse[i]) <= 3);
+        assert_at_most(llabs(four - 4 * coarse[i]), 3);
     }
     expect_balance(&rig);
     rig_step(&rig, 5); // it runs on
@@ -118,14 +119,15 @@ static void test_a_finer_level_keeps_the_volume(void **state)
         const int64_t *corner = &fine[(pane * 128 + 2 * y) * 128 + 2 * x];
         for (int k = 0; k < 4; k++) {
             const int64_t one = corner[k / 2 * 128 + k % 2];
-            assert_true(one >= least && one <= most);
+            assert_at_least(one, least);
+            assert_at_most(one, most);
             four += one;
         }
         assert_int_equal(four, 4 * coarse[i]);
         leaning += corner[0] != corner[1] || corner[0] != corner[128];
         wet += coarse[i] > 0;
     }
-    assert_true(leaning > wet / 4);
+    assert_above(leaning, wet / 4);
     expect_balance(&rig);
     change_to(&rig, 64);
     int64_t *again = rig_water(&rig);
@@ -168,7 +170,7 @@ static void follow(const char *way, double mm_s, int steps, int first, int last,
         texels = rig.size;
         if (texels != due)
             fail_msg("%s: step %d, %g mm: %d texels, not %d", way, i, distance_mm, texels, due);
-        assert_true(flow_of(&rig)->texels->number == texels);
+        assert_equals(flow_of(&rig)->texels->number, texels);
         expect_balance(&rig);
         free(rig_draw(&rig));
     }
@@ -245,8 +247,8 @@ static void test_the_water_is_where_it_would_be(void **state)
         assert_int_equal(rig.size, i ? 128 : 256);
         rig_close(&rig);
     }
-    assert_true(fabs(panes[2].wet / panes[1].wet - 1) < 0.1);
-    assert_true(fabs(panes[2].centre - panes[1].centre) < 0.03);
+    assert_below(fabs(panes[2].wet / panes[1].wet - 1), 0.1);
+    assert_below(fabs(panes[2].centre - panes[1].centre), 0.03);
 }
 
 int main(void)

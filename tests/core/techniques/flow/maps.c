@@ -17,6 +17,7 @@
 #include "core/image/files/options.h"
 #include "core/image/srgb.h"
 #include "core/techniques/flow/inputs/flow.h"
+#include "tests/expect.h"
 
 static char folder[] = "/tmp/raingauge-maps-XXXXXX";
 static char path[64];
@@ -140,12 +141,13 @@ static void test_the_noise_is_noise(void **state)
             sum += (double)map[i];
         }
         const double range = 1 - s.noise_low;
-        assert_true(fabs(low - s.noise_low) < 1e-6 && fabs(high - 1) < 1e-6);
-        assert_true(fabs(sum / n / n - (s.noise_low + range / 2)) < 0.06 * range);
-        assert_true(largest_step(map, n, true) <= 1.2 * largest_step(map, n, false));
-        assert_true(largest_step(map, n, false) < 0.5 * range);
-        assert_true(correlation(map, n, 1) > 0.9);
-        assert_true(fabs(correlation(map, n, 96)) < 0.15);
+        assert_below(fabs(low - s.noise_low), 1e-6);
+        assert_below(fabs(high - 1), 1e-6);
+        assert_below(fabs(sum / n / n - (s.noise_low + range / 2)), 0.06 * range);
+        assert_at_most(largest_step(map, n, true), 1.2 * largest_step(map, n, false));
+        assert_below(largest_step(map, n, false), 0.5 * range);
+        assert_above(correlation(map, n, 1), 0.9);
+        assert_below(fabs(correlation(map, n, 96)), 0.15);
         free(map);
     }
 }
@@ -211,7 +213,7 @@ static void test_a_noise_image_becomes_square(void **state)
     assert_non_null(map);
     assert_int_equal(n, 4);
     for (int i = 0; i < n * n; i++)
-        assert_true(fabs((double)map[i] - noise_code(i % 4, i / 4 / 2, 0) / 255.0) < 1e-6);
+        assert_below(fabs((double)map[i] - noise_code(i % 4, i / 4 / 2, 0) / 255.0), 1e-6);
     free(map);
     write_codes(4097, 1, noise_of_one_code);
     assert_null(flow_noise_map(&s, &n));
@@ -227,7 +229,7 @@ static void test_windows_of_panes_lie_apart(void **state)
     flow_panes_at(&s, 512, 7, panes);
     for (int i = 0; i < FLOW_MAX_PANES; i++) {
         const double due = i * 0.382 - floor(i * 0.382);
-        assert_true(fabs((double)panes[i].noise_shift / 512 - due) < 1e-3);
+        assert_below(fabs((double)panes[i].noise_shift / 512 - due), 1e-3);
     }
 }
 
@@ -249,13 +251,15 @@ static void test_beads(void **state)
         high = fmax(high, (double)map[i] * s.relief);
         dry += map[i] == 0;
         // The middle one of nine texels lies where the coarse one does.
-        assert_true(fabsf(map[i] - fine[(i / n * 3 + 1) * 720 + i % n * 3 + 1]) < 1e-6f);
+        assert_below(fabsf(map[i] - fine[(i / n * 3 + 1) * 720 + i % n * 3 + 1]), 1e-6f);
     }
-    assert_true(fabs(high - s.bead_mm) < 1e-6);
-    assert_true(dry / n / n > 0.45 && dry / n / n < 0.55);
-    assert_true(largest_step(map, n, true) <= 1.2 * largest_step(map, n, false));
+    assert_below(fabs(high - s.bead_mm), 1e-6);
+    assert_above(dry / n / n, 0.45);
+    assert_below(dry / n / n, 0.55);
+    assert_at_most(largest_step(map, n, true), 1.2 * largest_step(map, n, false));
     // Beads are as far apart as they should be: what a spacing away lies is another place.
-    assert_true(correlation(map, n, 1) > 0.8 && fabs(correlation(map, n, 8)) < 0.15);
+    assert_above(correlation(map, n, 1), 0.8);
+    assert_below(fabs(correlation(map, n, 8)), 0.15);
     free(map);
     free(fine);
 }

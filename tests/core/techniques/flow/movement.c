@@ -12,6 +12,7 @@
 
 #include "core/techniques/flow/instance.h"
 #include "tests/core/techniques/flow/rig.h"
+#include "tests/expect.h"
 
 static const char *device = "cpu:reference";
 
@@ -416,7 +417,7 @@ static void test_the_ledger_balances(void **state)
             assert_int_equal(rig_sum(&rig), sourced - drained);
             rig_step(&rig, 1);
         }
-        assert_true(drained > 0);
+        assert_above(drained, 0);
         rig_close(&rig);
     }
 }
@@ -435,9 +436,10 @@ static void test_drops_do_not_depend_on_resolution(void **state)
         for (int i = 0; i < 20; i++) {
             const flow_splat_params a = flow_drop(&coarse, 0, frame, i);
             const flow_splat_params b = flow_drop(&fine, 0, frame, i);
-            assert_true(a.centre_x * 8 == b.centre_x && a.centre_y * 8 == b.centre_y);
-            assert_true(fabs((double)(a.radius_px * 8 / b.radius_px) - 1) < 1e-6);
-            assert_true(a.height == b.height);
+            assert_equals(a.centre_x * 8, b.centre_x);
+            assert_equals(a.centre_y * 8, b.centre_y);
+            assert_below(fabs((double)(a.radius_px * 8 / b.radius_px) - 1), 1e-6);
+            assert_equals(a.height, b.height);
         }
         assert_int_equal(flow_drops_at(&coarse, frame), flow_drops_at(&fine, frame));
     }
@@ -469,7 +471,7 @@ static void test_rain_falls_at_its_rate(void **state)
         int64_t drops = 0;
         for (int frame = 0; frame < 600; frame++)
             drops += flow_drops_at(&s, frame);
-        assert_true(llabs(drops - (int64_t)(rates[i] * 10)) <= 1);
+        assert_at_most(llabs(drops - (int64_t)(rates[i] * 10)), 1);
     }
 }
 
@@ -505,7 +507,7 @@ static void test_a_drop_holds_its_volume(void **state)
     }
     free(dry);
     rig_close(&rig);
-    assert_true(checked >= 15);
+    assert_at_least(checked, 15);
 }
 
 int main(int argc, char **argv)

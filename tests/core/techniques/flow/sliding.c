@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/flow/rig.h"
+#include "tests/expect.h"
 #include "tests/oracle/flow/slide.h"
 
 static const char *device = "cpu:reference";
@@ -121,7 +122,7 @@ static void compare(const char *assignments, int cells, int runs)
     }
     print_message("%s: %lld of %lld wet texels off, %.2g mm at most\n", assignments, (long long)off,
                   (long long)wet, most);
-    assert_true(wet > FRAMES * texels / 20);
+    assert_above(wet, FRAMES * texels / 20);
     // Single precision may put a cell on the other side of a pace now and then.
     if ((double)off > 0.002 * (double)wet)
         fail_msg("%s: %lld of %lld wet texels off, %g mm at most", assignments, (long long)off,
@@ -313,7 +314,7 @@ static void test_the_ledger_balances(void **state)
             assert_int_equal(rig_sum(&rig), sourced - drained);
             rig_step(&rig, 1);
         }
-        assert_true(drained > 0);
+        assert_above(drained, 0);
         rig_close(&rig);
     }
 }

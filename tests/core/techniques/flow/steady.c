@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/flow/rig.h"
+#include "tests/expect.h"
 
 struct pane {
     double wet, centre; // shares of the pane
@@ -90,8 +91,9 @@ static void test_steady_rain_leaves_a_steady_pane(void **state)
     rig_close(&rig);
     print_message("wet: %.2f %% after 10 s, %.2f %% after 60 s\n", 100 * mean[0].wet,
                   100 * mean[1].wet);
-    assert_true(mean[1].wet > 0.08 && mean[1].wet < 0.3);
-    assert_true(fabs(mean[1].wet / mean[0].wet - 1) < 0.25);
+    assert_above(mean[1].wet, 0.08);
+    assert_below(mean[1].wet, 0.3);
+    assert_below(fabs(mean[1].wet / mean[0].wet - 1), 0.25);
 }
 
 int main(void)

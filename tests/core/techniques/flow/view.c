@@ -13,6 +13,7 @@
 
 #include "core/techniques/flow/instance.h"
 #include "tests/core/techniques/flow/rig.h"
+#include "tests/expect.h"
 #include "tests/oracle/flow/picture.h"
 
 static const char *device = "cpu:reference";
@@ -124,7 +125,7 @@ static void test_one_pane_fills_the_view(void **state)
         rig_put(&rig, water);
         float *light = rig_draw(&rig);
         for (int k = 0; k < sizes[i][0] * sizes[i][1] * 4; k++)
-            assert_true(light[k] == 1.0f);
+            assert_equals(light[k], 1.0f);
         free(water);
         free(light);
         rig_close(&rig);
@@ -187,9 +188,10 @@ static void test_stages_show_the_near_panes(void **state)
             water[pane * SIZE * SIZE + i] = UNIT;
         rig_put(&rig, water);
         float *light = rig_draw(&rig);
-        assert_true(light[0] == 0.0f && light[3] == 1.0f);
+        assert_equals(light[0], 0.0f);
+        assert_equals(light[3], 1.0f);
         for (int y = 15; y < 25; y++)
-            assert_true(light[4 * (40 * y + 20)] == (pane == BOX_FRONT ? 1.0f : 0.0f));
+            assert_equals(light[4 * (40 * y + 20)], (pane == BOX_FRONT ? 1.0f : 0.0f));
         free(water);
         free(light);
         rig_close(&rig);
@@ -248,10 +250,10 @@ static void test_glow_spreads_light(void **state)
         if (fabs(with.sum / without.sum - 1) > 0.002)
             fail_msg("%g degrees off the middle: %g of the light", offs_deg[i],
                      with.sum / without.sum);
-        assert_true(with.peak < 0.6 * without.peak);
+        assert_below(with.peak, 0.6 * without.peak);
         if (offs_deg[i] != 0)
             continue;
-        assert_true(with.outside > 1.1 * without.outside);
+        assert_above(with.outside, 1.1 * without.outside);
         if (fabs(with.centre_x - without.centre_x) > 0.1)
             fail_msg("the light moved by %g pixels", with.centre_x - without.centre_x);
     }
@@ -318,11 +320,13 @@ static void test_drops_shade_the_model(void **state)
     // The lamp stands at 45 degrees to the surface; what the glass and the model's sheen reflect is
     // all that is missing.
     const double lamp = 2 * 0.5 * sqrt(0.5), taken = (double)(none[shaded] - full[shaded]);
-    assert_true(taken < lamp && taken > 0.9 * lamp);
+    assert_below(taken, lamp);
+    assert_above(taken, 0.9 * lamp);
     // Half floats: one part in 2^10 of either light.
-    assert_true(fabs((double)(none[shaded] - half[shaded]) - taken / 2) < 0.002);
-    assert_true(dry[shaded] == none[shaded]);
-    assert_true(full[above] == none[above] && none[above] > 0.5f * none[shaded]);
+    assert_below(fabs((double)(none[shaded] - half[shaded]) - taken / 2), 0.002);
+    assert_equals(dry[shaded], none[shaded]);
+    assert_equals(full[above], none[above]);
+    assert_above(none[above], 0.5f * none[shaded]);
     free(none);
     free(dry);
     free(half);
@@ -448,7 +452,7 @@ static void test_water_follows_the_spin(void **state)
         rig_step(&rig, 1);
         int64_t *water = rig_water(&rig);
         const int dx = to[frame % 4][0], dy = to[frame % 4][1];
-        assert_true(water[rig_texel(&rig, 0, SIZE / 2 + dx, SIZE / 2 + dy)] > UNIT / 8);
+        assert_above(water[rig_texel(&rig, 0, SIZE / 2 + dx, SIZE / 2 + dy)], UNIT / 8);
         free(water);
     }
     rig_close(&rig);
@@ -481,7 +485,7 @@ static void test_resolution_follows_the_distance(void **state)
                 fail_msg("%g mm: %d texels of %d; %g are due", s.distance_mm, texels, most_px[i],
                          due);
         }
-        assert_true(kinds > 3);
+        assert_above(kinds, 3);
     }
     struct rig rig;
     rig_open_sized(&rig, device,

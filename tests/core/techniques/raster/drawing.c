@@ -12,6 +12,7 @@
 
 #include "kernels/dialect/rng.h"
 #include "tests/core/techniques/rigs/scene.h"
+#include "tests/expect.h"
 #include "tests/oracle/raster.h"
 
 // --- chance ---
@@ -332,7 +333,7 @@ static void huge_neighbours_cover_each_pixel_once(void **state)
             fail_msg("pair %d covers %d pixels, not %d to %d", i, covered, due[i].sure,
                      due[i].sure + due[i].unsure);
     }
-    assert_true(exact > HUGE_PAIRS / 4); // else the test shows little
+    assert_above(exact, HUGE_PAIRS / 4); // else the test shows little
     faces_drawn_free(&drawn);
     faces_close(&on);
     faces_free(&faces);
@@ -398,7 +399,7 @@ static double depth_error(const raster_mesh_params *p, const struct faces *box,
                        drawn->width, drawn->height);
     const struct oracle_outline outline = oracle_outline_of(&face);
     struct oracle_hit hit;
-    assert_true(oracle_margin(&outline, px, py) > -1.0 / 256); // what snapping moves
+    assert_above(oracle_margin(&outline, px, py), -1.0 / 256); // what snapping moves
     assert_true(oracle_hit(&face, px, py, &hit));
     return fabs((double)drawn->depth[py * drawn->width + px] - hit.depth);
 }
@@ -433,7 +434,7 @@ static void a_box_around_the_eye_covers_each_pixel_once(void **state)
     }
     free(due);
     print_message("depth in %d boxes: at most %.2g off\n", BOXES, worst);
-    assert_true(worst < 1e-6);
+    assert_below(worst, 1e-6);
 }
 
 int main(int argc, char **argv)

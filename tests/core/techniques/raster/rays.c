@@ -11,6 +11,7 @@
 
 #include "kernels/dialect/rng.h"
 #include "tests/core/techniques/rigs/scene.h"
+#include "tests/expect.h"
 #include "tests/oracle/raster.h"
 
 enum { WIDTH = 480, HEIGHT = 270 };
@@ -156,7 +157,7 @@ static void check_errors(const struct view *view, const struct errors *e)
     print_message("%s: %d pixels; of what is allowed, outside %.2f, weights %.2f, depth %.2f, "
                   "behind %.2f\n",
                   view->name, e->pixels, e->outside, e->weights, e->depth, e->behind);
-    assert_true(e->pixels > WIDTH * HEIGHT / 20); // else it shows little
+    assert_above(e->pixels, WIDTH * HEIGHT / 20); // else it shows little
     if (e->missing || e->outside > 1 || e->weights > 1 || e->depth > 1 || e->behind > 1)
         fail_msg("%s: %d pixels are missing, or more is off than allowed", view->name, e->missing);
 }
@@ -247,8 +248,8 @@ static void check_closed(struct rg_device *device, const char *assignments)
     }
     print_message("%s: %d pixels covered, %d by several layers, %d unequal\n", assignments, covered,
                   several, unequal);
-    assert_true(several > 0);
-    assert_true(unequal <= covered / 10000);
+    assert_above(several, 0);
+    assert_at_most(unequal, covered / 10000);
     free(front);
     free(back);
     faces_close(&on);
@@ -340,7 +341,7 @@ static void a_ball_covers_its_disc_once(void **state)
                      layers[i]);
     }
     print_message("a ball: %d pixels on its rim\n", on_rim);
-    assert_true(on_rim < 50);
+    assert_below(on_rim, 50);
     free(layers);
     free(hull.corners);
     faces_close(&on);

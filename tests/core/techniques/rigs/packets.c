@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "tests/expect.h"
 
 const struct rg_rain_space rig_space = {.origin_m = {0, 230, 0},
                                         .x = {1, 0, 0},
@@ -76,12 +77,13 @@ static void read_block(const struct streaks_packets *packets, const struct rg_ra
 {
     int64_t bytes;
     const float *particles = streaks_packets_buffer(packets, buffer, &bytes);
-    assert_true(bytes <= 128 << 20);
+    assert_at_most(bytes, 128 << 20);
     assert_int_equal(block[0] % STREAKS_BLOCK, 0);
-    assert_true(12 * ((int64_t)block[0] + STREAKS_BLOCK) <= bytes);
+    assert_at_most(12 * ((int64_t)block[0] + STREAKS_BLOCK), bytes);
     assert_int_not_equal(block[1], 0);
     const float turn = as_float(block[4]);
-    assert_true(turn >= 0 && turn < 1);
+    assert_at_least(turn, 0);
+    assert_below(turn, 1);
     for (int bit = 0; bit < STREAKS_BLOCK; bit++) {
         if (!(block[1] >> bit & 1))
             continue;
@@ -110,15 +112,16 @@ struct rig_particles rig_read(const struct streaks_packets *packets,
     for (int i = 0; i < selection->draw_count; i++) {
         const struct streaks_draw *draw = &selection->draws[i];
         assert_int_equal(draw->first_block, next);
-        assert_true(draw->block_count > 0 && draw->block_count <= STREAKS_DRAW_BLOCKS);
-        assert_true(draw->buffer < streaks_packets_buffers(packets));
+        assert_above(draw->block_count, 0);
+        assert_at_most(draw->block_count, STREAKS_DRAW_BLOCKS);
+        assert_below(draw->buffer, streaks_packets_buffers(packets));
         for (int block = 0; block < draw->block_count; block++)
             read_block(packets, space, draw->buffer,
                        selection->blocks + (next + block) * STREAKS_BLOCK_WORDS, &read);
         next += draw->block_count;
     }
     assert_int_equal(next, selection->block_count);
-    assert_true(read.count <= selection->particles);
+    assert_at_most(read.count, selection->particles);
     return read;
 }
 

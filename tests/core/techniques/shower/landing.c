@@ -9,6 +9,7 @@
 #include "tests/core/techniques/shower/rig.h"
 
 #include "tests/core/folder.h"
+#include "tests/expect.h"
 
 enum { WIDTH = 64, HEIGHT = 36, MAP_PX = 128, PLACES = 500 };
 
@@ -21,7 +22,8 @@ static const char *write_mesh(void)
     const char *path = in_folder("open.obj");
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    assert_at_least(fputs(text, file), 0);
+    assert_equals(fclose(file), 0);
     return path;
 }
 
@@ -128,7 +130,8 @@ static void particles_land_on_the_mesh(void **state)
     for (int i = 0; i < count; i++)
         high += places[i].y > 0.02;
     print_message("%d places, %d of them on the mesh\n", count, high);
-    assert_true(count > 200 && high > 60);
+    assert_above(count, 200);
+    assert_above(high, 60);
     assert_int_equal(stay_of(s, places, count, 0.01), count);
     assert_int_equal(stay_of(s, places, count, -0.01), 0);
     pour_close(s);
@@ -205,8 +208,8 @@ static void the_mesh_hides_drops(void **state)
         behind[count].y -= 10; // what is hidden is the whole drop
         count++;
     }
-    assert_true(drawn_by(s, front, count) > 100);
-    assert_true(fabs(drawn_by(s, behind, count)) < 1);
+    assert_above(drawn_by(s, front, count), 100);
+    assert_below(fabs(drawn_by(s, behind, count)), 1);
     pour_close(s);
 }
 

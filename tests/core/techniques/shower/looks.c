@@ -7,6 +7,7 @@
 
 #include "kernels/dialect/image/format.h"
 #include "tests/core/techniques/shower/rig.h"
+#include "tests/expect.h"
 
 enum { WIDTH = 160, HEIGHT = 90, ACROSS = 4, DOWN = 3, REGIONS = ACROSS * DOWN, FRAMES = 16 };
 
@@ -97,7 +98,8 @@ static void four_improvements_leave_the_rain_as_it_is(void **state)
         double mean, deviation;
         const struct looks after = traditional_but(which[i], &before, &mean, &deviation);
         const double most = i < 3 ? 0.2 : 0;
-        assert_true(mean <= most && deviation <= most);
+        assert_at_most(mean, most);
+        assert_at_most(deviation, most);
         pour_expect("light", after.all, before.all, 0.06 * before.all);
     }
 }
@@ -111,9 +113,11 @@ static void promotion_and_layers_change_it(void **state)
     double mean, deviation;
     const struct looks before = looks_of("system=traditional");
     const struct looks promoted = traditional_but("renewal=promotion", &before, &mean, &deviation);
-    assert_true(promoted.all > 1.8 * before.all && promoted.all < 3 * before.all);
+    assert_above(promoted.all, 1.8 * before.all);
+    assert_below(promoted.all, 3 * before.all);
     const struct looks layered = traditional_but("layers=on", &before, &mean, &deviation);
-    assert_true(layered.all > 0.3 * before.all && layered.all < 0.6 * before.all);
+    assert_above(layered.all, 0.3 * before.all);
+    assert_below(layered.all, 0.6 * before.all);
 }
 
 int main(int argc, char **argv)

@@ -6,6 +6,7 @@
 
 #include "kernels/dialect/image/format.h"
 #include "tests/core/techniques/shower/rig.h"
+#include "tests/expect.h"
 #include "tests/oracle/raster.h"
 
 enum { WIDTH = 320, HEIGHT = 180, ACROSS = 4, DOWN = 3, DROPS = ACROSS * DOWN };
@@ -141,18 +142,19 @@ static int expect_picture(const char *settings)
 static void segments_are_seen_where_drops_are(void **state)
 {
     (void)state;
-    assert_true(expect_picture("shape=segments wind_m_s=2 drop_width_m=0.004") > 80);
-    assert_true(expect_picture("shape=segments wind_m_s=9 wind_deg=160 fall_m_s=4") > 60);
-    assert_true(expect_picture("shape=segments layers=off drop_width_m=0.02 wind_deg=60") > 80);
+    assert_above(expect_picture("shape=segments wind_m_s=2 drop_width_m=0.004"), 80);
+    assert_above(expect_picture("shape=segments wind_m_s=9 wind_deg=160 fall_m_s=4"), 60);
+    assert_above(expect_picture("shape=segments layers=off drop_width_m=0.02 wind_deg=60"), 80);
 }
 
 static void quads_are_seen_where_drops_are(void **state)
 {
     (void)state;
-    assert_true(expect_picture("shape=quads wind_m_s=2 drop_width_m=0.05") > 200);
-    assert_true(expect_picture("shape=quads wind_m_s=7 wind_deg=200 fall_m_s=6 layers=off "
-                               "drop_width_m=0.08") > 300);
-    assert_true(expect_picture("shape=quads drop_width_m=0.004 wind_deg=90") > 50);
+    assert_above(expect_picture("shape=quads wind_m_s=2 drop_width_m=0.05"), 200);
+    assert_above(expect_picture("shape=quads wind_m_s=7 wind_deg=200 fall_m_s=6 layers=off "
+                                "drop_width_m=0.08"),
+                 300);
+    assert_above(expect_picture("shape=quads drop_width_m=0.004 wind_deg=90"), 50);
 }
 
 // Drops blend over each other in the order of their slots.

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/shower/rig.h"
+#include "tests/expect.h"
 
 // --- eq. 1 ---
 
@@ -38,8 +39,10 @@ static void births_vary_evenly(void **state)
         least = fmin(least, found);
         most = fmax(most, found);
     }
-    assert_true(least >= EXPECTED * (1 - c0) && most <= EXPECTED * (1 + c0));
-    assert_true(least < EXPECTED * (1 - 0.97 * c0) && most > EXPECTED * (1 + 0.97 * c0));
+    assert_at_least(least, EXPECTED * (1 - c0));
+    assert_at_most(most, EXPECTED * (1 + c0));
+    assert_below(least, EXPECTED * (1 - 0.97 * c0));
+    assert_above(most, EXPECTED * (1 + 0.97 * c0));
     pour_expect("mean", sum / STEPS, EXPECTED, 4 * deviation / sqrt(STEPS));
     // Of an even spread of half width w, squares have mean w^2 / 3 and deviation w^2 sqrt(4 / 45).
     const double wide = pow(c0 * EXPECTED, 2);
@@ -60,7 +63,7 @@ static void births_fill_up(void **state)
         pour_step(s, 1);
         assert_int_equal(count_of(s), 500);
     }
-    assert_true(s->base.counters[SHOWER_COUNT_DIED].value > 500);
+    assert_above(s->base.counters[SHOWER_COUNT_DIED].value, 500);
     pour_close(s);
     s = pour_open("system=traditional particles=500 variation=1 fall_m_s=0.1 gravity_m_s2=0 "
                   "wind_m_s=0 eye_y_m=20 drop_height_m=0.5 birth=whole",
@@ -70,12 +73,13 @@ static void births_fill_up(void **state)
         const int64_t died = s->base.counters[SHOWER_COUNT_DIED].value;
         pour_step(s, 1);
         const int now = count_of(s), lost = (int)(s->base.counters[SHOWER_COUNT_DIED].value - died);
-        assert_true(now >= before - lost && now < 1000); // the most that there may be
+        assert_at_least(now, before - lost);
+        assert_below(now, 1000); // the most that there may be
         resting += now == before - lost;
         before = now;
     }
-    assert_true(before > 800); // about the largest of sixty numbers
-    assert_true(resting > 30); // most of which are less than there are
+    assert_above(before, 800); // about the largest of sixty numbers
+    assert_above(resting, 30); // most of which are less than there are
     pour_close(s);
 }
 
@@ -103,16 +107,18 @@ static void slots_are_given_back(void **state)
             given_back += is_born && before[i].fall_m_s > 0;
             if (after[i].fall_m_s > 0)
                 continue;
-            assert_true(after[i].x == 0 && after[i].y == 0 && after[i].z == 0);
+            assert_equals(after[i].x, 0);
+            assert_equals(after[i].y, 0);
+            assert_equals(after[i].z, 0);
             first_free = i < first_free ? i : first_free;
         }
         assert_int_equal(births, s->base.counters[SHOWER_COUNT_BORN].value - born);
-        assert_true(last_born < first_free);
+        assert_below(last_born, first_free);
         free(age);
         free(before);
         before = after;
     }
-    assert_true(given_back > 500);
+    assert_above(given_back, 500);
     free(before);
     pour_close(s);
 }
@@ -169,7 +175,8 @@ static void expect_region(const struct birth_case *c)
         const double v = c->is_even ? (cos(phi_low) - cos(at.phi)) / (cos(phi_low) - cos(phi_high))
                                     : (at.phi - phi_low) / (phi_high - phi_low);
         const double w = remainder(at.theta - theta_low - r.alpha / 2, 2 * pi) / r.alpha + 0.5;
-        assert_true(fmin(u, fmin(v, w)) > -1e-4 && fmax(u, fmax(v, w)) < 1 + 1e-4);
+        assert_above(fmin(u, fmin(v, w)), -1e-4);
+        assert_below(fmax(u, fmax(v, w)), 1 + 1e-4);
         add(&by_r, u);
         add(&by_phi, v);
         add(&by_theta, w);
@@ -218,12 +225,12 @@ static void births_go_by_the_seed(void **state)
     int same = 0;
     for (int i = 0; i < 50; i++)
         same += words[0][i] == words[2][i];
-    assert_true(same < 3);
+    assert_below(same, 3);
     pour_put(s[0], NULL, 0);
     pour_step(s[0], 1);
     float *later = pour_words(s[0], "particles");
     for (int i = 0, equal = 0; i < 50; i++)
-        assert_true((equal += later[i] == words[0][i]) < 3);
+        assert_below((equal += later[i] == words[0][i]), 3);
     free(later);
     for (int i = 0; i < 3; i++) {
         free(words[i]);
@@ -247,17 +254,19 @@ static void promoted_particles_stay_as_many(void **state)
         if (drops[i].fall_m_s == 0)
             continue;
         placed++;
-        assert_true(oracle_inside(&r, &drops[i]) > -1e-3 && drops[i].y >= 0);
+        assert_above(oracle_inside(&r, &drops[i]), -1e-3);
+        assert_at_least(drops[i].y, 0);
     }
     free(drops);
     assert_int_equal(placed, pour_tally(s, SHOWER_PLACED));
     assert_int_equal(placed, pour_tally(s, SHOWER_ALIVE));
-    assert_true(placed > 2500 && placed < 4900);
+    assert_above(placed, 2500);
+    assert_below(placed, 4900);
     const uint32_t raised = pour_tally(s, SHOWER_RAISED);
     pour_step(s, 30);
     assert_int_equal(count_of(s), 5000);
     assert_int_equal(pour_tally(s, SHOWER_ALIVE), 5000);
-    assert_true(pour_tally(s, SHOWER_RAISED) > raised + 1000);
+    assert_above(pour_tally(s, SHOWER_RAISED), raised + 1000);
     assert_int_equal(pour_tally(s, SHOWER_PASSED), 0);
     pour_close(s);
 }

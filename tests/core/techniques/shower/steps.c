@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/shower/rig.h"
+#include "tests/expect.h"
 
 enum { PARTICLES = 600, STEPS = 25 };
 
@@ -40,8 +41,10 @@ static void expect_born(const struct shower *s, const struct oracle_rain *r,
     const struct oracle_sphere at = oracle_sphere_of(r, d);
     const double pi = acos(-1),
                  lowest = s->settings.birth == SHOWER_PAPER ? pi / 2 : (pi + r->beta) / 2;
-    assert_true(at.r >= r->near_m - OFF_M && at.r <= r->far_m + OFF_M);
-    assert_true(at.phi >= (pi - r->beta) / 2 - 1e-5 && at.phi <= lowest + 1e-4);
+    assert_at_least(at.r, r->near_m - OFF_M);
+    assert_at_most(at.r, r->far_m + OFF_M);
+    assert_at_least(at.phi, (pi - r->beta) / 2 - 1e-5);
+    assert_at_most(at.phi, lowest + 1e-4);
     expect_fall(d, r->fall_m_s * oracle_share(r, d));
 }
 
@@ -49,7 +52,9 @@ static void check_ended(const struct shower *s, const struct oracle_rain *r,
                         const struct oracle_drop *after, struct events *e)
 {
     if (after->fall_m_s == 0) {
-        assert_true(after->x == 0 && after->y == 0 && after->z == 0);
+        assert_equals(after->x, 0);
+        assert_equals(after->y, 0);
+        assert_equals(after->z, 0);
         e->waited++;
         return;
     }
@@ -222,7 +227,9 @@ static void particles_of_the_traditional_system_end(void **state)
     };
     for (int i = 0; i < 5; i++) {
         const struct events e = run(settings[i], false);
-        assert_true(e.stayed > 3000 && e.left > 50 && e.born > 50);
+        assert_above(e.stayed, 3000);
+        assert_above(e.left, 50);
+        assert_above(e.born, 50);
         assert_true(i == 1 ? e.landed == 0 : e.landed > 10);
     }
 }
@@ -240,13 +247,17 @@ static void particles_of_the_improved_system_come_in_again(void **state)
     int crossed = 0, turned = 0, drawn_in = 0, fell_in = 0;
     for (int i = 0; i < 5; i++) {
         const struct events e = run(settings[i], true);
-        assert_true(e.stayed > 3000 && e.promoted > 50);
+        assert_above(e.stayed, 3000);
+        assert_above(e.promoted, 50);
         crossed += e.crossed;
         turned += e.turned;
         drawn_in += e.drawn_in;
         fell_in += e.fell_in;
     }
-    assert_true(crossed > 50 && turned > 50 && drawn_in > 50 && fell_in > 50);
+    assert_above(crossed, 50);
+    assert_above(turned, 50);
+    assert_above(drawn_in, 50);
+    assert_above(fell_in, 50);
 }
 
 // Attributes are kept beside the place: the wind of the moment, gravity, and how old it is.
@@ -274,7 +285,7 @@ static void the_traditional_state_is_whole(void **state)
             assert_true(age[i] == was[i] + 1 || age[i] == 0);
             older += age[i] > 0;
         }
-        assert_true(older > 200);
+        assert_above(older, 200);
         free(age);
         free(was);
     }

@@ -13,6 +13,7 @@
 #include "core/image/compare/compare.h"
 #include "core/techniques/stages/frame.h"
 #include "core/techniques/streaks/instance.h"
+#include "tests/expect.h"
 
 enum { WIDTH = 128, HEIGHT = 72 };
 
@@ -88,7 +89,7 @@ static double error_of(double radius_m, double height_m)
     assert_true(
         rg_compare(&truth, "truth", &picture, "rain", &dry, &(struct rg_compare_options){0}, &c));
     const double error = c.flip.mask_mean;
-    assert_true(c.tiers.mask_pixels > 100);
+    assert_above(c.tiers.mask_pixels, 100);
     rg_comparison_destroy(&c);
     rg_picture_destroy(&picture);
     rg_picture_destroy(&truth);
@@ -103,15 +104,19 @@ static void test_smallest_without_error(void **state)
     struct streaks *s = open_rain(device, "fit=on fit_error=0.05");
     const double radius_m = fact(s, "culling_radius_m"), height_m = fact(s, "local_height_m");
     const double told = fact(s, "flip_mask_mean");
-    assert_true(radius_m == s->settings.culling_radius_m);
-    assert_true(height_m == s->settings.local_height_m);
+    assert_equals(radius_m, s->settings.culling_radius_m);
+    assert_equals(height_m, s->settings.local_height_m);
     close_rain(s);
     // Neither the smallest that is tried nor the largest.
-    assert_true(radius_m > 2 && radius_m < 60 && height_m > 2 && height_m < 40);
+    assert_above(radius_m, 2);
+    assert_below(radius_m, 60);
+    assert_above(height_m, 2);
+    assert_below(height_m, 40);
     const double error = error_of(radius_m, height_m);
-    assert_true(error <= allowed && fabs(error - told) < 1e-6);
-    assert_true(error_of(radius_m / 2, height_m) > allowed);
-    assert_true(error_of(radius_m, height_m / 2) > allowed);
+    assert_at_most(error, allowed);
+    assert_below(fabs(error - told), 1e-6);
+    assert_above(error_of(radius_m / 2, height_m), allowed);
+    assert_above(error_of(radius_m, height_m / 2), allowed);
 }
 
 // The search leaves nothing behind: all frames are those of the sizes that it found. Maps around
@@ -157,13 +162,13 @@ static void test_looser_is_no_larger(void **state)
         snprintf(settings, sizeof(settings), "fit=on fit_error=%g", errors[i]);
         struct streaks *s = open_rain(device, settings);
         const double radius_m = fact(s, "culling_radius_m");
-        assert_true(radius_m <= before_m);
-        assert_true(fact(s, "flip_mask_mean") <= errors[i]);
+        assert_at_most(radius_m, before_m);
+        assert_at_most(fact(s, "flip_mask_mean"), errors[i]);
         first_m = i ? first_m : radius_m;
         before_m = radius_m;
         close_rain(s);
     }
-    assert_true(before_m < first_m / 2);
+    assert_below(before_m, first_m / 2);
 }
 
 // However large the error that is allowed, the fastest drop of a spectrum, of 9.17 m/s, has the
@@ -174,7 +179,7 @@ static void test_least_height_of_sizes(void **state)
     struct streaks *s = open_rain(device, "fit=on fit_error=0.2 spectrum=best kept_share=0.5 "
                                           "rain_mm_h=100 splash_s=3 fall_speed_m_s=2");
     const double height_m = fact(s, "local_height_m");
-    assert_true(fabs(height_m - 9.17 * (1.0 / 60 + 3)) < 0.02);
+    assert_below(fabs(height_m - 9.17 * (1.0 / 60 + 3)), 0.02);
     close_rain(s);
 }
 
@@ -189,9 +194,9 @@ static void test_nothing_else_decides(void **state)
     struct streaks *a = open_rain(device, "fit=on");
     struct streaks *b = open_rain(cpu, "fit=on culling_radius_m=1000 local_height_m=0.1");
     struct rg_picture picture_a = read_picture(a), picture_b = read_picture(b);
-    assert_true(fact(a, "culling_radius_m") == fact(b, "culling_radius_m"));
-    assert_true(fact(a, "local_height_m") == fact(b, "local_height_m"));
-    assert_true(fact(a, "flip_mask_mean") == fact(b, "flip_mask_mean"));
+    assert_equals(fact(a, "culling_radius_m"), fact(b, "culling_radius_m"));
+    assert_equals(fact(a, "local_height_m"), fact(b, "local_height_m"));
+    assert_equals(fact(a, "flip_mask_mean"), fact(b, "flip_mask_mean"));
     assert_true(same(&picture_a, &picture_b));
     rg_picture_destroy(&picture_a);
     rg_picture_destroy(&picture_b);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 static const double pi = 3.14159265358979323846, least_mm = 0.8, largest_mm = 6, splash_s = 1;
 
@@ -126,10 +127,11 @@ static void expect_flux(const struct rain *r, const char *more)
     print_message("%s, %g mm/h: %lld splashes, %.4f of the drops, %.4f of the water, off by %.4f\n",
                   r->is_best ? "best" : "marshall-palmer", r->rain_mm_h, (long long)count, drops,
                   water, most);
-    assert_true(count > 20000);
-    assert_true(fabs(drops - 1) < 0.02 && fabs(water - 1) < 0.02);
+    assert_above(count, 20000);
+    assert_below(fabs(drops - 1), 0.02);
+    assert_below(fabs(water - 1), 0.02);
     // Kolmogorov and Smirnov, at 1 %, and half a class of 512; weights make it wider.
-    assert_true(most < 1.63 / sqrt((double)count) * (s->settings.kept_by_section ? 2 : 1) + 0.001);
+    assert_below(most, 1.63 / sqrt((double)count) * (s->settings.kept_by_section ? 2 : 1) + 0.001);
     rain_close(s);
 }
 

@@ -14,6 +14,7 @@
 #include "core/techniques/streaks/instance.h"
 #include "tests/core/techniques/rigs/scene.h"
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 enum { WIDTH = 96, HEIGHT = 54, HALVES = WIDTH * HEIGHT * 4, MAP_PX = 1024 };
 enum { FILM, PUDDLE, ROUGH, SMOOTH, MATERIALS };
@@ -212,7 +213,7 @@ static struct compared compare(struct rg_device *device, const char *settings, b
     int64_t seen = 0;
     for (int64_t i = 0; i < places.count; i++)
         seen += (int)places.words[i * STREAKS_STATE_WORDS + 5] != STREAKS_NOTHING;
-    assert_true(seen > SOME);
+    assert_above(seen, SOME);
     for (int64_t i = 0, n = 0; i < places.count; i++) {
         const float *place = places.words + i * STREAKS_STATE_WORDS;
         if ((int)place[5] != STREAKS_NOTHING && n++ % (seen / SOME) == 0)
@@ -228,7 +229,7 @@ static void splashes_are_of_what_is_hit(void **state)
 {
     const struct compared all = compare(*state, "splash_materials=on", false);
     for (int m = 0; m < MATERIALS; m++)
-        assert_true(all.counts[m] > 20);
+        assert_above(all.counts[m], 20);
 }
 
 static void a_dynamic_map_too(void **state)
@@ -237,7 +238,8 @@ static void a_dynamic_map_too(void **state)
         *state,
         "splash_materials=on depth_map=dynamic culling_radius_m=40 walk_m_s=900 slant_deg=25",
         true);
-    assert_true(all.counts[FILM] > 100 && all.counts[PUDDLE] > 20);
+    assert_above(all.counts[FILM], 100);
+    assert_above(all.counts[PUDDLE], 20);
     assert_int_equal(all.outside, 0); // it would fall through roofs there
 }
 
@@ -245,7 +247,9 @@ static void rain_that_leans_too(void **state)
 {
     const struct compared all =
         compare(*state, "splash_materials=on slant_deg=25 slant_azimuth_deg=40", false);
-    assert_true(all.counts[FILM] > 100 && all.counts[PUDDLE] > 20 && all.counts[SMOOTH] > 20);
+    assert_above(all.counts[FILM], 100);
+    assert_above(all.counts[PUDDLE], 20);
+    assert_above(all.counts[SMOOTH], 20);
 }
 
 // A user's mesh is rough, and its ground is wet.
@@ -256,8 +260,10 @@ static void a_mesh_too(void **state)
                 "splash_materials=on scene=torus rain_width_m=420 rain_depth_m=420 drops_m2_s=1 "
                 "local_height_m=200 culling_radius_m=200",
                 false);
-    assert_true(all.counts[FILM] > 100 && all.counts[ROUGH] > 100);
-    assert_true(all.counts[PUDDLE] == 0 && all.counts[SMOOTH] == 0);
+    assert_above(all.counts[FILM], 100);
+    assert_above(all.counts[ROUGH], 100);
+    assert_equals(all.counts[PUDDLE], 0);
+    assert_equals(all.counts[SMOOTH], 0);
 }
 
 static void off_all_are_of_one(void **state)
@@ -265,7 +271,7 @@ static void off_all_are_of_one(void **state)
     int counts[MATERIALS];
     struct streaks *s = open_rain(*state, "splash_materials=off splash_up=vertical");
     count_materials(s, counts);
-    assert_true(counts[FILM] > 1000);
+    assert_above(counts[FILM], 1000);
     for (int m = 1; m < MATERIALS; m++)
         assert_int_equal(counts[m], 0);
     assert_int_equal(s->map->numbers->desc.width, 1); // nothing is kept for it

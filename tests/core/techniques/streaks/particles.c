@@ -13,6 +13,7 @@
 #include "core/device/device.h"
 #include "kernels/dialect/rng.h"
 #include "kernels/streaks/params.h"
+#include "tests/expect.h"
 #include "tests/oracle/particle.h"
 
 enum { BLOCKS = 256, PARTICLES = BLOCKS * STREAKS_BLOCK, MAP_X = 7, MAP_Y = 5, WORDS = 10 };
@@ -248,20 +249,20 @@ static void compare(const struct scene *scene, const streaks_params *p, const fl
         counts[seen.state]++;
         if (seen.state == PARTICLE_NOTHING)
             continue;
-        assert_true(fabs((double)place[0] - seen.x) < 1e-4);
-        assert_true(fabs((double)place[1] - seen.y) < 1e-4);
-        assert_true(fabs((double)place[2] - seen.s) < 1e-4);
-        assert_true(fabs((double)place[3] - hit.s) < 1e-4);
+        assert_below(fabs((double)place[0] - seen.x), 1e-4);
+        assert_below(fabs((double)place[1] - seen.y), 1e-4);
+        assert_below(fabs((double)place[2] - seen.s), 1e-4);
+        assert_below(fabs((double)place[3] - hit.s), 1e-4);
         assert_int_equal(place[6], hit.material);
         const double turn =
             7.5 * class[2] / class[1] * seen.s + begin_of(block[0] + i % STREAKS_BLOCK);
         assert_int_equal(place[7], floor((double)particle[2]));
-        assert_true(fabs(remainder((double)place[7] - turn, 1)) < 1e-3);
-        assert_true(fabs((double)place[8] - 0.005 * class[0]) < 1e-8);
-        assert_true(fabs((double)place[9] - class[3]) < 1e-5);
+        assert_below(fabs(remainder((double)place[7] - turn, 1)), 1e-3);
+        assert_below(fabs((double)place[8] - 0.005 * class[0]), 1e-8);
+        assert_below(fabs((double)place[9] - class[3]), 1e-5);
         of_class[(class - classes[0]) / SIZE_WORDS]++;
-        assert_true(fabs((double)place[4] - (seen.state == PARTICLE_SPLASH ? seen.age_s : 0)) <
-                    1e-4);
+        assert_below(fabs((double)place[4] - (seen.state == PARTICLE_SPLASH ? seen.age_s : 0)),
+                     1e-4);
     }
     // Classes are equally frequent.
     const int all = counts[PARTICLE_DROP] + counts[PARTICLE_SPLASH];
@@ -277,9 +278,9 @@ static void check(const streaks_params *p, int least_drops, int least_splashes)
     fill(&scene);
     compute(&scene, p, places);
     compare(&scene, p, places, counts);
-    assert_true(counts[PARTICLE_DROP] >= least_drops);
-    assert_true(counts[PARTICLE_SPLASH] >= least_splashes);
-    assert_true(counts[PARTICLE_NOTHING] > 100);
+    assert_at_least(counts[PARTICLE_DROP], least_drops);
+    assert_at_least(counts[PARTICLE_SPLASH], least_splashes);
+    assert_above(counts[PARTICLE_NOTHING], 100);
 }
 
 static void test_states(void **state)

@@ -8,6 +8,7 @@
 
 #include "core/scene/spectrum.h"
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 static const double pi = 3.14159265358979323846, largest_mm = 6;
 static const double rates[] = {1, 5, 20, 50, 100};
@@ -108,8 +109,8 @@ static void test_speeds(void **state)
         const double d = values[i][0];
         near("speed", rg_terminal_speed(RG_GUNN_KINZER, d), values[i][1], 1e-9);
         near("fit", rg_terminal_speed(RG_ATLAS, d), atlas(d), 1e-9);
-        assert_true(fabs(rg_terminal_speed(RG_ATLAS, d) - rg_terminal_speed(RG_GUNN_KINZER, d)) <
-                    0.2);
+        assert_below(fabs(rg_terminal_speed(RG_ATLAS, d) - rg_terminal_speed(RG_GUNN_KINZER, d)),
+                     0.2);
     }
     for (int k = 0; k < RATES; k++) {
         const struct rg_spectrum all = {RG_BEST, RG_GUNN_KINZER, rates[k], 0.1, largest_mm};
@@ -145,7 +146,8 @@ static struct drop *measure(struct streaks *s, int64_t *count)
     rain_step(s, 1);
     const struct rain_places after = rain_read_places(s);
     struct drop *drops = malloc((size_t)after.count * sizeof(*drops));
-    assert_true(drops && before.count == after.count);
+    assert_true(drops);
+    assert_equals(before.count, after.count);
     *count = 0;
     for (int64_t i = 0; i < after.count; i++) {
         const float *a = before.words + i * STREAKS_STATE_WORDS;
@@ -153,7 +155,8 @@ static struct drop *measure(struct streaks *s, int64_t *count)
         const double way = (double)b[2] - (double)a[2];
         if ((int)b[5] != STREAKS_DROP)
             continue;
-        assert_true(a[8] == b[8] && a[9] == b[9]);
+        assert_equals(a[8], b[8]);
+        assert_equals(a[9], b[9]);
         drops[(*count)++] = (struct drop){.diameter_mm = 2000 * (double)b[8],
                                           .weight = (double)b[9],
                                           .speed_m_s = (way < 0 ? way + height : way) / step_s};
@@ -205,24 +208,24 @@ static void check_rain(const struct rain *r, const char *more)
     double number = 0, water = 0, rain = 0;
     for (int64_t i = 0; i < count; i++) {
         const struct drop *d = &drops[i];
-        assert_true(fabs(d->speed_m_s - atlas(d->diameter_mm)) < 0.01);
+        assert_below(fabs(d->speed_m_s - atlas(d->diameter_mm)), 0.01);
         number += d->weight / volume_m3;
         water += d->weight * volume(d->diameter_mm) / volume_m3;
         rain += d->weight * volume(d->diameter_mm) * d->speed_m_s * 3.6e-3 / volume_m3;
     }
     const double most = furthest(r, drops, count);
     print_message("%s: %lld drops, off by %.4f\n", settings + strlen(HIGH), (long long)count, most);
-    assert_true(count > 50000);
+    assert_above(count, 50000);
     const bool all = !strstr(more, "grid");
     const double due = integral(r, largest_mm, one), there = all ? 1 : number / due;
     near("drops", number, due * there, 0.02);
     near("water", water, integral(r, largest_mm, volume) * there, 0.02);
     near("rain", rain, integral(r, largest_mm, flux) * there, 0.02);
     // Kolmogorov and Smirnov, at 1 %, of as many drops, and half a class of 512.
-    assert_true(most < 1.63 / sqrt((double)count) * (s->settings.kept_by_section ? 2 : 1) + 0.001);
+    assert_below(most, 1.63 / sqrt((double)count) * (s->settings.kept_by_section ? 2 : 1) + 0.001);
     near("rain that is told", told(s, "rain_realised_mm_h"), rain / there, all ? 1e-3 : 0.02);
     near("rain that is kept", told(s, "rain_kept_mm_h"), integral(r, largest_mm, flux), 1e-3);
-    assert_true(told(s, "rain_nominal_mm_h") == r->rain_mm_h);
+    assert_equals(told(s, "rain_nominal_mm_h"), r->rain_mm_h);
     free(drops);
     rain_close(s);
 }

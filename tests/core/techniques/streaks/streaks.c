@@ -7,6 +7,7 @@
 
 #include "kernels/dialect/image/format.h"
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 // --- pictures ---
 
@@ -44,7 +45,7 @@ static void test_packets_do_not_show(void **state)
         "packets=quad packet_size=7000", "packets=quad packet_size=300 select=hull"};
     struct rain_texels *world = rain_draw_at("cull=exact order=id packets=world", 3);
     struct rain_texels *dry = rain_draw_at("drops=off splashes=off", 3);
-    assert_true(differing(world, dry) > 100);
+    assert_above(differing(world, dry), 100);
     for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); i++) {
         char settings[256];
         snprintf(settings, sizeof(settings), "cull=exact order=id %s", ways[i]);
@@ -86,11 +87,12 @@ static void test_sparse_rain_is_less_of_it(void **state)
     for (int i = 0; i < 2; i++)
         free(rain_read(i ? sparse : whole));
     const struct rg_counter *of_whole = whole->base.counters, *of_sparse = sparse->base.counters;
-    assert_true(of_whole[STREAKS_PARTICLES].value > 1000);
+    assert_above(of_whole[STREAKS_PARTICLES].value, 1000);
     assert_int_equal(of_sparse[STREAKS_PARTICLES].value, of_whole[STREAKS_PARTICLES].value);
     const double share =
         (double)of_whole[STREAKS_ITEMS].value / (double)of_sparse[STREAKS_ITEMS].value;
-    assert_true(share > 3.6 && share < 4.4);
+    assert_above(share, 3.6);
+    assert_below(share, 4.4);
     rain_close(whole);
     rain_close(sparse);
 }
@@ -118,10 +120,11 @@ static void test_grid_is_like_the_trees(void **state)
         double squares = 0;
         for (int seed = 0; seed < 4; seed++)
             squares += pow(of_seeds[seed] - rain[i], 2);
-        assert_true(rain[i] > 0 && sqrt(squares / 3) < 0.2 * rain[i]);
+        assert_above(rain[i], 0);
+        assert_below(sqrt(squares / 3), 0.2 * rain[i]);
     }
     free(dry);
-    assert_true(fabs(rain[0] - rain[1]) < 0.25 * rain[0]);
+    assert_below(fabs(rain[0] - rain[1]), 0.25 * rain[0]);
 }
 
 // --- particles ---
@@ -150,13 +153,14 @@ static void test_drops_stay_put(void **state)
             continue;
         const double moved = fabs((double)a[2] - (double)b[2]);
         assert_true(moved < 1e-3 || fabs(moved - 15) < 1e-3);
-        assert_true(a[0] == b[0] && a[1] == b[1]);
+        assert_equals(a[0], b[0]);
+        assert_equals(a[1], b[1]);
         seen++;
         wrapped += moved > 1;
     }
     // The camera rose by 2.25 m of 15 m, and so much of the drops came in again at the top.
-    assert_true(seen > 1000);
-    assert_true(fabs((double)wrapped / (double)seen - 2.25 / 15) < 0.1);
+    assert_above(seen, 1000);
+    assert_below(fabs((double)wrapped / (double)seen - 2.25 / 15), 0.1);
     free(places[0].words);
     free(places[1].words);
 }
@@ -211,7 +215,8 @@ static void test_one_splash_a_hit(void **state)
         falling += lives[i].splashes > 0;
         assert_in_range(lives[i].splashes, 0, 4); // frames / 90 + the first and last
     }
-    assert_true(falling > 500 && splashes >= 2 * falling);
+    assert_above(falling, 500);
+    assert_at_least(splashes, 2 * falling);
     free(lives);
     rain_close(s);
 }
@@ -231,7 +236,8 @@ static void test_the_sky_is_even(void **state)
         struct rain_texels *picture = rain_draw_at(settings, 1);
         for (int i = 0; i < 4 * RAIN_TEXELS; i++) {
             const float value = rg_unpack_half(picture->halves[i]);
-            assert_true(value <= due[i % 4] && value >= due[i % 4] * (1 - 0x1p-10f));
+            assert_at_most(value, due[i % 4]);
+            assert_at_least(value, due[i % 4] * (1 - 0x1p-10f));
         }
         free(picture);
     }
@@ -274,9 +280,10 @@ static void test_lights_add_up(void **state)
     }
     for (int c = 0; c < 3; c++) {
         const double sum = added[1][c] + added[2][c];
-        assert_true(added[1][c] > 0 && added[2][c] > 0);
+        assert_above(added[1][c], 0);
+        assert_above(added[2][c], 0);
         // Half floats round each light's part down.
-        assert_true(fabs(added[3][c] - sum) < 0.03 * sum);
+        assert_below(fabs(added[3][c] - sum), 0.03 * sum);
     }
     free(dry);
     remove(path);
@@ -293,7 +300,9 @@ static void test_looks(void **state)
     rg_params_reset(table, &initial);
     rg_params_reset(table, &set);
     assert_true(rg_params_set_all(table, &set, "look=thesis streak_opacity=2"));
-    assert_true(set.points && set.streak_gain > 1 && set.streak_opacity == 2);
+    assert_true(set.points);
+    assert_above(set.streak_gain, 1);
+    assert_equals(set.streak_opacity, 2);
     assert_true(rg_params_set_all(table, &set, "look=photograph"));
     assert_memory_equal(&set, &initial, sizeof(set));
 }

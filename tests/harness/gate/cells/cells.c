@@ -12,6 +12,7 @@
 #include "core/base/log.h"
 #include "core/base/text/place.h"
 #include "harness/compare/gate/cells/cells.h"
+#include "tests/expect.h"
 
 static char logged[2048];
 static int logged_lines;
@@ -54,12 +55,12 @@ static void cells_have_what_their_lines_say(void **state)
     assert_int_equal(a->frames, 10);
     assert_int_equal(a->line, 3);
     assert_string_equal(a->assignments, "seed=7 billboards=5");
-    assert_true(seed_of(a) == 7);
+    assert_equals(seed_of(a), 7);
     assert_string_equal(b->name, "c.d-e_f");
     assert_int_equal(b->height, 16384);
     assert_int_equal(b->frames, 0);
     assert_string_equal(b->assignments, "");
-    assert_true(seed_of(b) == 1);
+    assert_equals(seed_of(b), 1);
     rg_gate_cells_free(&cells);
 }
 

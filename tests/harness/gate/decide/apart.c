@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "harness/compare/gate/decide/course.h"
+#include "tests/expect.h"
 #include "tests/harness/gate/decide/chance.h"
 
 #define assert_near(value, due, within) assert_true(fabs((double)(value) - (due)) <= (within))
@@ -128,7 +129,7 @@ static void test_coverage(void **state)
                 const struct rg_interval i = rg_shift(a, sizes[s][0], b, sizes[s][1], 0.025);
                 held += i.low <= 0.1 && 0.1 <= i.high;
             }
-            assert_true(held >= (s == 2 ? 0.92 * TRIALS / 8 : 0.94 * TRIALS));
+            assert_at_least(held, (s == 2 ? 0.92 * TRIALS / 8 : 0.94 * TRIALS));
         }
 }
 
@@ -190,8 +191,9 @@ static void test_shared(void **state)
     const struct rg_gate_decision one = rg_gate_decide_apart(&rule, &a, b.logs, b.count);
     rule.rows = 30;
     const struct rg_gate_decision many = rg_gate_decide_apart(&rule, &a, b.logs, b.count);
-    assert_true(many.low < one.low && many.high > one.high);
-    assert_true(many.smallest > one.smallest);
+    assert_below(many.low, one.low);
+    assert_above(many.high, one.high);
+    assert_above(many.smallest, one.smallest);
     assert_near(rg_gate_power(&rule, &many, many.smallest), 0.95, 1e-6);
 }
 
@@ -204,7 +206,8 @@ static void test_links(void **state)
     for (int i = 0; i < 64; i++)
         linked.logs[i] = log(10) + (i % 16 < 8 ? 0.02 : -0.02);
     struct rg_gate_decision d = rg_gate_decide_apart(&rule, &plain, linked.logs, 64);
-    assert_true(d.is_grouped && d.units < 64);
+    assert_true(d.is_grouped);
+    assert_below(d.units, 64);
     d = rg_gate_decide_apart(&rule, &linked, plain.logs, 31);
     assert_true(d.is_grouped);
     assert_int_equal(d.units, 31);

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "harness/compare/gate/decide/course.h"
+#include "tests/expect.h"
 #include "tests/harness/gate/decide/chance.h"
 
 enum { MOST_ROWS = 4 };
@@ -86,9 +87,9 @@ static void test_verdicts(void **state)
         assert_int_equal(found[row].launches, launches[row]);
         assert_int_equal(s.taken[row], launches[row]);
         assert_int_equal(found[row].before.verdict, launches[row] > 16 ? due[row] : 0);
-        assert_true(fabs(found[row].decision.ratio - s.ratios[row]) < 0.004);
-        assert_true(fabs(found[row].a_ms.median - 10) < 1e-9);
-        assert_true(fabs(found[row].b_ms.median - 10 * s.ratios[row]) < 0.05);
+        assert_below(fabs(found[row].decision.ratio - s.ratios[row]), 0.004);
+        assert_below(fabs(found[row].a_ms.median - 10), 1e-9);
+        assert_below(fabs(found[row].b_ms.median - 10 * s.ratios[row]), 0.05);
     }
     assert_int_equal(s.launches, 32);
 }
@@ -137,7 +138,7 @@ static void test_first_look_again(void **state)
     s.noise = 0.08;
     run(&s, 1, found);
     const int units = found[0].before.units;
-    assert_true(units > 16);
+    assert_above(units, 16);
     s = SCRIPT(.ratios = {1.045}, .later_ratio = 1.3, .later = units);
     s.noise = 0.08;
     run(&s, 1, found);

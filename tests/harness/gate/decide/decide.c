@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "harness/compare/gate/decide/decide.h"
+#include "tests/expect.h"
 #include "tests/harness/gate/decide/chance.h"
 
 #define assert_near(value, due, within) assert_true(fabs((double)(value) - (due)) <= (within))
@@ -77,7 +78,8 @@ static void test_interval(void **state)
     assert_near(d.low, exp(-0.0075), 1e-12);
     rule.look_count = 20; // a tail of 0.0000125: of 16 launches none is so sure
     d = rg_gate_decide(&rule, logs, 16);
-    assert_true(d.low == 0 && isinf(d.high));
+    assert_equals(d.low, 0);
+    assert_true(isinf(d.high));
     assert_int_equal(d.verdict, RG_TWO_INCONCLUSIVE);
     d = rg_gate_decide(&rule, logs, 0);
     assert_int_equal(d.verdict, RG_TWO_INCONCLUSIVE);
@@ -162,7 +164,7 @@ static void test_what_could_be_seen(void **state)
     // Of too few for an interval nothing could be seen, however alike they are.
     d = rg_gate_decide(&rule, logs, 4);
     assert_true(isinf(d.smallest));
-    assert_true(rg_gate_power(&rule, &d, 0.05) == 0);
+    assert_equals(rg_gate_power(&rule, &d, 0.05), 0);
     assert_int_equal(d.verdict, RG_TWO_INCONCLUSIVE);
 }
 
@@ -227,7 +229,7 @@ static void test_coverage(void **state)
             const struct rg_gate_decision d = rg_gate_decide(&rule, logs, 160);
             held += d.low <= 1.01 && 1.01 <= d.high;
         }
-        assert_true(held >= 0.94 * TRIALS);
+        assert_at_least(held, 0.94 * TRIALS);
     }
 }
 

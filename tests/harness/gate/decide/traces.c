@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "harness/compare/gate/decide/course.h"
+#include "tests/expect.h"
 
 enum { MOST_GATES = 64, MOST_ROWS = 8, MOST_LAUNCHES = 1024 };
 
@@ -45,7 +46,7 @@ static void read_case(struct trace *trace, char *line)
         assert_in_range(trace->count, 0, MOST_LAUNCHES - 1);
         trace->logs[trace->count++] = *word == 'x' ? NAN : strtod(word, NULL);
     }
-    assert_true(trace->count >= 16);
+    assert_at_least(trace->count, 16);
 }
 
 static int read_traces(void **state)
@@ -127,8 +128,8 @@ static void test_as_they_ended(void **state)
             planted += !gate.is_same;
         }
     }
-    assert_true(same >= 48);
-    assert_true(planted >= 18);
+    assert_at_least(same, 48);
+    assert_at_least(planted, 18);
 }
 
 // A gate whose time is over before the first look finds nothing, and whose time is over before a
@@ -204,7 +205,7 @@ static void test_in_their_noise(void **state)
             }
         }
     }
-    assert_true(tried >= 100);
+    assert_at_least(tried, 100);
 }
 
 int main(int count, char **arguments)

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "harness/record/schema/schema.h"
+#include "tests/expect.h"
 #include "tests/harness/results/forms/rig.h"
 
 static void test_sheet(void **state)
@@ -150,7 +151,9 @@ static void test_textures(void **state)
                                     "{s{sI, sI!}, s{sI, sI!}}", "measured", "width_px", &width,
                                     "height_px", &height, "published", "width_px", &printed,
                                     "height_px", &printed));
-    assert_true(width == 32 && height == 3607 && printed == 3606);
+    assert_equals(width, 32);
+    assert_equals(height, 3607);
+    assert_equals(printed, 3606);
     json_decref(json);
     rg_result_free(&rig.result);
 }

@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "harness/record/schema/schema.h"
+#include "tests/expect.h"
 #include "tests/harness/results/forms/rig.h"
 
 static void test_json(void **state)
@@ -45,14 +46,20 @@ static void test_json(void **state)
     assert_int_equal(0, json_unpack(json_array_get(cells, 4), "{ss}", "detail", &detail));
     assert_string_equal(set, "geometry=off");
     assert_string_equal(variant, "no_geometry");
-    assert_true(radius == 5 && camera == 1 && fps == 800 && printed == 70303);
-    assert_true(told == 70000 && fact == 70000);
+    assert_equals(radius, 5);
+    assert_equals(camera, 1);
+    assert_equals(fps, 800);
+    assert_equals(printed, 70303);
+    assert_equals(told, 70000);
+    assert_equals(fact, 70000);
     assert_string_equal(model, "no UTF-8: ?");
     assert_string_equal(missing, "gl: none");
     assert_string_equal(broken, "vulkan: broken");
     assert_string_equal(detail, "differs");
     assert_float_equal(measured_fps, 80, 1e-9);
-    assert_true(a == 0.75 && b == 0.25 && flip == 0.5);
+    assert_equals(a, 0.75);
+    assert_equals(b, 0.25);
+    assert_equals(flip, 0.5);
     assert_int_equal(0, json_unpack(json_array_get(cells, 0), "{s{ss, ss}}", "error", "status",
                                     &status, "detail", &detail));
     assert_string_equal(status, "unsupported");

@@ -9,6 +9,7 @@
 
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/trend.h"
+#include "tests/expect.h"
 #include "tests/harness/results/forms/rig.h"
 
 // Named rows of no paper: the first has all on.
@@ -87,7 +88,8 @@ static void test_growth(void **state)
     assert_int_equal(0, json_unpack(trends, "[{ss, sF, sF, sn}]", "verdict", &verdict, "slope_low",
                                     &low, "slope_high", &high, "published_slope"));
     assert_string_equal(verdict, "growth");
-    assert_true(low < s.slope && s.slope < high);
+    assert_below(low, s.slope);
+    assert_below(s.slope, high);
     json_decref(trends);
     rg_result_free(&rig.result);
 }

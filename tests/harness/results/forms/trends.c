@@ -10,6 +10,7 @@
 
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/trend.h"
+#include "tests/expect.h"
 #include "tests/harness/results/forms/rig.h"
 
 static void test_order_of_names(void **state)
@@ -128,18 +129,18 @@ static void test_few_samples(void **state)
         const struct rg_trend s = rg_trend_of(&rig.result, (struct rg_place){0});
         assert_int_equal(s.verdict, samples < 6 ? RG_TREND_UNDECIDED : RG_TREND_REPRODUCED);
         assert_int_equal(s.pairs_undecided, samples < 6 ? 3 : 0);
-        assert_true(!isfinite(s.slope_low) == (samples < 6));
+        assert_equals(!isfinite(s.slope_low), (samples < 6));
         rg_result_sheet(&rig.result, &sheet);
         const char *interval = sheet_text_at(&sheet, 0, "ms, 95 %");
         assert_non_null(interval);
-        assert_true(!*interval == (samples < 6));
+        assert_equals(!*interval, (samples < 6));
         rg_sheet_free(&sheet);
         json_t *json = rg_result_json(&rig.result);
         assert_non_null(json);
         const json_t *measured =
             json_object_get(json_array_get(json_object_get(json, "cells"), 0), "measured");
-        assert_true(json_is_null(json_object_get(measured, "ms_low")) == (samples < 6));
-        assert_true(json_is_null(json_object_get(measured, "ms_high")) == (samples < 6));
+        assert_equals(json_is_null(json_object_get(measured, "ms_low")), (samples < 6));
+        assert_equals(json_is_null(json_object_get(measured, "ms_high")), (samples < 6));
         json_decref(json);
         rg_result_free(&rig.result);
     }

@@ -14,6 +14,7 @@
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/measuring/measure.h"
 #include "harness/tables/sweep/plan.h"
+#include "tests/expect.h"
 #include "tests/harness/measuring/fake.h"
 #include "tests/harness/results/planning/slow.h"
 
@@ -93,8 +94,8 @@ static void looking_takes_a_moment(void **state)
     (void)state;
     struct rg_plan plan;
     const int looks = 2 * 3; // two rows on three devices
-    assert_true(plan_many_steps(0, &plan) < looks * 6000);
-    assert_true(plan.device_s[0] > 3 * 1e-3 * 100000); // three rows, a millisecond a step
+    assert_below(plan_many_steps(0, &plan), looks * 6000);
+    assert_above(plan.device_s[0], 3 * 1e-3 * 100000); // three rows, a millisecond a step
 }
 
 // None of them is simulated once the command was interrupted.
@@ -103,7 +104,7 @@ static void an_interrupted_look_ends(void **state)
     (void)state;
     struct rg_plan plan;
     rg_interrupt_watch();
-    assert_true(plan_many_steps(1, &plan) < 6000);
+    assert_below(plan_many_steps(1, &plan), 6000);
     assert_true(rg_interrupted());
 }
 
@@ -126,19 +127,20 @@ static void a_cell_takes_what_its_frames_take(void **state)
     few.passes_ms = 0;
     // The first and the last of 10, the one that is counted, one of warm-up, 6 samples, and 2
     // frames of 1.5 for the passes; 8 steps.
-    assert_true(fabs(rg_cell_ms(&plain, &slow, &o) - (7 + 8 * 3 + 13 * 500)) < 1e-6);
+    assert_below(fabs(rg_cell_ms(&plain, &slow, &o) - (7 + 8 * 3 + 13 * 500)), 1e-6);
     // One of 1.5 for the passes.
-    assert_true(fabs(rg_cell_ms(&plain, &slow, &few) - (7 + 8 * 3 + 11.5 * 500)) < 1e-6);
-    assert_true(fabs(rg_cell_ms(&alone, &slow, &o) - (7 + 12 * 500)) < 1e-6);
+    assert_below(fabs(rg_cell_ms(&plain, &slow, &few) - (7 + 8 * 3 + 11.5 * 500)), 1e-6);
+    assert_below(fabs(rg_cell_ms(&alone, &slow, &o) - (7 + 12 * 500)), 1e-6);
     // 3 + 4 + 4 + 15 samples of 15 + 1 frames + 40 frames of 1.5.
-    assert_true(fabs(rg_cell_ms(&plain, &fast, &o) - (7 + 8 * 0.25 + 311)) < 1e-6);
+    assert_below(fabs(rg_cell_ms(&plain, &fast, &o) - (7 + 8 * 0.25 + 311)), 1e-6);
     // 3, 4 of warm-up in 200 ms, 8 samples and a frame before each, 5 frames of 1.5.
-    assert_true(fabs(rg_cell_ms(&plain, &middling, &o) - (7 + 8 * 3 + (3 + 4 + 16 + 7.5) * 60)) <
-                1e-6);
+    assert_below(fabs(rg_cell_ms(&plain, &middling, &o) - (7 + 8 * 3 + (3 + 4 + 16 + 7.5) * 60)),
+                 1e-6);
     // 11 frames in windows of 5: opened twice more, each with nine steps and a frame.
-    assert_true(fabs(rg_cell_ms(&window, &slow, &o) -
-                     (7 + 8 * 3 + 13 * 500 + 2 * (7 + 9 * 3 + 500))) < 1e-6);
-    assert_true(fabs(rg_cell_image_ms(&plain, &slow) - (7 + 9 * 3 + 500)) < 1e-6);
+    assert_below(
+        fabs(rg_cell_ms(&window, &slow, &o) - (7 + 8 * 3 + 13 * 500 + 2 * (7 + 9 * 3 + 500))),
+        1e-6);
+    assert_below(fabs(rg_cell_image_ms(&plain, &slow) - (7 + 9 * 3 + 500)), 1e-6);
 }
 
 int main(void)

@@ -16,6 +16,7 @@
 #include "core/base/log.h"
 #include "harness/console/clock.h"
 #include "harness/tables/runs/regenerate.h"
+#include "tests/expect.h"
 #include "tests/harness/results/planning/slow.h"
 
 enum { MOST_ROWS = 40, MOST_LINES = 64, MOST_TABLES = 3, RUNS = 24 };
@@ -39,7 +40,7 @@ static void hear(enum rg_log_level level, const char *line, void *user)
     char unit[8];
     if (sscanf(line, "about %lf %7s", &value, unit) != 2)
         return;
-    assert_true(told.count < MOST_LINES);
+    assert_below(told.count, MOST_LINES);
     const double ms = value * (!strcmp(unit, "h") ? 3.6e6 : !strcmp(unit, "min") ? 6e4 : 1e3);
     const double passed_ms = rg_now_ms() - told.start_ms;
     told.lines[told.count].at_ms = rg_now_ms();
@@ -172,8 +173,8 @@ static void what_is_told_is_right_within_three_times(void **state)
     print_message("%d runs: %d told a time, in %d of them each was right within three times; of %d "
                   "lines %d were\n",
                   runs, spoke, all_right, lines, right_lines);
-    assert_true(spoke >= RUNS / 2);
-    assert_true(all_right >= 0.95 * spoke);
+    assert_at_least(spoke, RUNS / 2);
+    assert_at_least(all_right, 0.95 * spoke);
 }
 
 // Once rows are open it is known what is left.
@@ -184,9 +185,9 @@ static void rows_that_are_alike_are_told(void **state)
     const struct rg_table *const tables[] = {&u.table};
     make(&u, "slow", 20, alike, 1);
     const double end_ms = run(tables, 1);
-    assert_true(told.count >= 3);
+    assert_at_least(told.count, 3);
     assert_int_equal(right(end_ms, 2), told.count);
-    assert_true(told.lines[0].at_ms - told.start_ms < 0.6 * (end_ms - told.start_ms));
+    assert_below(told.lines[0].at_ms - told.start_ms, 0.6 * (end_ms - told.start_ms));
 }
 
 // What a table takes that is not begun does not follow from others.
@@ -197,10 +198,10 @@ static void tables_that_follow_are_not_foretold(void **state)
     const struct rg_table *const tables[] = {&u[0].table, &u[1].table};
     make(&u[0], "slow", 20, alike, 1);
     run(tables, 1);
-    assert_true(told.count > 0);
+    assert_above(told.count, 0);
     make(&u[1], "other", 20, alike, 100);
     const double end_ms = run(tables, 2);
-    assert_true(told.count > 0);
+    assert_above(told.count, 0);
     assert_int_equal(right(end_ms, 2), told.count);
 }
 

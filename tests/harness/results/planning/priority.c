@@ -12,6 +12,7 @@
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/runs/needed.h"
 #include "harness/tables/runs/order.h"
+#include "tests/expect.h"
 
 enum { CPU = 1, GL = 2, REFERENCE = 4 };
 static const struct rg_order_devices devices = {
@@ -94,8 +95,11 @@ static void the_order_is_that_of_priority(void **state)
     for (int i = 0; i < TABLES; i++) {
         assert_int_equal(s[i].share.devices, devices.all);
         assert_int_equal(s[i].share.divisor, 1);
-        assert_true(s[i].share.all_samples && s[i].share.all_rows && s[i].share.all_variants &&
-                    s[i].share.all_works && s[i].rows == 5);
+        assert_true(s[i].share.all_samples);
+        assert_true(s[i].share.all_rows);
+        assert_true(s[i].share.all_variants);
+        assert_true(s[i].share.all_works);
+        assert_equals(s[i].rows, 5);
     }
 }
 
@@ -124,15 +128,18 @@ static void what_cells_take_follows_from_others(void **state)
     begin(s);
     next(s, 5);
     assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
-    assert_true(step.table == 1 && step.expected_s == 0);
+    assert_equals(step.table, 1);
+    assert_equals(step.expected_s, 0);
     next(s, 1);
     assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
-    assert_true(step.table == 2 && step.expected_s == 5);
+    assert_equals(step.table, 2);
+    assert_equals(step.expected_s, 5);
     for (int i = 0; i < 4; i++)
         next(s, 3);
     // Three rows on gl, of which nothing is known: no less than on cpu.
     assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
-    assert_true(step.turn == RG_TURN_CLAIMED && step.expected_s == 3 * 3);
+    assert_equals(step.turn, RG_TURN_CLAIMED);
+    assert_equals(step.expected_s, 3 * 3);
     next(s, 3);
     // The other table of its technique takes twice as long there, too; its cells take 3 s now.
     struct rg_step of = {.table = 0, .turn = RG_TURN_DEVICES};
@@ -141,7 +148,7 @@ static void what_cells_take_follows_from_others(void **state)
         of = step.table == 0 ? step : of;
         rg_order_tried(s, &step);
     }
-    assert_true(of.expected_s == 3 * 2 * 3);
+    assert_equals(of.expected_s, 3 * 2 * 3);
 }
 
 // Whole pictures where there is time for those of all tables, and half of the size where there is
@@ -161,7 +168,7 @@ static void pictures_grow_as_far_as_there_is_time(void **state)
         assert_true(rg_order_next(s, TABLES, &devices, left_s, &step));
         assert_int_equal(step.turn, RG_TURN_BETTER);
         assert_int_equal(step.share.divisor, much ? 1 : 2);
-        assert_true(step.expected_s == 9 * 2 * (much ? 16 : 4));
+        assert_equals(step.expected_s, 9 * 2 * (much ? 16 : 4));
     }
 }
 
@@ -171,9 +178,9 @@ static void time_is_shared_among_those_that_wait(void **state)
     (void)state;
     struct rg_standing s[TABLES];
     begin(s);
-    assert_true(rg_order_part_s(s, TABLES, 60) == 20);
+    assert_equals(rg_order_part_s(s, TABLES, 60), 20);
     next(s, 5);
-    assert_true(rg_order_part_s(s, TABLES, 60) == 30);
+    assert_equals(rg_order_part_s(s, TABLES, 60), 30);
 }
 
 // The ends and the middle of each table, and what claims end without.
@@ -193,7 +200,9 @@ static void rows_of_curves_and_claims_are_needed(void **state)
         for (int row = 1; row < last - 1; row++)
             between = between || rows[row];
         assert_true(rows[0] && between && rows[last - 1]);
-        assert_true(count <= t->row_count && rg_needed_variants(t, variants) >= 1 && variants[0]);
+        assert_at_most(count, t->row_count);
+        assert_at_least(rg_needed_variants(t, variants), 1);
+        assert_true(variants[0]);
         for (const struct rg_claim *c = rg_claims; c->table; c++) {
             if (strcmp(c->table, t->id) != 0)
                 continue;

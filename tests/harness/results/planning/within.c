@@ -16,6 +16,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/tables/runs/budget.h"
+#include "tests/expect.h"
 #include "tests/harness/results/planning/slow.h"
 
 enum { TABLES = 4, ROWS = 4 };
@@ -82,7 +83,7 @@ static int print(const struct rg_result *result, const void *user)
         assert_true(rg_record_is_whole(record));
         got.tables[i].cells += record->outcome == RG_OK && record->sample_count > 0;
     }
-    assert_true(rg_result_first_missing(result) > result->last_row);
+    assert_above(rg_result_first_missing(result), result->last_row);
     got.tables[i].devices = result->device_count;
     got.tables[i].variants = result->variant_count;
     got.tables[i].works = result->work_count;
@@ -172,12 +173,12 @@ static void each_table_gets_a_row_before_one_gets_more(void **state)
             least = got.tables[i].rows < least ? got.tables[i].rows : least;
             with_gl += got.tables[i].devices > 1;
         }
-        assert_true(least > 0);
+        assert_above(least, 0);
         assert_true(!with_gl || got.tables[0].rows >= 3);
         full += least >= 3;
         assert_true(!full || least >= 3);
     }
-    assert_true(full > 0);
+    assert_above(full, 0);
 }
 
 // --- a budget is kept ---
@@ -201,7 +202,7 @@ static void a_budget_begins_with_the_command(void **state)
     (void)state;
     run(TABLES, 100, (struct fate){.passed_s = 50});
     const int late_rows = got.tables[0].rows + got.tables[1].rows;
-    assert_true(got.over_s <= most_cell_s);
+    assert_at_most(got.over_s, most_cell_s);
     run(TABLES, 50, (struct fate){0});
     assert_int_equal(got.tables[0].rows + got.tables[1].rows, late_rows);
 }
@@ -212,7 +213,7 @@ static void what_would_not_end_in_time_is_skipped(void **state)
     (void)state;
     run(2, 30, (struct fate){0});
     assert_true(got.tables[0].devices > 1 || got.tables[0].rows >= 3); // the light one goes on
-    assert_true(got.tables[1].rows < 3);
+    assert_below(got.tables[1].rows, 3);
     expect_told("  slow-2 ");
     expect_told(" would take ");
     expect_told(" s were left)\n");
@@ -226,10 +227,10 @@ static void a_budget_for_no_row_is_refused(void **state)
         run(TABLES, 0.5, (struct fate){.passed_s = passed_s});
         assert_int_equal(got.exit, RG_EXIT_USAGE);
         assert_int_equal(got.printed, 0);
-        assert_true(got.needed_s > passed_s);
+        assert_above(got.needed_s, passed_s);
         run(TABLES, got.needed_s, (struct fate){.passed_s = passed_s});
         assert_int_equal(got.exit, 0);
-        assert_true(got.printed > 0);
+        assert_above(got.printed, 0);
     }
 }
 
@@ -250,7 +251,7 @@ static void what_is_interrupted_prints_what_there_is(void **state)
     (void)state;
     run(TABLES, 1e4, (struct fate){.interrupted = 30});
     assert_int_equal(got.exit, RG_EXIT_SIGNALLED + SIGINT);
-    assert_true(got.printed > 0);
+    assert_above(got.printed, 0);
 }
 
 int main(void)

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "tests/expect.h"
 #include "tests/oracle/drops/cases/rig.h"
 #include "tests/oracle/drops/drops.h"
 #include "tests/oracle/drops/particles.h"
@@ -25,11 +26,12 @@ static void test_affinity(void **state)
     for (int i = 0; i < CELLS; i++) {
         none += o.affinity[i] == 0;
         all += o.affinity[i] == 1;
-        assert_true(o.affinity[i] >= 0 && o.affinity[i] <= 1);
+        assert_at_least(o.affinity[i], 0);
+        assert_at_most(o.affinity[i], 1);
     }
     const double bound = 4 * sqrt(0.36944 * (1 - 0.36944) / CELLS);
-    assert_true(fabs((double)none / CELLS - 0.36944) < bound);
-    assert_true(fabs((double)all / CELLS - 0.36944) < bound);
+    assert_below(fabs((double)none / CELLS - 0.36944), bound);
+    assert_below(fabs((double)all / CELLS - 0.36944), bound);
     oracle_drops_close(&o);
 }
 
@@ -46,7 +48,7 @@ static void test_generation(void **state)
     oracle_drops_open(&o, &s);
     for (int i = 0; i < STEPS; i++)
         oracle_drops_generate(&o);
-    assert_true(fabs(o.count - 2.3 * STEPS) < 4 * sqrt(STEPS * 0.3 * 0.7));
+    assert_below(fabs(o.count - 2.3 * STEPS), 4 * sqrt(STEPS * 0.3 * 0.7));
     double x = 0, y = 0, mass = 0, squares = 0;
     for (int i = 0; i < o.count; i++) {
         x += o.drops[i].x_mm / o.count;
@@ -54,10 +56,10 @@ static void test_generation(void **state)
         mass += o.drops[i].mass_mg / o.count;
         squares += pow(o.drops[i].mass_mg - 20.2, 2) / o.count;
     }
-    assert_true(fabs(x - 30) < 4 * 60 / sqrt(12.0 * o.count));
-    assert_true(fabs(y - 22.5) < 4 * 45 / sqrt(12.0 * o.count));
-    assert_true(fabs(mass - 20.2) < 4 * 1.5 / sqrt(o.count));
-    assert_true(fabs(squares - 2.25) < 4 * 2.25 * sqrt(2.0 / o.count));
+    assert_below(fabs(x - 30), 4 * 60 / sqrt(12.0 * o.count));
+    assert_below(fabs(y - 22.5), 4 * 45 / sqrt(12.0 * o.count));
+    assert_below(fabs(mass - 20.2), 4 * 1.5 / sqrt(o.count));
+    assert_below(fabs(squares - 2.25), 4 * 2.25 * sqrt(2.0 / o.count));
     oracle_drops_close(&o);
 }
 
@@ -114,7 +116,7 @@ static void test_residue(void **state)
             oracle_drops_step(&o);
         assert_int_equal(o.ledger.residuals, o.count - DROPS);
         assert_int_equal(o.ledger.drained_drops, 0);
-        assert_true(fabs(o.ledger.residuals - DROPS * mean) < 4 * sqrt(DROPS * variance));
+        assert_below(fabs(o.ledger.residuals - DROPS * mean), 4 * sqrt(DROPS * variance));
         oracle_drops_close(&o);
     }
 }
@@ -131,9 +133,11 @@ static void test_limit(void **state)
     oracle_drops_open(&o, &s);
     oracle_drops_add(&o, 25, 40, 21);
     oracle_drops_step(&o);
-    assert_true(o.drops[0].tau_s > 0);
+    assert_above(o.drops[0].tau_s, 0);
     oracle_drops_step(&o);
-    assert_true(o.drops[0].tau_s == 0 && o.drops[0].mass_mg == 21 && o.count == 1);
+    assert_equals(o.drops[0].tau_s, 0);
+    assert_equals(o.drops[0].mass_mg, 21);
+    assert_equals(o.count, 1);
     oracle_drops_close(&o);
 }
 
@@ -160,14 +164,16 @@ static void test_balance(void **state)
             oracle_drops_delete(&a), oracle_drops_delete(&b);
         const struct oracle_drops_measures m = oracle_drops_measure(&a);
         const double kept = m.mass_mg + m.drained_mg + a.ledger.deleted_mg;
-        assert_true(fabs(kept - a.ledger.generated_mg) < 1e-12 * i * a.ledger.generated_mg + 1e-12);
-        assert_true(m.drops <= 60);
+        assert_below(fabs(kept - a.ledger.generated_mg), 1e-12 * i * a.ledger.generated_mg + 1e-12);
+        assert_at_most(m.drops, 60);
         for (int d = 0; d < a.count; d++)
             assert_true(!a.drops[d].is_static || a.drops[d].mass_mg <= 20);
         for (int c = 0; c < 120 * 90; c++)
             assert_true(a.id[c] < a.next_id && (a.id[c] == 0 || a.height_mm[c] > 0));
     }
-    assert_true(a.ledger.merges > 20 && a.ledger.residuals > 20 && a.ledger.drained_drops > 20);
+    assert_above(a.ledger.merges, 20);
+    assert_above(a.ledger.residuals, 20);
+    assert_above(a.ledger.drained_drops, 20);
     assert_memory_equal(a.height_mm, b.height_mm, sizeof(double) * 120 * 90);
     assert_memory_equal(a.id, b.id, sizeof(uint32_t) * 120 * 90);
     assert_memory_not_equal(a.height_mm, other.height_mm, sizeof(double) * 120 * 90);

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "tests/expect.h"
 #include "tests/oracle/drops/cases/rig.h"
 #include "tests/oracle/drops/drops.h"
 #include "tests/oracle/drops/map.h"
@@ -21,12 +22,13 @@ static void test_hemisphere(void **state)
     oracle_drops_open(&o, &s);
     const double radius = 3, mass = 2.0 / 3 * M_PI * radius * radius * radius;
     oracle_drops_place(&o, 7, 10.013, 7.021, mass);
-    assert_true(fabs(water(&o) * 0.05 * 0.05 / mass - 1) < 1e-3);
-    assert_true(fabs(owned(&o, 7) * 0.05 * 0.05 / (M_PI * radius * radius) - 1) < 5e-3);
+    assert_below(fabs(water(&o) * 0.05 * 0.05 / mass - 1), 1e-3);
+    assert_below(fabs(owned(&o, 7) * 0.05 * 0.05 / (M_PI * radius * radius) - 1), 5e-3);
     // A smaller one inside changes nothing; beside it, the higher of the two counts.
     const double before = water(&o);
     oracle_drops_place(&o, 8, 10.013, 7.021, mass / 2);
-    assert_true(water(&o) == before && owned(&o, 8) == 0);
+    assert_equals(water(&o), before);
+    assert_equals(owned(&o, 8), 0);
     oracle_drops_place(&o, 9, 13.013, 7.021, mass);
     assert_int_equal(owner(&o, 11.4, 7), 7);
     assert_int_equal(owner(&o, 11.6, 7), 9);
@@ -48,14 +50,14 @@ static void test_smoothing(void **state)
     oracle_drops_step(&o);
     for (int i = 0; i < 9; i++)
         for (int j = 0; j < 12; j++)
-            assert_true(o.height_mm[i * 12 + j] == (abs(i - 4) <= 1 && abs(j - 5) <= 1));
+            assert_equals(o.height_mm[i * 12 + j], (abs(i - 4) <= 1 && abs(j - 5) <= 1));
     for (int i = 0; i < 1500; i++)
         oracle_drops_step(&o);
-    assert_true(fabs(water(&o) - 9) < 1e-11);
-    assert_true(fabs(o.height_mm[0] - 9.0 / (9 * 12)) < 1e-9);
+    assert_below(fabs(water(&o) - 9), 1e-11);
+    assert_below(fabs(o.height_mm[0] - 9.0 / (9 * 12)), 1e-9);
     o.settings.erode_threshold_mm = 0.1;
     oracle_drops_step(&o);
-    assert_true(water(&o) == 0);
+    assert_equals(water(&o), 0);
     oracle_drops_close(&o);
 }
 
@@ -83,7 +85,7 @@ static void test_ids_spread(void **state)
         oracle_drops_smooth(&o);
     for (int i = 0; i < 12 * 9; i++)
         assert_true(o.id[i] == 0 || o.height_mm[i] >= 0.5);
-    assert_true(owned(&o, 5) > 20);
+    assert_above(owned(&o, 5), 20);
     oracle_drops_close(&o);
 }
 
@@ -105,10 +107,12 @@ static void test_erosion(void **state)
             const int steps = edge ? k : (k + 1) / 2;
             for (int i = 0; i < steps; i++) {
                 const int left = edge ? k - i : k - 2 * i;
-                assert_true(water(&o) == left && owned(&o, 1) == left);
+                assert_equals(water(&o), left);
+                assert_equals(owned(&o, 1), left);
                 oracle_drops_step(&o);
             }
-            assert_true(water(&o) == 0 && owned(&o, 0) == 60);
+            assert_equals(water(&o), 0);
+            assert_equals(owned(&o, 0), 60);
             oracle_drops_close(&o);
         }
     }
@@ -126,19 +130,20 @@ static void test_deletion(void **state)
     oracle_drops_open(&o, &s);
     for (int i = 0; i < 600; i++)
         oracle_drops_step(&o);
-    assert_true(oracle_drops_measure(&o).wet_cells > 500);
+    assert_above(oracle_drops_measure(&o).wet_cells, 500);
     o.settings.drops_a_step = 0;
     oracle_drops_delete(&o);
     double before = water(&o);
     for (int i = 0; i < 1000 && before > 0; i++) {
         oracle_drops_step(&o);
         const double now = water(&o);
-        assert_true(now < before + 1e-9);
+        assert_below(now, before + 1e-9);
         before = now;
     }
     assert_int_equal(oracle_drops_measure(&o).wet_cells, 0);
     assert_int_equal(owned(&o, 0), 160 * 100);
-    assert_true(o.count == 0 && o.ledger.deleted_mg > 0);
+    assert_equals(o.count, 0);
+    assert_above(o.ledger.deleted_mg, 0);
     oracle_drops_close(&o);
 }
 

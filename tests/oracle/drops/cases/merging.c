@@ -7,6 +7,7 @@
 #include <cmocka.h>
 #include <math.h>
 
+#include "tests/expect.h"
 #include "tests/oracle/drops/cases/rig.h"
 #include "tests/oracle/drops/drops.h"
 #include "tests/oracle/drops/map.h"
@@ -36,15 +37,17 @@ static void test_merge(void **state)
     assert_int_equal(o.ledger.merges, 1);
     const struct oracle_drop *one = &o.drops[0], *a = &twin.drops[0], *b = &twin.drops[1];
     const struct oracle_drop *lower = a->y_mm < b->y_mm ? a : b;
-    assert_true(one->mass_mg == 80);
-    assert_true(one->x_mm == lower->x_mm && one->y_mm == lower->y_mm);
-    assert_true(fabs(one->vy_mm_s - (50 * a->vy_mm_s + 30 * b->vy_mm_s) / 80) < 1e-9);
-    assert_true(fabs(one->vx_mm_s - (50 * a->vx_mm_s + 30 * b->vx_mm_s) / 80) < 1e-9);
-    assert_true(a->vx_mm_s != 0 && b->vx_mm_s != 0);
+    assert_equals(one->mass_mg, 80);
+    assert_equals(one->x_mm, lower->x_mm);
+    assert_equals(one->y_mm, lower->y_mm);
+    assert_below(fabs(one->vy_mm_s - (50 * a->vy_mm_s + 30 * b->vy_mm_s) / 80), 1e-9);
+    assert_below(fabs(one->vx_mm_s - (50 * a->vx_mm_s + 30 * b->vx_mm_s) / 80), 1e-9);
+    assert_differs(a->vx_mm_s, 0);
+    assert_differs(b->vx_mm_s, 0);
     assert_int_equal(one->id, 3);
     // Its hemisphere stands: a radius of 3.37 mm, where 50 mg have 2.88.
     const struct oracle_drops_cell at = oracle_drops_cell_at(&o, one->x_mm, one->y_mm);
-    assert_true(fabs(o.height_mm[at.row * 61 + at.column] - 3.36) < 0.02);
+    assert_below(fabs(o.height_mm[at.row * 61 + at.column] - 3.36), 0.02);
     assert_int_equal(owner(&o, one->x_mm, one->y_mm), 3);
     oracle_drops_close(&o);
     oracle_drops_close(&twin);
@@ -76,7 +79,9 @@ static void test_dead_regions(void **state)
     oracle_drops_step(&o); // one lives
     assert_int_equal(owned(&o, living), four + left);
     assert_int_equal(owned(&o, 3), three);
-    assert_true(o.count == 1 && o.drops[0].id == living && o.drops[0].mass_mg == 15);
+    assert_equals(o.count, 1);
+    assert_equals(o.drops[0].id, living);
+    assert_equals(o.drops[0].mass_mg, 15);
     assert_int_equal(o.ledger.merges, 0);
     oracle_drops_close(&o);
 }
@@ -154,7 +159,8 @@ static void test_parents(void **state)
         oracle_drops_step(&o);
         assert_int_equal(o.ledger.residuals, 1);
         o.settings.residual = false;
-        assert_true(o.drops[0].mass_mg == 20.5 && o.drops[1].mass_mg == 20);
+        assert_equals(o.drops[0].mass_mg, 20.5);
+        assert_equals(o.drops[1].mass_mg, 20);
         assert_int_equal(o.drops[1].parent_id, 1);
         if (stranger)
             o.drops[1].parent_id = 0;

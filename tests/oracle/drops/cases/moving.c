@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "tests/expect.h"
 #include "tests/oracle/drops/cases/rig.h"
 #include "tests/oracle/drops/drops.h"
 #include "tests/oracle/drops/map.h"
@@ -33,10 +34,11 @@ static void test_fall(void **state)
             oracle_drops_step(&o);
             const struct oracle_drop *drop = &o.drops[0];
             assert_false(drop->is_static);
-            assert_true(fabs(drop->vy_mm_s + n * a * h) < 1e-9);
-            assert_true(fabs(drop->y_mm - (y - a * h * h * n * (n + 1) / 2)) < 1e-9);
-            assert_true(drop->x_mm == x && drop->vx_mm_s == 0);
-            assert_true(fabs(o.ledger.trail_mm - (y - drop->y_mm)) < 1e-9);
+            assert_below(fabs(drop->vy_mm_s + n * a * h), 1e-9);
+            assert_below(fabs(drop->y_mm - (y - a * h * h * n * (n + 1) / 2)), 1e-9);
+            assert_equals(drop->x_mm, x);
+            assert_equals(drop->vx_mm_s, 0);
+            assert_below(fabs(o.ledger.trail_mm - (y - drop->y_mm)), 1e-9);
         }
         oracle_drops_close(&o);
     }
@@ -54,16 +56,22 @@ static void test_rest(void **state)
     o.settings.tilt_deg = 80;
     for (int i = 0; i < 50; i++)
         oracle_drops_step(&o);
-    assert_true(o.drops[0].y_mm == 40 && o.drops[1].y_mm == 40 && o.ledger.trail_mm == 0);
+    assert_equals(o.drops[0].y_mm, 40);
+    assert_equals(o.drops[1].y_mm, 40);
+    assert_equals(o.ledger.trail_mm, 0);
     o.settings.tilt_deg = 90;
     oracle_drops_step(&o);
-    assert_true(o.drops[0].is_static && o.drops[0].y_mm == 40);
-    assert_true(!o.drops[1].is_static && o.drops[1].y_mm < 40);
+    assert_true(o.drops[0].is_static);
+    assert_equals(o.drops[0].y_mm, 40);
+    assert_true(!o.drops[1].is_static);
+    assert_below(o.drops[1].y_mm, 40);
     // One that has become too light stops where it is.
     const double y = o.drops[1].y_mm;
     o.drops[1].mass_mg = 19;
     oracle_drops_step(&o);
-    assert_true(o.drops[1].y_mm == y && o.drops[1].vy_mm_s == 0 && o.drops[1].is_static);
+    assert_equals(o.drops[1].y_mm, y);
+    assert_equals(o.drops[1].vy_mm_s, 0);
+    assert_true(o.drops[1].is_static);
     oracle_drops_close(&o);
 }
 
@@ -91,7 +99,7 @@ static void test_direction(void **state)
             oracle_drops_find_wet(&o);
             oracle_drops_step(&o);
             const double slope = o.drops[0].vx_mm_s / -o.drops[0].vy_mm_s;
-            assert_true(fabs(slope - side * 2.0 / 3) < 1e-12);
+            assert_below(fabs(slope - side * 2.0 / 3), 1e-12);
             oracle_drops_close(&o);
         }
     }
@@ -114,15 +122,15 @@ static void test_meander(void **state)
         memset(o.height_mm, 0, sizeof(*o.height_mm) * 2000 * 40);
         oracle_drops_step(&o);
         const double angle = atan2(o.drops[0].vx_mm_s, -o.drops[0].vy_mm_s);
-        assert_true(fabs(angle) <= 0.3);
+        assert_at_most(fabs(angle), 0.3);
         sum += angle;
         squares += angle * angle;
         oracle_drops_delete(&o);
     }
     const double variance = 0.3 * 0.3 / 3;
-    assert_true(fabs(sum / DROPS) < 4 * sqrt(variance / DROPS));
+    assert_below(fabs(sum / DROPS), 4 * sqrt(variance / DROPS));
     // The square of a uniform number has the variance 4/45 of its greatest value's square.
-    assert_true(fabs(squares / DROPS - variance) < 4 * sqrt(4.0 / 45 / DROPS) * 0.09);
+    assert_below(fabs(squares / DROPS - variance), 4 * sqrt(4.0 / 45 / DROPS) * 0.09);
     oracle_drops_close(&o);
 }
 

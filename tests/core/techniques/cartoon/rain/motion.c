@@ -14,6 +14,7 @@
 
 #include "core/base/log.h"
 #include "tests/core/techniques/cartoon/rain/rig.h"
+#include "tests/expect.h"
 
 #define SIZE_PX 96
 
@@ -131,7 +132,7 @@ static void quadratic_drag_has_a_terminal_speed(void **state)
             rig_expect("terminal speed", -(double)rain.drops[i].vy, sqrt(9.81 / 0.3), 0.01);
             old++;
         }
-    assert_true(old > 100);
+    assert_above(old, 100);
     rig_free(&rain);
     rig_close(c);
 }
@@ -213,7 +214,10 @@ static void drops_start_by_chance(void **state)
     expect_mean("north", sums[NORTH], count, 0, sqrt(across2));
     expect_mean("east squared", sums[EAST2], count, across2, 0.07);
     rig_expect("the cone's edge", lowest, edge, 1e-3);
-    assert_true(least > -1e-4 && least < 0.002 && most < 1 + 1e-4 && most > 0.998);
+    assert_above(least, -1e-4);
+    assert_below(least, 0.002);
+    assert_below(most, 1 + 1e-4);
+    assert_above(most, 0.998);
     rig_free(&rain);
     rig_close(c);
 }
@@ -251,8 +255,10 @@ static void look_at_lists(const struct step *s)
             slot++;
         assert_int_equal(s->is.living[p->drop_slots + sprays++], slot);
         const cartoon_spray *spray = &s->is.sprays[slot++];
-        assert_true(spray->x == d->x && spray->y == d->y && spray->z == d->z);
-        assert_true(spray->weight == d->size);
+        assert_equals(spray->x, d->x);
+        assert_equals(spray->y, d->y);
+        assert_equals(spray->z, d->z);
+        assert_equals(spray->weight, d->size);
         splashed++;
     }
     for (int i = 0; i < s->is.spray_slots; i++)
@@ -382,7 +388,8 @@ static void put_script(const char *path, const char *text)
 {
     FILE *out = fopen(path, "w");
     assert_non_null(out);
-    assert_true(fputs(text, out) >= 0 && !fclose(out));
+    assert_at_least(fputs(text, out), 0);
+    assert_true(!fclose(out));
 }
 
 static void wind_goes_by_its_script(void **state)
@@ -390,7 +397,8 @@ static void wind_goes_by_its_script(void **state)
     (void)state;
     char path[] = "/tmp/raingauge-wind-XXXXXX", settings[128];
     const int file = mkstemp(path);
-    assert_true(file >= 0 && !close(file));
+    assert_at_least(file, 0);
+    assert_true(!close(file));
     put_script(path, "# two gusts\n0 4 0\n1 8 90 # it turns\n\n3 0 90\n");
     snprintf(settings, sizeof(settings), "drops_s=0 wind=script wind_script=%s", path);
     struct cartoon *c = rig_open(device, settings, 32, 32);
@@ -413,7 +421,8 @@ static void wind_scripts_are_checked(void **state)
     (void)state;
     char path[] = "/tmp/raingauge-wind-XXXXXX", text[1024];
     const int file = mkstemp(path);
-    assert_true(file >= 0 && !close(file));
+    assert_at_least(file, 0);
+    assert_true(!close(file));
     static const char *const bad[] = {
         "",          "1 2\n",     "1 400 0\n",  "1 2 3\n1 2 3\n",
         "1 2 3 4\n", "1 2 1e7\n", "1 2 -inf\n", "-1e7 2 3\n1e7 2 3\n"};
@@ -424,7 +433,8 @@ static void wind_scripts_are_checked(void **state)
     }
     snprintf(text, sizeof(text), "1 2 3 # %0500d 4 5 6\n2 3 4\n", 0);
     put_script(path, text);
-    assert_true(cartoon_wind_read(path, &script) && script.count == 2);
+    assert_true(cartoon_wind_read(path, &script));
+    assert_equals(script.count, 2);
     put_script(path, "\xef\xbb\xbf"
                      "1 2 3\n2 3 4\n"); // some editors begin so
     assert_true(cartoon_wind_read(path, &script) && script.count == 2);
@@ -441,10 +451,11 @@ static void a_long_wind_script_is_refused(void **state)
     char path[] = "/tmp/raingauge-wind-XXXXXX";
     const int file = mkstemp(path);
     struct cartoon_wind_script script;
-    assert_true(file >= 0);
+    assert_at_least(file, 0);
     put_script(path, "1 2 3\n#");
     assert_int_equal(ftruncate(file, 256 << 10), 0);
-    assert_true(cartoon_wind_read(path, &script) && script.count == 1);
+    assert_true(cartoon_wind_read(path, &script));
+    assert_equals(script.count, 1);
     assert_int_equal(ftruncate(file, (256 << 10) + 1), 0);
     assert_false(cartoon_wind_read(path, &script));
     assert_non_null(strstr(rg_last_error(), "has more than 256 KiB; name a file of winds"));
@@ -466,9 +477,11 @@ static void wind_blows_by_chance(void **state)
         cartoon_wind_at(&s, NULL, 7, i * 0.01, again);
         cartoon_wind_at(&s, NULL, 8, i * 0.01, other);
         const double speed = hypot(wind[0], wind[1]);
-        assert_true(speed >= 5 - 1e-9 && speed <= 15 + 1e-9);
-        assert_true(hypot(wind[0] - before[0], wind[1] - before[1]) < 0.5);
-        assert_true(wind[0] == again[0] && wind[1] == again[1]);
+        assert_at_least(speed, 5 - 1e-9);
+        assert_at_most(speed, 15 + 1e-9);
+        assert_below(hypot(wind[0] - before[0], wind[1] - before[1]), 0.5);
+        assert_equals(wind[0], again[0]);
+        assert_equals(wind[1], again[1]);
         assert_true(i % 200 == 0 || wind[0] != other[0]);
         sum += speed;
         most_turn = fmax(most_turn, fabs(atan2(-wind[1], wind[0])));
@@ -476,7 +489,8 @@ static void wind_blows_by_chance(void **state)
     }
     rig_expect("mean speed", sum / 20000, 10, 1.2);
     const double widest = 20 * acos(-1) / 180;
-    assert_true(most_turn < widest + 1e-9 && most_turn > 0.7 * widest);
+    assert_below(most_turn, widest + 1e-9);
+    assert_above(most_turn, 0.7 * widest);
 }
 
 int main(int argc, char **argv)

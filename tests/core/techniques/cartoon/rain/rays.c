@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/cartoon/rain/rig.h"
+#include "tests/expect.h"
 
 #define PLACED_M  2e-6 // by which places in floats are off; along a way that grazes, more
 #define ROUNDED_M 2e-5 // of where a ray in floats meets a face
@@ -175,7 +176,7 @@ static void expect_hits(const char *settings, int from, int to, int least, doubl
         fail_msg("%d hits, %d of them hidden", n.hits, n.hidden);
     rig_expect("a hit behind the mesh", n.off_m, 0, precision_m + ROUNDED_M);
     // Bisection is no finer than it was told.
-    assert_true(n.off_m > precision_m / 2);
+    assert_above(n.off_m, precision_m / 2);
 }
 
 // Nothing but the face map says what hides a face: what is smaller than its texels may, such as the

@@ -14,6 +14,7 @@
 #include "core/scene/mesh/edges.h"
 #include "tests/core/techniques/cartoon/rig.h"
 #include "tests/core/techniques/cartoon/scene/shapes.h"
+#include "tests/expect.h"
 
 enum { SIZE = 240 };
 static const double ANGLE_DEG = 40;
@@ -287,7 +288,8 @@ static void a_ball_has_a_round_contour(void **state)
         if (d.ink[i] <= 0)
             continue;
         // Edges of a polygon zigzag about it by half a face, inwards by their sagitta.
-        assert_true(off < 2.1 && off > -4.5);
+        assert_below(off, 2.1);
+        assert_above(off, -4.5);
         if (d.ink[i] > 0.5f)
             met[(int)(atan2(y, x) / M_PI * 180 + 360) % 360] = true;
     }
@@ -320,8 +322,8 @@ static void a_sheet_has_a_boundary(void **state)
             struct drawing d = outline(*state, s, eye, origin, pens[k]);
             assert_int_equal(count_drawn(&d, 60), 4);
             const double width = ink_of_rect(&d, 100, 0, 140, SIZE / 2) / 40;
-            assert_true(fabs(width - due[k]) < 0.04);
-            assert_true(ink_of_rect(&d, 60, 60, 180, 180) == 0); // within
+            assert_below(fabs(width - due[k]), 0.04);
+            assert_equals(ink_of_rect(&d, 60, 60, 180, 180), 0); // within
             drawing_free(&d);
         }
     }
@@ -365,8 +367,8 @@ static void a_line_ends_behind_a_wall(void **state)
     struct drawing d = outline(*state, s, eye, origin, (struct pen){2, 0, 40, 1000});
     const double focal = SIZE / 2.0 / tan(ANGLE_DEG / 360 * M_PI);
     const int row = (int)(SIZE / 2.0 - 0.5 * focal / 5);
-    assert_true(fabs(ink_of_rect(&d, 125, row - 3, 165, row + 4) - 80) < 2);
-    assert_true(ink_of_rect(&d, 75, row - 3, 116, row + 4) == 0);
+    assert_below(fabs(ink_of_rect(&d, 125, row - 3, 165, row + 4) - 80), 2);
+    assert_equals(ink_of_rect(&d, 75, row - 3, 116, row + 4), 0);
     drawing_free(&d);
     free(s);
 }
@@ -387,7 +389,8 @@ static void a_crease_in_a_corner_is_whole(void **state)
         int columns = 0;
         for (int x = 0; x < SIZE; x++)
             columns += ink_of_rect(&d, x, 0, x + 1, SIZE) > 1.6;
-        assert_true(most > 2 * SIZE && columns > SIZE - 4);
+        assert_above(most, 2 * SIZE);
+        assert_above(columns, SIZE - 4);
         drawing_free(&d);
     }
     free(s);
@@ -420,7 +423,7 @@ static void ends_are_round(void **state)
     add_sheet(s, -side, side, -side, side, 0);
     struct drawing d = outline(*state, s, eye, origin, (struct pen){8, 0, 40, 1000});
     const double due = M_PI / 4 * (4 * 4 + 1 / 12.0);
-    assert_true(fabs(ink_of_rect(&d, 180, 180, SIZE, SIZE) - due) < 0.5);
+    assert_below(fabs(ink_of_rect(&d, 180, 180, SIZE, SIZE) - due), 0.5);
     drawing_free(&d);
     free(s);
 }
@@ -438,7 +441,7 @@ static void crossings_are_no_darker(void **state)
     const double focal = SIZE / 2.0 / tan(ANGLE_DEG / 360 * M_PI);
     const int at = (int)(SIZE / 2.0 + 0.5 * focal / 4); // where two boundaries cross
     const double crossed = ink_of_rect(&d, at - 6, at - 6, at + 6, at + 6);
-    assert_true(fabs(crossed - (2 * 3 * 12 - 9)) < 1.2);
+    assert_below(fabs(crossed - (2 * 3 * 12 - 9)), 1.2);
     drawing_free(&d);
     free(s);
 }

@@ -1,4 +1,5 @@
 #include "tests/core/techniques/cartoon/scene/shapes.h"
+#include "tests/expect.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,7 +11,7 @@
 static uint32_t add_vertex(struct shape *s, double x, double y, double z)
 {
     const double p[3] = {x, y, z};
-    assert_true(s->vertices < SHAPE_MOST);
+    assert_below(s->vertices, SHAPE_MOST);
     for (int c = 0; c < 3; c++)
         s->positions[3 * s->vertices + c] = (float)p[c];
     return (uint32_t)s->vertices++;
@@ -18,7 +19,7 @@ static uint32_t add_vertex(struct shape *s, double x, double y, double z)
 
 static void add_face(struct shape *s, uint32_t a, uint32_t b, uint32_t c)
 {
-    assert_true(s->faces < SHAPE_MOST);
+    assert_below(s->faces, SHAPE_MOST);
     const uint32_t corners[3] = {a, b, c};
     for (int k = 0; k < 3; k++)
         s->indices[3 * s->faces + k] = corners[k];

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/cartoon/rig.h"
+#include "tests/expect.h"
 
 enum { TONES = 7 }; // the last is blank
 
@@ -58,7 +59,8 @@ static void check_darkness(const struct level *l)
             ink += 1 - paper_at(l, i % l->size, i / l->size, tone) / 255.0;
         // A level ends with the stroke that reaches its tone, and a stroke covers most of the
         // smallest tiles; what coarser levels have laid is there from the start.
-        assert_true(ink / texels > due[tone] - 0.002 && ink / texels < due[tone] + 0.05);
+        assert_above(ink / texels, due[tone] - 0.002);
+        assert_below(ink / texels, due[tone] + 0.05);
     }
 }
 
@@ -72,8 +74,8 @@ static void tones_are_nested(void **state)
         check_darkness(l);
         for (int i = 0; i < l->size * l->size; i++)
             for (int tone = 1; tone < TONES; tone++)
-                assert_true(paper_at(l, i % l->size, i / l->size, tone - 1) <=
-                            paper_at(l, i % l->size, i / l->size, tone));
+                assert_at_most(paper_at(l, i % l->size, i / l->size, tone - 1),
+                               paper_at(l, i % l->size, i / l->size, tone));
     }
     free_levels(levels);
     rig_close(c);
@@ -95,7 +97,7 @@ static void levels_are_nested(void **state)
                 lightest = paper < lightest ? paper : lightest;
             }
             if (paper_at(coarse, x, y, 5) < 40)
-                assert_true(lightest < 160);
+                assert_below(lightest, 160);
         }
     }
     free_levels(levels);
@@ -117,7 +119,7 @@ static void tiles_fit_together(void **state)
             seam += x == 0 ? step : 0;
             within += x == 0 ? 0 : step / (l->size - 1);
         }
-        assert_true(seam < 1.5 * within);
+        assert_below(seam, 1.5 * within);
     }
     free_levels(levels);
     rig_close(c);

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/cartoon/rig.h"
+#include "tests/expect.h"
 
 // --- maps ---
 
@@ -38,7 +39,7 @@ static void compare_maps(struct rg_device *device, const char *settings, int wid
         }
         const float *texel = normals + 4 * (size_t)i;
         const double material = hit.face < 0 ? 0 : 1 + c->diorama->materials[hit.face];
-        assert_true((double)texel[3] == material);
+        assert_equals((double)texel[3], material);
         if (fabs((double)depths[i] - hit.depth) > DEPTH_OFF)
             fail_msg("%s: pixel %d %d: depth %.9g, not %.9g", settings, i % width, i / width,
                      (double)depths[i], hit.depth);
@@ -48,7 +49,8 @@ static void compare_maps(struct rg_device *device, const char *settings, int wid
                      hit.normal.y, hit.normal.z);
         seen += hit.face >= 0;
     }
-    assert_true(seen > width * height / 3 && unsure < width * height / 4);
+    assert_above(seen, width * height / 3);
+    assert_below(unsure, width * height / 4);
     free(normals);
     free(depths);
     rig_close(c);
@@ -79,7 +81,7 @@ static void sheets_have_two_sides(void **state)
                                (double)n[2] * (o.eye.z - at.z);
         behind += towards < 0;
     }
-    assert_true(behind < 48 * 48 / 100); // at rims smooth normals look away a little
+    assert_below(behind, 48 * 48 / 100); // at rims smooth normals look away a little
     free(normals);
     free(depths);
     rig_close(c);
@@ -230,7 +232,7 @@ static void compare_style(struct rg_device *device, const char *settings, double
         lines += ink > 0.5;
         things += s.normals[4 * (size_t)i + 3] > 0;
     }
-    assert_true(things > SIDE * SIDE / 3);
+    assert_above(things, SIDE * SIDE / 3);
     assert_true(inked ? lines > 60 : lines == 0);
     styled_close(&s);
 }
@@ -305,7 +307,7 @@ static void a_kept_picture_is_the_one_drawn_anew(void **state)
         float *drawn = last_frame(*state, settings);
         assert_memory_equal(kept, drawn, KEPT_PX * KEPT_PX * 4 * sizeof(*kept));
         // There is something in it, which the spin turns.
-        assert_true(kept[4 * (KEPT_PX * KEPT_PX / 2 + KEPT_PX / 2)] > 0);
+        assert_above(kept[4 * (KEPT_PX * KEPT_PX / 2 + KEPT_PX / 2)], 0);
         free(kept);
         free(drawn);
     }

@@ -10,6 +10,7 @@
 
 #include "core/image/srgb.h"
 #include "tests/core/techniques/drops/view/rig.h"
+#include "tests/expect.h"
 
 enum { COLUMNS = 250, ROWS = 150 };
 
@@ -36,7 +37,7 @@ static void heights_are_grey(void **state)
             const double mm = height_wedge((x + 0.5) / 2, (row + 0.5) / 2, NULL);
             const double due = is_on ? fmin(mm / 3, 1) : 0.02;
             for (int c = 0; c < 3; c++)
-                assert_true(fabs((double)view_pixel(&picture, x, y)[c] - due) < 0.001);
+                assert_below(fabs((double)view_pixel(&picture, x, y)[c] - due), 0.001);
         }
     rg_picture_destroy(&picture);
     rig_close(d);
@@ -92,7 +93,9 @@ static void owners_differ_in_colour(void **state)
         fail_msg("colours differ by %.3g, next ones by %.3g, from black by %.3g", least, least_next,
                  least_black);
     const float *nobodys = view_pixel(&picture, 5, 9);
-    assert_true(nobodys[0] == 0 && nobodys[1] == 0 && nobodys[2] == 0);
+    assert_equals(nobodys[0], 0);
+    assert_equals(nobodys[1], 0);
+    assert_equals(nobodys[2], 0);
     rg_picture_destroy(&picture);
     rig_close(d);
 }
@@ -133,8 +136,8 @@ static void drops_are_discs_of_their_size(void **state)
         const double due = M_PI * radius_mm[k] * radius_mm[k];
         if (fabs(area - due) > 0.04 * due)
             fail_msg("drop %d covers %g mm2, not %g", k, area, due);
-        assert_true(fabs(x / area - (double)all[k].x) < 0.02);
-        assert_true(fabs(y / area - (double)all[k].y) < 0.02);
+        assert_below(fabs(x / area - (double)all[k].x), 0.02);
+        assert_below(fabs(y / area - (double)all[k].y), 0.02);
     }
     rg_picture_destroy(&picture);
     rig_close(d);

@@ -12,6 +12,7 @@
 
 #include "tests/core/folder.h"
 #include "tests/core/techniques/drops/view/rig.h"
+#include "tests/expect.h"
 
 // A pane of 80 x 60 mm in a picture of 160 x 120 pixels, half a mm each.
 #define DRY "columns=80 rows=60 cell_mm=1 drops_s=0 environment=sky environment_px=16 rays_px=2 "
@@ -63,7 +64,7 @@ static struct seen look_for_green(struct drops *d, double within_mm)
         yy += light * y * y;
     }
     rg_picture_destroy(&picture);
-    assert_true(s.sum > 0);
+    assert_above(s.sum, 0);
     s.x /= s.sum;
     s.y /= s.sum;
     s.deviation_x = sqrt(xx / s.sum - s.x * s.x);
@@ -191,7 +192,7 @@ static void a_drop_shows_it_small_and_upside_down(void **state)
         const double focal_mm = cap.curvature_mm / (index[i] - 1);
         const double larger = 1 + BEHIND_MM / DISTANCE_MM - BEHIND_MM / focal_mm;
         const double x = (spot.x + 0.5 - 400) * texel_mm, y = (spot.y + 0.5 - 300) * texel_mm;
-        assert_true(larger < -10);
+        assert_below(larger, -10);
         expect_near("x", s.x, x / larger, 0.04 * fabs(x / larger));
         expect_near("y", s.y, y / larger, 0.04 * fabs(y / larger));
         rig_close(d);

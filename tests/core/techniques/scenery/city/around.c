@@ -7,6 +7,7 @@
 #include "core/scene/environment/cube.h"
 #include "core/techniques/scenery/environment.h"
 #include "tests/core/techniques/scenery/city/stage.h"
+#include "tests/expect.h"
 #include "tests/oracle/flow/light.h"
 
 enum { FACE_PX = 512, TILE = 10 };
@@ -74,7 +75,8 @@ static void the_map_is_what_is_seen(void **state)
     struct picture *picture = malloc(sizeof(*picture));
     const struct scenery_look look = scenery_day();
     struct rg_environment *environment = scenery_environment("city", FACE_PX, *state);
-    assert_true(environment && environment->size == FACE_PX);
+    assert_true(environment);
+    assert_equals(environment->size, FACE_PX);
     const struct light_cube cube = cube_of(environment);
     stage_open(*state, &(struct stage_settings){.lights = 1, .whole = true}, &stage);
     for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); i++) {
@@ -86,7 +88,8 @@ static void the_map_is_what_is_seen(void **state)
         const double off = share_off(&cube, &camera, picture, false),
                      turned = share_off(&cube, &camera, picture, true);
         print_message("view %zu: %.1f %% off, turned %.1f %%\n", i, 100 * off, 100 * turned);
-        assert_true(off < 0.03 && turned > 0.2);
+        assert_below(off, 0.03);
+        assert_above(turned, 0.2);
     }
     free((float *)cube.light);
     free(picture);

@@ -6,6 +6,7 @@
 
 #include "core/base/log.h"
 #include "tests/core/techniques/scenery/city/stage.h"
+#include "tests/expect.h"
 
 enum { MAP_PX = 128 };
 
@@ -27,7 +28,8 @@ static void without_geometry_all_is_horizon(void **state)
         const float one = 1;
         for (int c = 0; c < 4; c++) {
             const double drawn = stage_light(picture, i, c);
-            assert_true(drawn <= (double)due[c] && drawn > (double)due[c] * (1 - 1.0 / 1024));
+            assert_at_most(drawn, (double)due[c]);
+            assert_above(drawn, (double)due[c] * (1 - 1.0 / 1024));
         }
         assert_memory_equal(&picture->depth[i], &one, sizeof(one));
     }
@@ -61,7 +63,7 @@ static void culling_changes_no_pixel(void **state)
         chunks += scenery_last(stage.scene).chunks;
         assert_memory_equal(&pictures[0], &pictures[1], sizeof(pictures[0]));
     }
-    assert_true(drawn * 2 < chunks); // most is left out
+    assert_below(drawn * 2, chunks); // most is left out
     free(pictures);
     stage_close(&stage);
 }
@@ -172,7 +174,7 @@ static void depth_is_where_rays_end(void **state)
         }
     }
     assert_int_equal(wrong, 0);
-    assert_true(met > 150);
+    assert_above(met, 150);
     free(picture);
     stage_close(&stage);
 }

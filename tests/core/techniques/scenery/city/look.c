@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "kernels/scenery/openness_grid.h"
+#include "tests/expect.h"
 #include "tests/oracle/vectors.h"
 
 // --- the oracle's inputs ---
@@ -208,9 +209,10 @@ static void compare(struct rg_device *device, const struct look_case *c)
                   "%%, bias %.3f %%\n",
                   tally.compared, tally.sky, tally.shadowed, tally.edges, tally.unsure, tally.off,
                   100 * tally.worst, 100 * (tally.drawn / tally.due - 1));
-    assert_true(tally.compared > c->compared && tally.shadowed >= c->shadowed);
-    assert_true(tally.off * 200 <= tally.compared);
-    assert_true(fabs(tally.drawn / tally.due - 1) < 0.002);
+    assert_above(tally.compared, c->compared);
+    assert_at_least(tally.shadowed, c->shadowed);
+    assert_at_most(tally.off * 200, tally.compared);
+    assert_below(fabs(tally.drawn / tally.due - 1), 0.002);
     free_given(g);
     stage_close(&stage);
 }

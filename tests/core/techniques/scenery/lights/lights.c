@@ -4,6 +4,7 @@
 
 #include "core/base/log.h"
 #include "tests/core/techniques/scenery/lights/rig.h"
+#include "tests/expect.h"
 
 static const struct city_lamp lamps[] = {
     {CITY_STREET_LAMP, {9, 8, 11}, {0, -1, 0}},
@@ -36,11 +37,14 @@ static void lights_open_in_both_frames(void **state)
                 rg_buf_read(lights->in_frame, 0, rain, sizeof(rain)));
     assert_memory_equal(world, lights->world, sizeof(world));
     for (int i = 0; i < 3; i++) {
-        assert_true(rain[i].x == world[i].x && rain[i].y == -world[i].z);
+        assert_equals(rain[i].x, world[i].x);
+        assert_equals(rain[i].y, -world[i].z);
         assert_float_equal(rain[i].z, 9 - world[i].y, 1e-6f);
-        assert_true(rain[i].dx == world[i].dx && rain[i].dy == -world[i].dz &&
-                    rain[i].dz == -world[i].dy);
-        assert_true(rain[i].r == world[i].r && rain[i].shadow_layer == i);
+        assert_equals(rain[i].dx, world[i].dx);
+        assert_equals(rain[i].dy, -world[i].dz);
+        assert_equals(rain[i].dz, -world[i].dy);
+        assert_equals(rain[i].r, world[i].r);
+        assert_equals(rain[i].shadow_layer, i);
     }
     scenery_lights_close(lights);
 }
@@ -58,7 +62,7 @@ static void each_light_draws_its_own_layers(void **state)
         assert_true(rg_image_read(lights->shadows, layer, 0, texels));
         for (int i = 0; i < MAP_PX * MAP_PX; i++)
             drawn += texels[i] < 1;
-        assert_true(drawn > MAP_PX * MAP_PX / 4);
+        assert_above(drawn, MAP_PX * MAP_PX / 4);
     }
     free(texels);
     scenery_lights_close(lights);
@@ -86,8 +90,13 @@ static void no_lights_are_none(void **state)
         settings.count = 0;
         settings.time = (enum scenery_time)time;
         struct scenery_lights *lights = scenery_lights_open(*state, &settings);
-        assert_true(lights && lights->count == 0 && lights->map_count == 0);
-        assert_true(lights->in_world && lights->in_frame && lights->shadows && lights->sky[0] > 0);
+        assert_true(lights);
+        assert_equals(lights->count, 0);
+        assert_equals(lights->map_count, 0);
+        assert_true(lights->in_world);
+        assert_true(lights->in_frame);
+        assert_true(lights->shadows);
+        assert_above(lights->sky[0], 0);
         assert_true(scenery_lights_shade(lights, NULL, NULL));
         scenery_lights_close(lights);
     }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/scenery/lights/rig.h"
+#include "tests/expect.h"
 
 static double share_due(const struct rg_light *light, struct vec at)
 {
@@ -36,17 +37,19 @@ static void lights_reach_as_the_closed_forms_say(void **state)
                                       : along((struct vec){0, 0, 0}, 1 / length(off), off);
             const double share = share_due(&rig_lights[k], at);
             // a cone's edge is as steep as its width allows, and its cosine rounds to 1e-7
-            assert_true(fabs((double)l->share - share) <= 2e-6 * share + 1e-6 / dot(off, off));
-            assert_true(length(minus((struct vec){(double)l->to_light.x, (double)l->to_light.y,
-                                                  (double)l->to_light.z},
-                                     to)) < 1e-6);
+            assert_at_most(fabs((double)l->share - share), 2e-6 * share + 1e-6 / dot(off, off));
+            assert_below(length(minus((struct vec){(double)l->to_light.x, (double)l->to_light.y,
+                                                   (double)l->to_light.z},
+                                      to)),
+                         1e-6);
             if (rig_lights[k].kind == SCENERY_SPOT) {
                 dark += l->share == 0;
                 bright += l->share > 0;
             }
         }
     }
-    assert_true(dark > POINTS / 10 && bright > POINTS / 10);
+    assert_above(dark, POINTS / 10);
+    assert_above(bright, POINTS / 10);
     free(lit);
     free(points);
     rig_close(&rig);
@@ -72,11 +75,12 @@ static void cones_and_near_points_have_their_bounds(void **state)
     assert_float_equal(lit[0].share, 0.25f, 1e-6f);
     for (int i = 1; i <= STEPS; i++) {
         if (i > light->outer_deg)
-            assert_true(lit[i].share == 0);
+            assert_equals(lit[i].share, 0);
         else if (i < light->outer_deg)
             assert_true(lit[i].share > 0 && lit[i].share < lit[i - 1].share);
     }
-    assert_true(lit[STEPS + 1].share >= 0 && lit[STEPS + 1].share <= 100.0001f);
+    assert_at_least(lit[STEPS + 1].share, 0);
+    assert_at_most(lit[STEPS + 1].share, 100.0001f);
     assert_float_equal(lit[STEPS + 2].share, 100, 1e-3f);
     free(lit);
     rig_close(&rig);
@@ -128,10 +132,10 @@ static void frames_do_not_matter(void **state)
         for (int i = 0; i < POINTS; i++) {
             const test_streaks_lit *a = &here[k * POINTS + i], *b = &there[k * POINTS + i];
             const double d = length(minus(rig_point_at(points, i), rig_place_of(&rig_lights[k])));
-            assert_true(fabsf(a->share - b->share) <= 2e-5f * a->share + (float)(1e-5 / d / d));
+            assert_at_most(fabsf(a->share - b->share), 2e-5f * a->share + (float)(1e-5 / d / d));
             unequal += a->unshadowed != b->unshadowed;
         }
-    assert_true(unequal < LIGHTS * POINTS / 2000); // on the edges of texels
+    assert_below(unequal, LIGHTS * POINTS / 2000); // on the edges of texels
     free(here);
     free(there);
     free(points);

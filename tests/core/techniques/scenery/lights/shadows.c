@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/scenery/lights/rig.h"
+#include "tests/expect.h"
 
 // Whether a light reaches a point; -1 where that changes within `margin` of it.
 static int reached_about(const struct rg_light *light, struct vec at, double bias, double margin)
@@ -59,8 +60,9 @@ static void shadows_fall_where_rays_are_blocked(void **state)
         }
         print_message("light %d: %d lit, %d shadowed, %d on an edge, %d and %d wrong\n", k,
                       seen.lit, seen.shadowed, seen.unsure, seen.wrong, seen.soft_wrong);
-        assert_true(seen.lit > inside / 5 && seen.shadowed > inside / 50);
-        assert_true(seen.unsure < inside / 2);
+        assert_above(seen.lit, inside / 5);
+        assert_above(seen.shadowed, inside / 50);
+        assert_below(seen.unsure, inside / 2);
         assert_int_equal(seen.wrong, 0);
         assert_int_equal(seen.soft_wrong, 0);
     }
@@ -91,9 +93,10 @@ static void floors_do_not_shade_themselves(void **state)
                 continue;
             bright += due;
             dark += !due;
-            assert_true(lit[k * POINTS + i].surface == (float)due);
+            assert_equals(lit[k * POINTS + i].surface, (float)due);
         }
-        assert_true(bright > POINTS / 20 && dark > POINTS / 500);
+        assert_above(bright, POINTS / 20);
+        assert_above(dark, POINTS / 500);
     }
     free(lit);
     free(points);
@@ -127,12 +130,13 @@ static void the_bias_is_metres_along_the_ray(void **state)
             at.y = 0.3;
             if (reached_about(light, at, 0, 0.25) != 1 || !rig_is_in_cone(light, at))
                 continue;
-            assert_true(lit[i].unshadowed == (i % 2 ? 1.0f : 0.0f));
+            assert_equals(lit[i].unshadowed, (i % 2 ? 1.0f : 0.0f));
             checked[k]++;
         }
         free(lit);
     }
-    assert_true(checked[3] > POINTS / 2 && checked[4] > POINTS / 100);
+    assert_above(checked[3], POINTS / 2);
+    assert_above(checked[4], POINTS / 100);
     free(points);
     rig_close(&rig);
 }
@@ -156,9 +160,9 @@ static void soft_shadows_do_not_jump(void **state)
     for (int i = 1; i < POINTS; i++) {
         between += lit[i].soft > 0 && lit[i].soft < 1;
         if (i % STEPS)
-            assert_true(fabsf(lit[i].soft - lit[i - 1].soft) < 0.126f);
+            assert_below(fabsf(lit[i].soft - lit[i - 1].soft), 0.126f);
     }
-    assert_true(between >= 5 * ROWS);
+    assert_at_least(between, 5 * ROWS);
     free(lit);
     free(points);
     rig_close(&rig);
@@ -184,9 +188,10 @@ static void nothing_shades_where_no_map_is(void **state)
         if (dot(off, rig_way_of(spot)) > length(off) * cos(corner))
             continue;
         beside++;
-        assert_true(with[POINTS + i].unshadowed == 1 && with[POINTS + i].soft == 1);
+        assert_equals(with[POINTS + i].unshadowed, 1);
+        assert_equals(with[POINTS + i].soft, 1);
     }
-    assert_true(beside > POINTS / 10);
+    assert_above(beside, POINTS / 10);
     free(lit);
     free(with);
     free(points);

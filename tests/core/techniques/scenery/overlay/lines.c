@@ -6,6 +6,7 @@
 
 #include "core/techniques/scenery/lights/lights.h"
 #include "tests/core/techniques/scenery/overlay/rig.h"
+#include "tests/expect.h"
 
 // An end of a line on the grid of 1/256 pixel, and floats of 1e-6 of a few hundred pixels.
 static const double allowed = 0.006;
@@ -103,15 +104,15 @@ static void check_line(struct rg_device *device, struct scenery_overlay *overlay
         const double due =
             seen ? covered_by(&ends, (double)width_px, i % WIDTH + 0.5, i / WIDTH + 0.5, &depth)
                  : 0;
-        assert_true(fabs((double)texels[4 * i] - 0.25 * due) <= allowed);
-        assert_true(fabs((double)texels[4 * i + 1] - 0.125 * due) <= allowed);
-        assert_true(fabs((double)texels[4 * i + 3] - 0.5 * due) <= allowed);
+        assert_at_most(fabs((double)texels[4 * i] - 0.25 * due), allowed);
+        assert_at_most(fabs((double)texels[4 * i + 1] - 0.125 * due), allowed);
+        assert_at_most(fabs((double)texels[4 * i + 3] - 0.5 * due), allowed);
         counts->full += due == 1;
         counts->part += due > 0 && due < 1;
         if (fabs(depth - (double)behind) < 1e-4)
             continue;
         counts->hidden += due > 0 && depth > (double)behind;
-        assert_true(tested[4 * i + 3] == (depth < (double)behind ? texels[4 * i + 3] : 0));
+        assert_equals(tested[4 * i + 3], (depth < (double)behind ? texels[4 * i + 3] : 0));
     }
     free(texels);
     free(tested);
@@ -140,7 +141,9 @@ static void lines_cover_what_is_near_them(void **state)
     }
     print_message("lines: %d pixels whole, %d in part, %d behind the depth\n", counts.full,
                   counts.part, counts.hidden);
-    assert_true(counts.full > 10000 && counts.part > 10000 && counts.hidden > 1000);
+    assert_above(counts.full, 10000);
+    assert_above(counts.part, 10000);
+    assert_above(counts.hidden, 1000);
     close_overlay(overlay, &instance);
 }
 
@@ -159,7 +162,7 @@ static void long_lines_stay_in_place(void **state)
                     b[3] = {between(i, 2, -4, 4), between(i, 3, -3, 3), between(i, 4, -20, 0)};
         check_line(*state, overlay, to_clip, a, b, 3, &counts);
     }
-    assert_true(counts.full > 1000);
+    assert_above(counts.full, 1000);
     close_overlay(overlay, &instance);
 }
 
@@ -257,7 +260,9 @@ static void sheets_fill_their_polygons(void **state)
         assert_float_equal(tested[4 * i + 3], depth < (double)half_way ? 0.125f : 0, 1e-6f);
     }
     print_message("sheet: %d pixels, %d behind the depth\n", filled, hidden);
-    assert_true(filled > 1000 && hidden > filled / 20 && hidden < filled * 9 / 10);
+    assert_above(filled, 1000);
+    assert_above(hidden, filled / 20);
+    assert_below(hidden, filled * 9 / 10);
     free(texels);
     free(tested);
     close_overlay(overlay, &instance);
@@ -298,8 +303,8 @@ static void check_frustum(struct rg_device *device, const scenery_light *light, 
     for (int e = 0; e < 12; e++)
         scenery_overlay_line(overlay, corners[edges[e][0]], corners[edges[e][1]], &ink);
     float *due = show(overlay, device, to_clip, NULL);
-    assert_true(sum_of(due) > 100);
-    assert_true(difference(shown, due) < 0.02);
+    assert_above(sum_of(due), 100);
+    assert_below(difference(shown, due), 0.02);
     free(shown);
     free(due);
     close_overlay(overlay, &instance);
@@ -352,7 +357,7 @@ static void boxes_have_twelve_edges(void **state)
     scenery_overlay_begin(overlay);
     scenery_overlay_box(overlay, corners, &ink);
     float *texels = show(overlay, *state, flat, NULL);
-    assert_true(fabs(sum_of(texels) / 0.001 / due - 1) < 0.02);
+    assert_below(fabs(sum_of(texels) / 0.001 / due - 1), 0.02);
     free(texels);
     close_overlay(overlay, &instance);
 }

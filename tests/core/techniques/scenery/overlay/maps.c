@@ -5,6 +5,7 @@
 
 #include "core/scene/matrix.h"
 #include "tests/core/techniques/scenery/overlay/rig.h"
+#include "tests/expect.h"
 
 static double ramp(double v)
 {
@@ -79,7 +80,9 @@ static void plates_show_their_maps(void **state)
         assert_float_equal(behind[4 * i + 3], depth < (double)half_way ? 1 : 0, 0);
     }
     print_message("plate: %d pixels, %d behind the depth\n", shown, hidden);
-    assert_true(shown > 1000 && hidden > shown / 20 && hidden < shown * 9 / 10);
+    assert_above(shown, 1000);
+    assert_above(hidden, shown / 20);
+    assert_below(hidden, shown * 9 / 10);
     free(texels);
     free(behind);
     picture_free(&open);

@@ -7,6 +7,7 @@
 
 #include "kernels/dialect/image/format.h"
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -132,7 +133,7 @@ static void find_move(const char *settings, int *right, int *down)
                 *down = y;
             }
         }
-    assert_true(most > 0.5);
+    assert_above(most, 0.5);
     free(before);
     free(after);
     rain_close(s);
@@ -146,12 +147,17 @@ static void test_rain_falls(void **state)
     int right, down;
     find_move("far_layers=1 view_angle_deg=8 exposure_s=0.004 streak_opacity=8", &right, &down);
     print_message("it falls by %d pixels, and %d aside\n", down, right);
-    assert_true(down >= 3 && down <= 8 && right == 0);
+    assert_at_least(down, 3);
+    assert_at_most(down, 8);
+    assert_equals(right, 0);
     // Towards x, which is to the left of a viewer along z.
     find_move("far_layers=1 view_angle_deg=8 exposure_s=0.004 streak_opacity=8 slant_deg=45",
               &right, &down);
     print_message("it leans by %d pixels, and falls by %d\n", right, down);
-    assert_true(down >= 2 && down <= 6 && right <= -2 && right >= -6);
+    assert_at_least(down, 2);
+    assert_at_most(down, 6);
+    assert_at_most(right, -2);
+    assert_at_least(right, -6);
 }
 
 // --- with a scene ---
@@ -189,13 +195,14 @@ static void test_layers_stand_in_the_scene(void **state)
                                     dry->halves + 4 * (y * RAIN_WIDTH + x), 8);
                 nearer++;
             } else if (across > 24 && rain_texel(dry, x, y, 1) > 0.001) {
-                assert_true(rain_texel(wet, x, y, 1) <= rain_texel(dry, x, y, 1));
+                assert_at_most(rain_texel(wet, x, y, 1), rain_texel(dry, x, y, 1));
                 dimmed += rain_texel(wet, x, y, 1) < rain_texel(dry, x, y, 1);
                 farther++;
             }
         }
-    assert_true(nearer > RAIN_TEXELS / 20 && farther > RAIN_TEXELS / 20);
-    assert_true(dimmed > farther / 2);
+    assert_above(nearer, RAIN_TEXELS / 20);
+    assert_above(farther, RAIN_TEXELS / 20);
+    assert_above(dimmed, farther / 2);
     free(wet);
     free(dry);
     rain_close(s);

@@ -9,6 +9,7 @@
 #include "core/image/files/io.h"
 #include "core/scene/city/city.h"
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 // Tests of several devices run side by side.
 static char lights_path[64], map_path[64], mesh_path[64];
@@ -88,7 +89,8 @@ static void expect_meeting(const char *about, const char *settings, const bool *
         rain_close(s);
     }
     const struct figures a = figures_of(&layers), b = figures_of(&drops);
-    assert_true(b.mean > 0 && b.variance > 0);
+    assert_above(b.mean, 0);
+    assert_above(b.variance, 0);
     if (!(fabs(a.mean / b.mean - 1) < within && fabs(a.variance / b.variance - 1) < within))
         fail_msg("%s: mean %.4f, variance %.4f of those of drops", about, a.mean / b.mean,
                  a.variance / b.variance);

@@ -8,6 +8,7 @@
 
 #include "core/image/files/io.h"
 #include "tests/core/techniques/streaks/picture/given.h"
+#include "tests/expect.h"
 #include "tests/oracle/streaks/far.h"
 
 static char lights_path[64], map_path[64];
@@ -58,7 +59,7 @@ static void compare(const struct streak_view *view, const struct streak_far *far
             tally->due += due[c] - was[c];
             tally->is += is - was[c];
         }
-        assert_true(most > 0);
+        assert_above(most, 0);
         tally->pixels++;
         tally->off += error > 0.01 * most;
     }
@@ -125,8 +126,8 @@ static void expect_equal(const char *about, int kinds, int taps)
     const double bias = sum.is / sum.due - 1;
     print_message("%s, %d taps: %d pixels, %d off, bias %.4f %%\n", about, taps, sum.pixels,
                   sum.off, 100 * bias);
-    assert_true(sum.off <= 0.001 * sum.pixels);
-    assert_true(fabs(bias) <= 0.002);
+    assert_at_most(sum.off, 0.001 * sum.pixels);
+    assert_at_most(fabs(bias), 0.002);
 }
 
 static void test_sky(void **state)

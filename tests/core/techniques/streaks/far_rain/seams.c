@@ -8,6 +8,7 @@
 
 #include "core/image/files/io.h"
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 // Light of the sky alone, through a level camera, and nothing that hides it.
 #define SEAMS                                                                                      \
@@ -82,12 +83,12 @@ static void expect_even(double turned_deg)
         free(added);
     }
     rain_close(s);
-    assert_true(all > 0);
+    assert_above(all, 0);
     double worst = 0;
     for (int x = 0; x < RAIN_WIDTH; x++)
         worst = fmax(worst, fabs(columns[x] / all - 1));
     print_message("turned by %g degrees: columns within %.3f\n", turned_deg, worst);
-    assert_true(worst < 0.03);
+    assert_below(worst, 0.03);
 }
 
 static void test_no_seam_is_seen(void **state)
@@ -127,7 +128,8 @@ static void test_nothing_pops(void **state)
     (void)state;
     const double within = change_about(0.4 * slab_m), passing = change_about(0);
     print_message("within a slab %.5f, into the next one %.5f\n", within, passing);
-    assert_true(within > 0 && passing < 1.5 * within);
+    assert_above(within, 0);
+    assert_below(passing, 1.5 * within);
 }
 
 // As dense everywhere.

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/rigs/packets.h"
+#include "tests/expect.h"
 #include "tests/oracle/streaks/packets.h"
 
 // Particles in the squares of a board, under two schemes that only chance tells apart. A grid
@@ -48,13 +49,13 @@ static void test_grid_agrees_with_trees(void **state)
             // heights are even to a percent.
             oracle_evenness(falls, all.count);
             for (int64_t k = 0; k < all.count; k += 1000)
-                assert_true(fabs(falls[k] - (double)k / (double)all.count) < 0.01);
+                assert_below(fabs(falls[k] - (double)k / (double)all.count), 0.01);
             free(falls);
             free(all.all);
             streaks_packets_destroy(packets);
         }
         const double z = (double)(totals[1] - totals[0]) / sqrt((double)totals[0]);
-        assert_true(fabs(z) < 3.3);
+        assert_below(fabs(z), 3.3);
         double chi_square = 0;
         int degrees = 0;
         for (int i = 0; i < SIDE * SIDE; i++) {
@@ -63,7 +64,7 @@ static void test_grid_agrees_with_trees(void **state)
             chi_square += sum >= 20 ? apart * apart / (sum + step * step / 4) : 0;
             degrees += sum >= 20;
         }
-        assert_true(degrees >= side * side / 2);
+        assert_at_least(degrees, side * side / 2);
         rig_expect_chance(oracle_chi_square_tail(chi_square, degrees), "a grid against a kd-tree");
     }
     rg_density_destroy(map);
@@ -97,7 +98,7 @@ static void test_grid_has_the_forms_of_its_map(void **state)
     print_message("%d x %d cells, %.2f %% of the rain elsewhere\n",
                   streaks_packets_info(packets)->grid_x, streaks_packets_info(packets)->grid_y,
                   100 * elsewhere / (double)all.count);
-    assert_true(elsewhere < 0.07 * (double)all.count);
+    assert_below(elsewhere, 0.07 * (double)all.count);
     free(all.all);
     streaks_packets_destroy(packets);
     rg_density_destroy(map);
@@ -149,12 +150,12 @@ static void test_grid_places_turn_differently(void **state)
         memcpy(&now, &s.blocks[block * STREAKS_BLOCK_WORDS + 4], 4);
         memcpy(&then, &later.blocks[block * STREAKS_BLOCK_WORDS + 4], 4);
         const double by = (double)then - (double)now;
-        assert_true(fabs(by - floor(by) - 0.5) < 1e-6);
+        assert_below(fabs(by - floor(by) - 0.5), 1e-6);
         turns[place] = (double)now;
     }
     rig_expect_chance(oracle_evenness(turns, 100), "the turns of the grid's places");
     for (int i = 1; i < 100; i++)
-        assert_true(turns[i] > turns[i - 1]);
+        assert_above(turns[i], turns[i - 1]);
     streaks_selection_release(&s);
     streaks_selection_release(&later);
     streaks_packets_destroy(packets);

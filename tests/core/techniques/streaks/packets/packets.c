@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/rigs/packets.h"
+#include "tests/expect.h"
 
 // Each particle lies in exactly one packet, which is no larger than asked for, and inside that
 // packet's place.
@@ -18,16 +19,20 @@ static void check_packets(const struct streaks_packets *packets, int size)
     struct rig_particles all = rig_read_all(packets, &rig_space, 20);
     qsort(all.all, (size_t)all.count, sizeof(*all.all), rig_compare);
     for (int64_t i = 1; i < all.count; i++)
-        assert_true(rig_compare(&all.all[i - 1], &all.all[i]) < 0);
+        assert_below(rig_compare(&all.all[i - 1], &all.all[i]), 0);
     int64_t sum = 0;
     for (int place = 0; place < info->places; place++) {
         const int64_t count = streaks_packets_count(packets, place);
-        assert_true(count <= size);
+        assert_at_most(count, size);
         sum += count;
         double r[4];
         streaks_packets_rectangle(packets, place, r);
-        assert_true(r[0] < r[2] && r[1] < r[3] && r[0] >= -200 && r[1] >= -200 && r[2] <= 200.001 &&
-                    r[3] <= 200.001);
+        assert_below(r[0], r[2]);
+        assert_below(r[1], r[3]);
+        assert_at_least(r[0], -200);
+        assert_at_least(r[1], -200);
+        assert_at_most(r[2], 200.001);
+        assert_at_most(r[3], 200.001);
     }
     assert_int_equal(sum, info->total_particles);
     free(all.all);
@@ -54,8 +59,10 @@ static void check_places(const struct streaks_packets *packets, enum streaks_sch
             continue;
         const struct rig_particles one = rig_read(packets, &rig_space, &selection);
         for (int64_t i = 0; i < one.count; i++) {
-            assert_true(one.all[i].x_m >= r[0] - 1e-4 && one.all[i].x_m <= r[2] + 1e-4);
-            assert_true(one.all[i].y_m >= r[1] - 1e-4 && one.all[i].y_m <= r[3] + 1e-4);
+            assert_at_least(one.all[i].x_m, r[0] - 1e-4);
+            assert_at_most(one.all[i].x_m, r[2] + 1e-4);
+            assert_at_least(one.all[i].y_m, r[1] - 1e-4);
+            assert_at_most(one.all[i].y_m, r[3] + 1e-4);
         }
         free(one.all);
     }
@@ -98,7 +105,8 @@ static void test_kd_halves_are_alike(void **state)
             least = count < least ? count : least;
             most = count > most ? count : most;
         }
-        assert_true(most <= sizes[i] && (most - least <= 1 || 2 * least >= most));
+        assert_at_most(most, sizes[i]);
+        assert_true((most - least <= 1 || 2 * least >= most));
         assert_true(2 * least >= sizes[i] || least == most || sizes[i] == 1);
         streaks_packets_destroy(packets);
     }
@@ -237,8 +245,9 @@ static void test_memory_is_told(void **state)
             sum += bytes;
         }
         assert_int_equal(sum, info.particle_bytes);
-        assert_true(info.stored_particles * 12 <= sum);
-        assert_true(info.peak_bytes >= sum && info.peak_bytes <= 4 * sum);
+        assert_at_most(info.stored_particles * 12, sum);
+        assert_at_least(info.peak_bytes, sum);
+        assert_at_most(info.peak_bytes, 4 * sum);
         streaks_packets_destroy(packets);
         // exactly this much is enough, and a byte less is not
         settings.memory_bytes = info.peak_bytes;

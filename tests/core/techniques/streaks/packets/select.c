@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/rigs/packets.h"
+#include "tests/expect.h"
 #include "tests/oracle/streaks/packets.h"
 
 enum { MAP_SIDE = 6, PARTICLES = 10000, VIEWS = 12, TRIES = 24 };
@@ -127,7 +128,7 @@ static void check_view(const struct streaks_packets *packets, const struct scene
     struct rig_particles drawn = rig_read(packets, &scene->space, &selection);
     qsort(drawn.all, (size_t)drawn.count, sizeof(*drawn.all), rig_compare);
     for (int64_t i = 1; i < drawn.count; i++) // each at most once
-        assert_true(rig_compare(&drawn.all[i - 1], &drawn.all[i]) < 0);
+        assert_below(rig_compare(&drawn.all[i - 1], &drawn.all[i]), 0);
     for (int64_t i = 0; i < all->count; i++)
         if (seen[i] &&
             !bsearch(&all->all[i], drawn.all, (size_t)drawn.count, sizeof(*drawn.all), rig_compare))
@@ -174,11 +175,12 @@ static void check_scheme(const struct scene *scene, enum streaks_scheme scheme, 
     const struct rig_particles all = rig_read_all(packets, &scene->space, 20);
     struct tally tally = {0};
     check_views(packets, scene, &all, whole, random, &tally);
-    assert_true(tally.visible > 0 && tally.drawn[1] <= tally.drawn[0]);
+    assert_above(tally.visible, 0);
+    assert_at_most(tally.drawn[1], tally.drawn[0]);
     if (scheme != STREAKS_WORLD)
-        assert_true(tally.drawn[0] < tally.all);
+        assert_below(tally.drawn[0], tally.all);
     if (!whole && (!by_id || scheme == STREAKS_GRID))
-        assert_true(tally.drawn[0] + tally.drawn[1] < tally.selected);
+        assert_below(tally.drawn[0] + tally.drawn[1], tally.selected);
     free(all.all);
     streaks_packets_destroy(packets);
 }
@@ -242,7 +244,7 @@ static void test_orders_select_alike(void **state)
             assert_memory_equal(a.selected, b.selected, (size_t)a.packets * sizeof(*a.selected));
             struct rig_particles read = rig_read(by_id, &scene.space, &b);
             for (int64_t k = 1; k < read.count; k++)
-                assert_true(read.all[k].slot > read.all[k - 1].slot);
+                assert_above(read.all[k].slot, read.all[k - 1].slot);
             free(read.all);
         }
         streaks_selection_release(&a);
@@ -288,8 +290,8 @@ static void test_hull_is_tight(void **state)
             idle += !seen;
         }
     }
-    assert_true(selected > 200);
-    assert_true(idle * 20 < selected); // the lattice misses what is seen of a corner alone
+    assert_above(selected, 200);
+    assert_below(idle * 20, selected); // the lattice misses what is seen of a corner alone
     streaks_selection_release(&selection);
     streaks_packets_destroy(packets);
     rg_density_destroy(scene.map);
@@ -336,7 +338,7 @@ static void test_hull_knows_the_local_space(void **state)
     assert_int_equal(selection.packets, 0);
     view.hull = false;
     assert_true(streaks_select(packets, &view, &selection));
-    assert_true(selection.packets > 0);
+    assert_above(selection.packets, 0);
     streaks_selection_release(&selection);
     streaks_packets_destroy(packets);
     rg_density_destroy(map);
@@ -386,7 +388,7 @@ static void test_sparse_rain_is_one_block_in_so_many(void **state)
         struct streaks_packets *packets = rig_packets(&rig_space, map, &settings);
         const double all = (double)count_kept(packets, 1);
         for (int i = 0; i < 2; i++)
-            assert_true(fabs((double)count_kept(packets, sparse[i]) * sparse[i] / all - 1) < 0.1);
+            assert_below(fabs((double)count_kept(packets, sparse[i]) * sparse[i] / all - 1), 0.1);
         streaks_packets_destroy(packets);
     }
     rg_density_destroy(map);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -153,7 +154,7 @@ static void expect_cross_sections(const char *about, const char *settings)
     const double lit = light_under(s, SKY), dry = light_under(s, 0);
     int seen;
     const double due = pixels_due(s, &seen), covered = (lit - dry) / (GAIN * (double)SKY);
-    assert_true(seen > 2000);
+    assert_above(seen, 2000);
     if (!(fabs(covered / due - 1) < 0.015))
         fail_msg("%s: %d drops cover %.1f pixels, %.3f of their cross-sections", about, seen,
                  covered, covered / due);
@@ -237,7 +238,7 @@ static void expect_all_seen(const char *settings)
         drops++;
         missed += !(most_around(lit, (int)x, (int)y) > most_around(dry, (int)x, (int)y));
     }
-    assert_true(drops > 50);
+    assert_above(drops, 50);
     assert_int_equal(missed, 0);
     free(places.words);
     free(lit);

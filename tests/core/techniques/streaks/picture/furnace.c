@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -90,7 +91,7 @@ static void expect_unseen(const char *what, const char *view, const float sky[3]
     const struct distance shaded = distance_of(picture, sky);
     free(picture);
     // Black rain is seen, so that there is some.
-    assert_true(shaded.mean > 0.02);
+    assert_above(shaded.mean, 0.02);
     if (!(even.farthest < 1 / 255.0 && fabs(even.mean) < 0.005 * shaded.mean + 1e-3))
         fail_msg("%s, %s: rain is seen before its own sky, by %g of it, and %g in the mean, of %g",
                  what, view, even.farthest, even.mean, shaded.mean);
@@ -170,7 +171,7 @@ static void expect_as_sky(const char *what, const char *view)
         sum +=
             light_with(suns + first, count - first < SUNS ? count - first : SUNS, dark, settings) -
             dry;
-    assert_true(sky > 0.1 * dry);
+    assert_above(sky, 0.1 * dry);
     if (!(fabs(sum / sky - 1) < 0.03))
         fail_msg("%s, %s: suns make %.3f of the sky's light", what, view, sum / sky);
 }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 #include "tests/oracle/drop.h"
 
 static const double pi = 3.14159265358979323846;
@@ -159,7 +160,8 @@ static void test_oscillations_differ(void **state)
         blank_all_but(&kept, layer);
         const double share = total(added_by_rain(s)) / whole;
         put_back(&kept);
-        assert_true(share > 0.07 && share < 0.13);
+        assert_above(share, 0.07);
+        assert_below(share, 0.13);
     }
     release(&kept);
     rain_close(s);
@@ -255,8 +257,10 @@ static void test_streaks_are_as_long_as_drops_fall(void **state)
     }
     // Some are behind the ends of others, or too faint for a half.
     print_message("%d of %d within, %d of %d beyond\n", lit, within, stray, beyond);
-    assert_true(within > 100 && beyond > 100);
-    assert_true(lit > 0.8 * within && stray < 0.1 * beyond);
+    assert_above(within, 100);
+    assert_above(beyond, 100);
+    assert_above(lit, 0.8 * within);
+    assert_below(stray, 0.1 * beyond);
     free(added);
     free(places.words);
     rain_close(s);
@@ -384,7 +388,8 @@ static void test_light_goes_by_the_view(void **state)
     for (int i = 0; i < 2; i++) {
         const double above = lit_by(40, 170, views[i], &radius_px).light,
                      below = lit_by(-40, 170, views[i], &radius_px).light;
-        assert_true(above > 0 && below > 0);
+        assert_above(above, 0);
+        assert_above(below, 0);
         assert_true(i ? below > 10 * above : above > 10 * below);
     }
 }
@@ -408,7 +413,9 @@ static void expect_shadows(const char *what)
         light[i] = total(added_by_rain(s));
         rain_close(s);
     }
-    assert_true(light[2] > 1 && light[0] == 0 && light[1] == light[2]);
+    assert_above(light[2], 1);
+    assert_equals(light[0], 0);
+    assert_equals(light[1], light[2]);
 }
 
 static void test_shadows_fall_on_rain(void **state)
@@ -452,7 +459,10 @@ static void test_splashes_go_forwards(void **state)
         old_seen += share > 0.6 && most > 0;
     }
     // Some of the old ones lie behind younger ones.
-    assert_true(young > 10 && old > 10 && young_seen > 0.9 * young && old_seen < 0.5 * old);
+    assert_above(young, 10);
+    assert_above(old, 10);
+    assert_above(young_seen, 0.9 * young);
+    assert_below(old_seen, 0.5 * old);
     free(added);
     free(places.words);
     rain_close(s);

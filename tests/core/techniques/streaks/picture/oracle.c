@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "tests/core/techniques/streaks/picture/given.h"
+#include "tests/expect.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -148,7 +149,7 @@ static void expect_equal(const char *about, int kinds, int taps)
     for (size_t i = 0; i < sizeof(views) / sizeof(views[0]); i++) {
         struct tally one = {0};
         draw_both(kinds, taps, views[i], &one);
-        assert_true(one.pixels > 300);
+        assert_above(one.pixels, 300);
         sum.pixels += one.pixels;
         sum.off += one.off;
         sum.stray += one.stray;
@@ -158,8 +159,8 @@ static void expect_equal(const char *about, int kinds, int taps)
     const double bias = sum.is / sum.due - 1;
     print_message("%s, %d taps: %d pixels, %d off, %d stray, bias %.4f %%\n", about, taps,
                   sum.pixels, sum.off, sum.stray, 100 * bias);
-    assert_true(sum.off + sum.stray <= 0.001 * sum.pixels);
-    assert_true(fabs(bias) <= 0.002);
+    assert_at_most(sum.off + sum.stray, 0.001 * sum.pixels);
+    assert_at_most(fabs(bias), 0.002);
 }
 
 static void test_sky(void **state)

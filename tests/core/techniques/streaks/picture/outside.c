@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 // As the rig's small rain has it.
 static const double half_m = 30, height_m = 40, radius_m = 12, local_m = 20, eye_m = 3;
@@ -183,7 +184,9 @@ static void check_marks(const char *settings, const struct box *box, double turn
         lowest = fmax(lowest, f);
     }
     print_message("%s: %d marks, %d pixels of one alone\n", settings, marks, alone);
-    assert_true(marks > 100 && alone > 300 && lowest - highest > 0.2);
+    assert_above(marks, 100);
+    assert_above(alone, 300);
+    assert_above(lowest - highest, 0.2);
     free(t);
     free(places.words);
     free(picture);
@@ -234,7 +237,7 @@ static void test_density_map(void **state)
             fail_msg("at %.1f, %.1f m: %.3f, not %.3f", x, z, is, fmax(due, 0));
         seen += due > 0.1;
     }
-    assert_true(seen > 1000);
+    assert_above(seen, 1000);
     free(picture);
     rain_close(s);
 }
@@ -302,12 +305,14 @@ static void test_frusta_and_lines(void **state)
         const bool is_line = lit[1] > off[1] + 0.05;
         green += is_line && lit[0] < off[0] && lit[2] < off[2];
         if (is_line)
-            assert_true(lit[0] < off[0]);
+            assert_below(lit[0], off[0]);
         const bool inset = i % RAIN_WIDTH > RAIN_WIDTH * 3 / 4 && i / RAIN_WIDTH < RAIN_HEIGHT / 3;
         changed += !inset && memcmp(off, on, sizeof(on)) != 0;
     }
     print_message("%d pixels of a green frustum, %d of all lines\n", green, changed);
-    assert_true(green > 50 && changed > green && changed < RAIN_TEXELS / 4);
+    assert_above(green, 50);
+    assert_above(changed, green);
+    assert_below(changed, RAIN_TEXELS / 4);
     for (int k = 0; k < 3; k++)
         free(pictures[k]);
     remove(path);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/expect.h"
 
 // Of an image of crowns: 21 frames of 6 ms, 48 x 32 texels that show 60 x 40 mm, the impact 8 mm
 // above the lower edge.
@@ -251,8 +252,12 @@ static void expect_row(const char *settings, const double normal[3], int number,
     print_message(
         "%s, row %d: %d splashes, %d missed, %d hidden in part, %.2f to %.2f times as wide\n",
         settings, number, row.seen, row.missed, row.hidden, row.least, row.most);
-    assert_true(row.seen >= 20 && row.missed == 0 && row.hidden <= row.seen / 12);
-    assert_true(row.least < 0.95 && row.most > 1.05 && row.most < 1.25);
+    assert_at_least(row.seen, 20);
+    assert_equals(row.missed, 0);
+    assert_at_most(row.hidden, row.seen / 12);
+    assert_below(row.least, 0.95);
+    assert_above(row.most, 1.05);
+    assert_below(row.most, 1.25);
     rain_close(s);
 }
 
@@ -302,14 +307,15 @@ static void test_as_large_as_synthesised(void **state)
 {
     (void)state;
     struct streaks *s = rain_open("");
-    assert_true(fabs(s->settings.splash_width_mm - width_mm) < 1e-9);
-    assert_true(s->settings.splash_gain == 1 && s->settings.splash_opacity == 1);
-    assert_true(fabs((double)s->params.splash_width - width_mm / 1000) < 1e-7);
+    assert_below(fabs(s->settings.splash_width_mm - width_mm), 1e-9);
+    assert_equals(s->settings.splash_gain, 1);
+    assert_equals(s->settings.splash_opacity, 1);
+    assert_below(fabs((double)s->params.splash_width - width_mm / 1000), 1e-7);
     rain_close(s);
     // A drop of half the size.
     s = rain_open("drop_radius_mm=0.8");
-    assert_true(fabs((double)s->params.splash_width - width_mm / 2000) < 1e-7);
-    assert_true(fabs((double)s->params.splash_height - width_mm / 3000) < 1e-7);
+    assert_below(fabs((double)s->params.splash_width - width_mm / 2000), 1e-7);
+    assert_below(fabs((double)s->params.splash_height - width_mm / 3000), 1e-7);
     rain_close(s);
 }
 
@@ -341,10 +347,11 @@ static void test_frames_have_their_times(void **state)
     int counts[2] = {0};
     struct streaks *s = open_large(STREET "geometry=off");
     paint(s, 0, TEXELS_Y - 1, SHOWN, SHOWN);
-    assert_true(fabs(s->settings.splash_s - FRAMES * frame_s) < 1e-9);
+    assert_below(fabs(s->settings.splash_s - FRAMES * frame_s), 1e-9);
     each_splash(s, 12, see_frame, counts);
     print_message("%d splashes in the frame, %d in others\n", counts[1], counts[0]);
-    assert_true(counts[1] >= 5 && counts[0] >= 20);
+    assert_at_least(counts[1], 5);
+    assert_at_least(counts[0], 20);
     rain_close(s);
 }
 
@@ -368,7 +375,8 @@ static void test_splashes_go_out(void **state)
     paint(s, 0, TEXELS_Y - 1, 0, FRAMES - 1);
     each_splash(s, 12, see_end, counts);
     print_message("%d whole splashes, %d that go out\n", counts[0], counts[1]);
-    assert_true(counts[0] > 20 && counts[1] >= 3);
+    assert_above(counts[0], 20);
+    assert_at_least(counts[1], 3);
     rain_close(s);
 }
 
@@ -398,10 +406,12 @@ static void test_splashes_fade_away(void **state)
     paint(s, 0, TEXELS_Y - 1, 0, FRAMES - 1);
     each_splash(s, 12, see_fading, counts);
     print_message("%d whole splashes, %d fading, %d gone\n", counts[0], counts[1], counts[2]);
-    assert_true(counts[0] > 5 && counts[1] > 5);
+    assert_above(counts[0], 5);
+    assert_above(counts[1], 5);
     rain_close(s);
     s = rain_open("look=thesis");
-    assert_true(s->settings.splash_fade == 0 && s->params.splash_fade == 0);
+    assert_equals(s->settings.splash_fade, 0);
+    assert_equals(s->params.splash_fade, 0);
     rain_close(s);
 }
 

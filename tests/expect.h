@@ -1,0 +1,41 @@
+// Assertions of order that tell both values, where assert_true(a < b) tells only its text.
+#ifndef RG_TESTS_EXPECT_H
+#define RG_TESTS_EXPECT_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// Both sides are evaluated once and compared as long doubles, which hold every integer and double
+// exactly. A NaN fails, but where it differs.
+#define assert_below(a, b)    RG_EXPECT(a, "<", b)
+#define assert_at_most(a, b)  RG_EXPECT(a, "<=", b)
+#define assert_above(a, b)    RG_EXPECT(a, ">", b)
+#define assert_at_least(a, b) RG_EXPECT(a, ">=", b)
+#define assert_equals(a, b)   RG_EXPECT(a, "==", b)
+#define assert_differs(a, b)  RG_EXPECT(a, "!=", b)
+
+#define RG_EXPECT(a, order, b)                                                                     \
+    rg_expect((long double)(a), order, (long double)(b), #a " " order " " #b, __FILE__, __LINE__)
+
+static inline void rg_expect(long double a, const char *order, long double b, const char *text,
+                             const char *file, int line)
+{
+    const bool holds = !strcmp(order, "<")    ? a < b
+                       : !strcmp(order, "<=") ? a <= b
+                       : !strcmp(order, ">")  ? a > b
+                       : !strcmp(order, ">=") ? a >= b
+                       : !strcmp(order, "==") ? a == b
+                                              : a != b;
+    if (holds)
+        return;
+    print_error("%s: %.19Lg %s %.19Lg does not hold\n", text, a, order, b);
+    _fail(file, line);
+}
+
+#endif
