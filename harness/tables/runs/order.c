@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/tables/measuring/cell.h"
 #include "harness/tables/runs/needed.h"
 
 static const struct {
@@ -184,7 +185,7 @@ static unsigned devices_of(const struct rg_standing *s, enum rg_turn turn,
                            const struct rg_order_devices *devices)
 {
     if (turn == RG_TURN_FIRST)
-        return s->table->is_of_textures ? devices->all & ~devices->last : devices->first;
+        return devices->first;
     if (!turns[turn].of_devices)
         return s->share.devices;
     return (turn == RG_TURN_LAST ? devices->last : devices->all & ~devices->last) &
@@ -213,6 +214,24 @@ static bool find(const struct rg_standing *standings, int count,
     return any;
 }
 
+// How heavy a table looks of which nothing was measured: by its pixels and frames, and where
+// smaller pictures show less, by what it says itself.
+static double look_of(const struct rg_table *table, int divisor)
+{
+    enum { HEAVY = 1000 };
+    return (double)table->width * table->height / (divisor * divisor) *
+           rg_cell_check_frames(table) * (table->smaller[0] ? HEAVY : 1);
+}
+
+static bool is_cheaper(const struct rg_standing *standings, const struct rg_step *a,
+                       const struct rg_step *b)
+{
+    return a->expected_s != b->expected_s
+               ? a->expected_s < b->expected_s
+               : look_of(standings[a->table].table, a->share.divisor) <
+                     look_of(standings[b->table].table, b->share.divisor);
+}
+
 bool rg_order_next(const struct rg_standing *standings, int count,
                    const struct rg_order_devices *devices, double left_s, struct rg_step *found)
 {
@@ -221,7 +240,7 @@ bool rg_order_next(const struct rg_standing *standings, int count,
         for (int i = 0; i < count; i++) {
             struct rg_step step = {.table = i, .turn = turn};
             if (!find(standings, count, devices, left_s, &step) ||
-                (any && step.expected_s >= found->expected_s))
+                (any && !is_cheaper(standings, &step, found)))
                 continue;
             *found = step;
             any = true;

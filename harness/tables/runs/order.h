@@ -67,8 +67,8 @@ struct rg_step {
 };
 
 // The next step that was not tried: of the first turn that has one, of which the one that is
-// expected to take least, so that a large table keeps no small one out. False where all is
-// measured, or was tried. The caller marks it as tried (rg_order_tried).
+// expected to take least, or looks so, so that a large table keeps no small one out. False where
+// all is measured, or was tried. The caller marks it as tried (rg_order_tried).
 bool rg_order_next(const struct rg_standing *standings, int count,
                    const struct rg_order_devices *devices, double left_s, struct rg_step *step);
 void rg_order_tried(struct rg_standing *standings, const struct rg_step *step);

@@ -9,7 +9,7 @@ COMPILE, PROGRESS, MEASURE = "harness/tables/runs/compile.c", "harness/console/p
 
 ROWS = [
     Fault(ORDER, "for (enum rg_turn turn = «0»; turn < RG_TURNS && !any; turn++)", "RG_TURN_NEEDED", "nothing comes first", tests=("priority",)),
-    Fault(ORDER, "(any && «step.expected_s >= found->expected_s»))", "false", "the last table is the first", tests=("priority",)),
+    Fault(ORDER, "(any && «!is_cheaper(standings, &step, found)»))", "false", "the last table is the first", tests=("priority",)),
     Fault(ORDER, "if («(turn == RG_TURN_FIRST) == (s->rows > 0)»)", "false", "tables of which nothing is there are refined", tests=("priority",)),
     Fault(ORDER, "case RG_TURN_CLAIMED:\n        return «s->has_claims»;", "true", "claims need nothing first", tests=("priority",)),
     Fault(ORDER, "devices_of(s, found->turn, devices) & «~s->tried[found->turn]»;", "~0u", "what was tried is tried for ever", tests=("priority",)),
@@ -24,7 +24,7 @@ ROWS = [
     Fault(BUDGET, ".end_ms = «options->begin_ms» + 1000 * options->budget_s};", "rg_now_ms()", "a budget begins with the first table", tests=("within a budget",)),
     Fault(BUDGET, "if («now_ms <= b->end_ms» || rg_interrupted())", "true", "a budget that is too small is taken", tests=("within a budget",)),
     Fault(BUDGET, "(start_ms - begin_ms + «parts * (now_ms - start_ms)») / 1000);", "0", "the number that is told is too small", tests=("within a budget",)),
-    Fault(BUDGET, "return adds ? rows[row] && «!is_there» : is_there;", "true", "rows that are there are measured again", tests=("within a budget",)),
+    Fault(BUDGET, "return adds ? rows[row] && «!is_there» : is_there;", "true", "rows that are there are measured again", lives="it takes time, and gives no other rows"),
     Fault(BUDGET, "        rg_result_take(&joined, «old»);", "part", "what was measured before is lost", tests=("within a budget",)),
     Fault(BUDGET, "(rg_turn_is_whole(step->turn) && «rows < s->rows»)) {", "false", "a part of a device takes the place of all others", tests=("within a budget",)),
     Fault(MEASURE, "if («!m->deadline || !m->rows_opened»)", "true", "rows are begun behind the end", tests=("within a budget",)),

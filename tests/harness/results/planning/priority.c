@@ -103,6 +103,28 @@ static void the_order_is_that_of_priority(void **state)
     }
 }
 
+// Where nothing is known, what looks light comes first: by pixels and frames, and what smaller
+// pictures leave out.
+static void what_looks_light_comes_first(void **state)
+{
+    (void)state;
+    struct rg_standing s[TABLES];
+    struct rg_table looks[TABLES];
+    begin(s);
+    for (int i = 0; i < TABLES; i++) {
+        looks[i] = (struct rg_table){.technique = i ? "other" : "one", .width = 100, .height = 100};
+        s[i].table = &looks[i];
+    }
+    looks[0].smaller[0] = "sparse=16";
+    looks[1].check_frames = 20;
+    for (int i = TABLES - 1; i >= 0; i--) {
+        struct rg_step step;
+        assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+        assert_int_equal(step.table, i);
+        rg_order_tried(s, &step);
+    }
+}
+
 // What was tried and is not there, is not tried again; nothing of a table without rows is refined.
 static void what_was_tried_is_not_tried_again(void **state)
 {
@@ -230,6 +252,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_order_is_that_of_priority),
+        cmocka_unit_test(what_looks_light_comes_first),
         cmocka_unit_test(what_was_tried_is_not_tried_again),
         cmocka_unit_test(what_cells_take_follows_from_others),
         cmocka_unit_test(pictures_grow_as_far_as_there_is_time),

@@ -257,13 +257,13 @@ static void what_is_interrupted_prints_what_there_is(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_is_measured_where_there_is_time),
-        cmocka_unit_test(each_table_gets_a_row_before_one_gets_more),
-        cmocka_unit_test(a_budget_is_kept_but_for_one_cell),
+        cmocka_unit_test(a_budget_for_no_row_is_refused),
         cmocka_unit_test(a_budget_begins_with_the_command),
         cmocka_unit_test(what_would_not_end_in_time_is_skipped),
-        cmocka_unit_test(a_budget_for_no_row_is_refused),
+        cmocka_unit_test(all_is_measured_where_there_is_time),
         cmocka_unit_test(a_device_that_fails_takes_no_other_with_it),
+        cmocka_unit_test(each_table_gets_a_row_before_one_gets_more),
+        cmocka_unit_test(a_budget_is_kept_but_for_one_cell),
         cmocka_unit_test(what_is_interrupted_prints_what_there_is), // last: it stays interrupted
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
