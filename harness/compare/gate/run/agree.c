@@ -81,7 +81,6 @@ static enum rg_tier owed_by(const struct rg_gate_case *c)
 // The picture of a baseline was what it should be, so one that is the same to the bit is too.
 static bool has_its_picture(struct rg_gate_case *c, const struct left *now, struct rg_truth *truth)
 {
-    static const char *const tiers[] = {[RG_T0] = "T0", [RG_T1] = "T1", [RG_T2] = "T2"};
     const bool is_same = !strcmp(c->before->picture, now->row.picture);
     if (is_same && c->before->outcome == RG_OK)
         return true;
@@ -91,7 +90,7 @@ static bool has_its_picture(struct rg_gate_case *c, const struct left *now, stru
         say(&c->agreement,
             "the picture is another than the baseline's, and holds %s against cpu:reference as it "
             "draws now",
-            tiers[rg_tier_owed(info_of(c, RG_SIDE_B), &truth->device->info)]);
+            rg_tier_name(rg_tier_owed(info_of(c, RG_SIDE_B), &truth->device->info)));
     return true;
 }
 
