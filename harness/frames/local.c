@@ -164,6 +164,14 @@ static bool read_state(struct rg_session *session, const void *request, void *re
     return rg_buf_read(buf, 0, told->bytes, (int64_t)buf->size);
 }
 
+const struct rg_law *rg_session_law(const struct rg_session *session, int number)
+{
+    const struct rg_law *law = session->technique->proof->laws;
+    for (int i = 0; law->name && i < number; i++)
+        law++;
+    return law->name ? law : NULL;
+}
+
 static bool obeys(struct rg_session *session, const void *request, void *reply)
 {
     const struct rg_asked *asked = request;

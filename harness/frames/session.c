@@ -185,14 +185,6 @@ void *rg_session_read_state(struct rg_session *session, int index, struct rg_sta
     return bytes_of(&told, ok, size);
 }
 
-const struct rg_law *rg_session_law(const struct rg_session *session, int number)
-{
-    const struct rg_law *law = session->technique->proof->laws;
-    for (int i = 0; law->name && i < number; i++)
-        law++;
-    return law->name ? law : NULL;
-}
-
 bool rg_session_obeys(const struct rg_session *session, const struct rg_law *law, char *detail,
                       size_t size)
 {

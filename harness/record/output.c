@@ -1,11 +1,14 @@
 #include "harness/record/output.h"
 
+#include <ctype.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
@@ -139,4 +142,18 @@ bool rg_output_write_file(const char *path, const char *text)
         return rg_error("%.80s...: its name is too long", path);
     snprintf(folder, sizeof(folder), "%.*s", length, slash ? path : ".");
     return rg_output_write(folder, slash ? slash + 1 : path, text);
+}
+
+void rg_output_part(const char *name, char part[RG_OUTPUT_PART])
+{
+    enum { KEPT = 100 };
+    snprintf(part, RG_OUTPUT_PART, "%.*s", KEPT, name);
+    bool is_plain = strlen(name) <= KEPT;
+    for (char *c = part; *c; c++)
+        if (!isalnum((unsigned char)*c) && !strchr("-.", *c)) {
+            is_plain = is_plain && *c == ':'; // "cpu:reference"
+            *c = '_';
+        }
+    if (!is_plain)
+        sprintf(part + strlen(part), "_%016" PRIx64, (uint64_t)XXH3_64bits(name, strlen(name)));
 }

@@ -36,6 +36,11 @@ bool rg_output_file_can_be_written(const char *path, int64_t bytes);
 // Whether a file of this name in a folder can be replaced (false if read-only), or does not exist.
 bool rg_output_can_be_replaced(const char *folder, const char *name);
 
+// A name as a part of a file's: what may steer a shell or name a folder becomes '_', and what would
+// make two names one, or one too long, is told apart by a hash of the whole.
+enum { RG_OUTPUT_PART = 120 };
+void rg_output_part(const char *name, char part[RG_OUTPUT_PART]);
+
 // Makes the last part of a folder's path if it is missing. False, with one logged line, on failure.
 bool rg_output_folder(const char *folder);
 

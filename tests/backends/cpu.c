@@ -14,8 +14,8 @@
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "tests/core/device/draws/quads.h"
-#include "tests/expect.h"
 #include "tests/kernels/idle_params.h"
+#include "tests/tools/expect.h"
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))
 

@@ -15,8 +15,8 @@
 #include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
 #include "tests/core/device/draws/quads.h"
-#include "tests/expect.h"
 #include "tests/kernels/image_copy_params.h"
+#include "tests/tools/expect.h"
 
 static int open_device(void **state)
 {

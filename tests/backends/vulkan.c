@@ -14,7 +14,7 @@
 #include "core/base/outcome.h"
 #include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static int errors;
 

@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "tests/dialect/spirv.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // --- what the text has ---
 

@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 #include "kernels/dialect/math.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Every 1,009th float of every exponent: about two million of each sign.
 enum { STRIDE = 1009, PAIRS = 2000000 };

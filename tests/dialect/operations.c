@@ -14,7 +14,7 @@
 #include <string.h>
 
 #include "tests/dialect/spirv.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static bool is_float_operation(uint32_t op)
 {

@@ -8,7 +8,7 @@
 #include <Random123/philox.h>
 
 #include "kernels/dialect/rng.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Random123's kat_vectors for philox4x32, 10 rounds.
 static void known_answers(void **state)

@@ -20,7 +20,7 @@ static float off(float exact)
 #define RG_ROUGH_QUOTIENT(a, b) off((a) / (b))
 #define RG_ROUGH_ROOT(x)        off(sqrtf(x))
 #include "kernels/dialect/rounding.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static uint64_t seed;
 

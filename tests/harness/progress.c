@@ -15,7 +15,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/duration.h"
 #include "harness/console/progress.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static char told[256];
 static int lines;

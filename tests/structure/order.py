@@ -11,6 +11,7 @@ import re
 FLOORS = [
     "tests",
     "tests/oracle tests/kernels",
+    "tests/tools",
     "harness",
     "harness/commands",
     "harness/cli",
@@ -39,8 +40,8 @@ FLOORS = [
 
 # These include nothing else, each for a reason.
 FENCES = {
-    # An oracle proves kernels, so it shares nothing with them, nor with anything else.
-    "tests/oracle": "",
+    # An oracle proves kernels, so it shares nothing with them, nor with anything else but assertions.
+    "tests/oracle": "tests/tools",
     "tests/kernels": "kernels/T kernels/scenery kernels/dialect",
     # A technique knows its own kernels, and never another technique.
     "core/techniques/T": "core/techniques/scenery core/techniques core/scene core/image core/device core/base "

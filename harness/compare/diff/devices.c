@@ -1,12 +1,9 @@
 #include "harness/compare/diff/devices.h"
 
-#include <ctype.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <xxhash.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
@@ -20,10 +17,11 @@
 #include "harness/devices/devices.h"
 #include "harness/frames/frame.h"
 #include "harness/record/named.h"
+#include "harness/record/output.h"
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/passport.h"
 
-enum { DEVICE_PART = 100, HEATMAP_PREFIX = 2048 };
+enum { HEATMAP_PREFIX = 2048 };
 
 struct shot {
     struct rg_device *device;
@@ -106,30 +104,14 @@ static bool take_pictures(struct session *s, const struct rg_devices *devices)
     return ok;
 }
 
-// A device's name as a part of a file's: what may steer a shell or name a folder is left out, and
-// what would make two names one, or one too long, is told apart by a hash of the whole.
-static void name_device(const char *name, char text[DEVICE_PART])
-{
-    enum { KEPT = DEVICE_PART - 20 };
-    snprintf(text, DEVICE_PART, "%.*s", KEPT, name);
-    bool is_plain = strlen(name) <= KEPT;
-    for (char *c = text; *c; c++)
-        if (!isalnum((unsigned char)*c) && !strchr("-.", *c)) {
-            is_plain = is_plain && *c == ':'; // "cpu:reference"
-            *c = '_';
-        }
-    if (!is_plain)
-        sprintf(text + strlen(text), "_%016" PRIx64, (uint64_t)XXH3_64bits(name, strlen(name)));
-}
-
 // "cpu:reference" and "gl" become PREFIX-cpu_reference-gl.
 static void name_heatmaps(const struct session *s, const struct rg_device_info *a,
                           const struct rg_device_info *b, char prefix[HEATMAP_PREFIX])
 {
-    char names[2][DEVICE_PART];
+    char names[2][RG_OUTPUT_PART];
     const char *asked = s->asked->heatmap_prefix;
-    name_device(a->name, names[0]);
-    name_device(b->name, names[1]);
+    rg_output_part(a->name, names[0]);
+    rg_output_part(b->name, names[1]);
     snprintf(prefix, HEATMAP_PREFIX, "%.1700s%s%s-%s", asked, rg_is_folder_prefix(asked) ? "" : "-",
              names[0], names[1]);
 }

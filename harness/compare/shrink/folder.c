@@ -226,7 +226,9 @@ static bool fill(struct folder *f, const char *note, struct rg_device *device,
             ok = write_manifest(f, out, block_size);
         else if (out)
             write_readme(f, out, note, &device->info, &truth->info);
-        ok = ((out && fclose(out) == 0) || rg_harness_error("%s: no memory for its texts", f->path)) && ok;
+        ok = ((out && fclose(out) == 0) ||
+              rg_harness_error("%s: no memory for its texts", f->path)) &&
+             ok;
         if (texts[i])
             add(f, i == 0 ? "kernel.txt" : "README", texts[i], 0, texts[i]);
     }

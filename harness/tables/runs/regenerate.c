@@ -130,10 +130,11 @@ static bool spare_journals(const struct task *tasks, int count, const struct rg_
 {
     for (int i = 0; i < count && rg_devices_exit(devices) != RG_EXIT_PASS; i++)
         if (rg_journal_is_of_others(tasks[i].journal))
-            return rg_error("%s: a driver fell while its device was opened, so that what a run "
-                            "before has measured would be replaced; go on once it is well, name "
-                            "the devices that are with --device, or begin anew with --fresh",
-                            tasks[i].result.table);
+            return rg_driver_error(
+                "%s: a driver fell while its device was opened, so that what a run "
+                "before has measured would be replaced; go on once it is well, name "
+                "the devices that are with --device, or begin anew with --fresh",
+                tasks[i].result.table);
     return true;
 }
 

@@ -10,7 +10,7 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static void elements_stay_while_an_array_grows(void **state)
 {

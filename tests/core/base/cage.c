@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 #include "core/base/cage/cage.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static pid_t parent; // a caged program cannot ask for it
 

@@ -13,7 +13,7 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "tests/core/root.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define MIB ((int64_t)1 << 20)
 

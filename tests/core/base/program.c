@@ -15,7 +15,7 @@
 #include <cmocka.h>
 
 #include "core/base/program.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // A file in memory with a text, at its start.
 static int file_of(const char *text)

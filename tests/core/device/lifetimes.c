@@ -6,7 +6,7 @@
 #include "core/device/shared.h"
 #include "kernels/probe/copy_params.h"
 #include "tests/core/device/suite.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { ROUNDS = 1000, WARM_UP = 100, MAX_GROWTH_BYTES = 16 << 20 };
 

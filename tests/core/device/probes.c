@@ -3,7 +3,7 @@
 #include "core/device/probe.h"
 #include "core/device/scan.h"
 #include "tests/core/device/suite.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Rows that must be exact come first and are; the drivers' own functions follow and may differ.
 static void check_operations(struct rg_device *device)

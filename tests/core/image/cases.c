@@ -10,7 +10,7 @@
 
 #include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Tiles of 16 pixels do not fit: the last are 8 wide and 4 high.
 enum { WIDTH = 40, HEIGHT = 20, GREY = 100 };

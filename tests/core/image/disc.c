@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "core/image/disc.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static struct rg_picture dark(int width, int height, int channels)
 {

@@ -10,7 +10,7 @@
 #include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 61, HEIGHT = 43, PIXELS = WIDTH * HEIGHT, BIG = 40 };
 

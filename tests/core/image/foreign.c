@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "core/image/files/io.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 7, HIGH = 5, MOST = 4 };
 

@@ -25,7 +25,7 @@
 #include "core/image/files/temporary.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 37, HEIGHT = 23 };
 

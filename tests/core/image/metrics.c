@@ -12,7 +12,7 @@
 #include "core/image/files/oiio.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static struct rg_picture noise_picture(int width, int height, int channels, uint32_t seed)
 {

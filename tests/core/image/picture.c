@@ -12,7 +12,7 @@
 #include "core/image/disc.h"
 #include "core/image/picture.h"
 #include "core/image/srgb.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // The first float at which a code begins, and the last before it, by IEC 61966-2-1's own formula.
 static void test_codes(void **state)

@@ -10,7 +10,7 @@
 #include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 320, HEIGHT = 240, CHANNELS = 4 };
 

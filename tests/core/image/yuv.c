@@ -12,7 +12,7 @@
 
 #include "core/image/clip/yuv.h"
 #include "core/image/srgb.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { MOST_BYTES = 64 };
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core/scene/city/city.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static struct city *create(int seed, enum city_size size)
 {

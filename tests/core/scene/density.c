@@ -16,8 +16,8 @@
 #include "core/scene/density.h"
 #include "tests/core/folder.h"
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/expect.h"
 #include "tests/oracle/streaks/packets.h"
+#include "tests/tools/expect.h"
 
 // A PNG of these bytes, of 8 or 16 bits (the more significant byte first) a channel.
 static const char *write_png(int width, int height, int bits, int colour, const uint8_t *bytes)

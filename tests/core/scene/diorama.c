@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core/scene/diorama/diorama.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 struct vector {
     double x, y, z;

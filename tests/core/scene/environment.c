@@ -19,7 +19,7 @@
 #include "kernels/dialect/image/cube.h"
 #include "kernels/dialect/image/memory.h"
 #include "tests/core/folder.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static void write_file(const char *path, const void *data, size_t bytes)
 {

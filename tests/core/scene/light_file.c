@@ -12,7 +12,7 @@
 
 #include "core/base/log.h"
 #include "core/techniques/scenery/lights/lights.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static int errors;
 

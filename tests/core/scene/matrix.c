@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "core/scene/matrix.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static uint32_t state_of_noise = 7;
 

@@ -10,7 +10,7 @@
 
 #include "core/scene/city/city.h"
 #include "kernels/scenery/openness_grid.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { SIDE = SCENERY_OPEN_SIDE, LEVELS = SCENERY_OPEN_LEVELS, MIDDLE = SIDE / 2, WAYS = 16 };
 

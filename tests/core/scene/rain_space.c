@@ -11,8 +11,8 @@
 
 #include "core/scene/rain_space.h"
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/expect.h"
 #include "tests/oracle/streaks/packets.h"
+#include "tests/tools/expect.h"
 
 static void expect_near(const double *actual, const double *expected, int count, double within)
 {

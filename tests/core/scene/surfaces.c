@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core/scene/city/build.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static void begin(struct city_builder *b)
 {

@@ -14,7 +14,7 @@
 #include "core/base/log.h"
 #include "core/techniques/params.h"
 #include "core/techniques/technique.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 struct settings {
     int drops, look, size;

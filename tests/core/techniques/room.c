@@ -16,7 +16,7 @@
 #include "core/base/memory.h"
 #include "core/image/files/io.h"
 #include "core/techniques/technique.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Settings that change what is taken: of images, buffers, textures and meshes. Those of scenes are
 // small, for opening one takes seconds; they stand last.

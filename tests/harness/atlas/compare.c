@@ -19,7 +19,7 @@
 #include "harness/atlas/compare.h"
 #include "kernels/dialect/rng.h"
 #include "tests/core/scene/atlas/codes.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Widths 8 and 4 are levels 2 and 3, the first two of the small atlas.
 enum { LEVEL = 2, WIDTH = 8, MOST = WIDTH * 400 };

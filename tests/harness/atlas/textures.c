@@ -15,7 +15,7 @@
 
 #include "core/image/files/io.h"
 #include "harness/atlas/textures.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static char folder[] = "/tmp/raingauge-textures-XXXXXX";
 static struct rg_texture_rows rows;

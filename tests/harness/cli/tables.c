@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "harness/commands/commands.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static const size_t value_sizes[] = {
     [RG_OPTION_FLAG] = sizeof(bool),           [RG_OPTION_INT] = sizeof(int),

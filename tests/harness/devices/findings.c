@@ -20,7 +20,7 @@
 #include "harness/frames/session.h"
 #include "harness/measure/drawing.h"
 #include "harness/measure/messages.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // What is written over a struct that is put into a reply.
 struct damage {

@@ -13,7 +13,7 @@
 
 #include "core/base/log.h"
 #include "harness/devices/workers/channel.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static int lines;
 

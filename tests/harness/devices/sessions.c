@@ -18,7 +18,7 @@
 #include "harness/frames/session.h"
 #include "harness/devices/serving/serving.h"
 #include "harness/devices/workers/device.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { LOCAL, REMOTE, FRAMES = 5 };
 

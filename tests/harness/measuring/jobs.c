@@ -16,7 +16,7 @@
 #include "core/image/compare/compare.h"
 #include "harness/frames/frame.h"
 #include "harness/measure/measure.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"

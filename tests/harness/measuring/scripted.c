@@ -11,8 +11,8 @@
 #include "core/base/log.h"
 #include "harness/console/interrupt.h"
 #include "harness/measure/measure.h"
-#include "tests/expect.h"
 #include "tests/harness/measuring/fake.h"
+#include "tests/tools/expect.h"
 
 #define assert_ms(value, ms) assert_near(value, ms, 1e-6)
 

@@ -9,7 +9,7 @@
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "harness/measure/timer_audit.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static const struct rg_backend *honest;
 

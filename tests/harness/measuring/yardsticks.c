@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "harness/measure/yardsticks.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Each is done, takes some time, and can be done again; what is copied is.
 static void test_all(void **state)

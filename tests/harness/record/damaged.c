@@ -6,8 +6,8 @@
 
 #include "harness/record/schema/schema.h"
 #include "harness/tables/print.h"
-#include "tests/expect.h"
 #include "tests/harness/record/made.h"
+#include "tests/tools/expect.h"
 
 // A document that is taken prints, and is written as it was read; one that is not is told of in one
 // line that begins with the file.

@@ -8,8 +8,8 @@
 #include "core/base/log.h"
 #include "harness/record/disk/journal.h"
 #include "harness/record/disk/stored.h"
-#include "tests/expect.h"
 #include "tests/harness/record/made.h"
+#include "tests/tools/expect.h"
 
 static char folder[64];
 static int lines;

@@ -21,7 +21,7 @@
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/measuring/measure.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"

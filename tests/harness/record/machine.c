@@ -11,7 +11,7 @@
 
 #include "harness/record/passport/machine.h"
 #include "tests/core/root.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static struct rg_machine read_machine(void)
 {

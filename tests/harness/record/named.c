@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "harness/record/named.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // A character that does not fit whole is left out; what is no UTF-8 is marked.
 static void test_texts(void **state)

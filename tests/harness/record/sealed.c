@@ -6,8 +6,8 @@
 
 #include "harness/record/disk/cells.h"
 #include "harness/tables/print.h"
-#include "tests/expect.h"
 #include "tests/harness/record/made.h"
+#include "tests/tools/expect.h"
 
 // What is printed of a made result, read again.
 static json_t *make_document(void)

@@ -9,7 +9,7 @@
 
 #include "harness/record/slope.h"
 #include "kernels/dialect/rng.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define assert_near(value, due, within) assert_true(fabs((value) - (due)) <= (within))
 

@@ -8,8 +8,8 @@
 #include "core/base/log.h"
 #include "harness/record/disk/stored.h"
 #include "harness/tables/print.h"
-#include "tests/expect.h"
 #include "tests/harness/record/made.h"
+#include "tests/tools/expect.h"
 
 // Each record is the same to the last bit, but for what a file does not hold.
 static void assert_same_records(const struct rg_result *a, const struct rg_result *b)

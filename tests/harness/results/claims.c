@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "harness/tables/claims/claim.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { ROWS = 5, SAMPLES = 10, TRIALS = 200 };
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "harness/frames/figures/figures.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Those that are to be drawn anew.
 static const char *const creus[] = {"4.1", "4.4", "4.11", "4.13", "4.14", "4.15", "4.16", "5.2",

@@ -12,7 +12,7 @@
 
 #include "harness/tables/claims/margin.h"
 #include "harness/tables/claims/order.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // --- the order of two sets ---
 

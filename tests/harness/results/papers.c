@@ -13,7 +13,7 @@
 #include "core/techniques/technique.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/table.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static const char *folder;
 

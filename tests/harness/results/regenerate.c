@@ -12,7 +12,7 @@
 #include "harness/measure/expected.h"
 #include "harness/tables/runs/regenerate.h"
 #include "harness/tables/measuring/measure.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"

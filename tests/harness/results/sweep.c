@@ -10,7 +10,7 @@
 
 #include "core/techniques/technique.h"
 #include "harness/tables/sweep/grid.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static void expect_axis(const char *text, const char *name, const char *const *values)
 {

@@ -12,7 +12,7 @@
 
 #include "harness/compare/bisect/list.h"
 #include "harness/compare/bisect/search.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { LONGEST = 11 };
 

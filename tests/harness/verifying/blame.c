@@ -12,8 +12,8 @@
 
 #include "core/techniques/technique.h"
 #include "harness/compare/blame/blame.h"
-#include "tests/expect.h"
 #include "tests/harness/verifying/rig.h"
+#include "tests/tools/expect.h"
 
 enum { WORDS = 16 };
 

@@ -15,7 +15,7 @@
 #include "core/image/files/io.h"
 #include "harness/compare/diff/files.h"
 #include "tests/core/image/rain_picture.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static char folder[] = "/tmp/raingauge-diff-XXXXXX";
 static char a[64], b[64], background[64], small[64], three[64], output[64], prefix[64];

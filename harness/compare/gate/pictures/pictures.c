@@ -1,9 +1,7 @@
 #include "harness/compare/gate/pictures/pictures.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
-#include <xxhash.h>
 
 #include "core/base/log.h"
 #include "core/image/files/io.h"
@@ -12,14 +10,9 @@
 
 static void prefix_of(const char *folder, const char *name, char prefix[PATH_MAX])
 {
-    enum { KEPT = 100 };
-    char plain[KEPT + 1];
-    snprintf(plain, sizeof(plain), "%s", name);
-    for (char *c = plain; *c; c++)
-        if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-=@", *c))
-            *c = '_';
-    snprintf(prefix, PATH_MAX, "%.3800s/%s_%016" PRIx64, folder, plain,
-             (uint64_t)XXH3_64bits(name, strlen(name)));
+    char part[RG_OUTPUT_PART];
+    rg_output_part(name, part);
+    snprintf(prefix, PATH_MAX, "%.3800s/%s", folder, part);
 }
 
 void rg_gate_picture_path(const char *folder, const char *name, int picture, char path[PATH_MAX])

@@ -1,7 +1,7 @@
 // The API's own occlusion queries, against samples that fragments count on cpu:reference.
 #include "tests/core/device/draws/quads.h"
 #include "tests/core/device/suite.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 333, HEIGHT = 217, QUADS = 20000, FEW = 96 };
 

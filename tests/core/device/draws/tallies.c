@@ -3,9 +3,9 @@
 
 #include "tests/core/device/draws/quads.h"
 #include "tests/core/device/suite.h"
-#include "tests/expect.h"
 #include "tests/kernels/image_copy_params.h"
 #include "tests/kernels/drawing/lights_params.h"
+#include "tests/tools/expect.h"
 
 // Powers of two: corners on pixels' corners stay there.
 enum { WIDTH = 256, HEIGHT = 128 };

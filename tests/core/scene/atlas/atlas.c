@@ -20,7 +20,7 @@
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/splash.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static const char *published;
 static struct rg_atlas *small;

@@ -20,7 +20,7 @@
 #include "core/base/log.h"
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/levels.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static char folder[] = "/tmp/raingauge-atlas-XXXXXX";
 static char path[RG_ATLAS_PATH_SIZE], why[256];

@@ -20,7 +20,7 @@
 #include "core/scene/atlas/levels.h"
 #include "core/techniques/streaks/instance.h"
 #include "tests/core/scene/atlas/codes.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { PATH_SIZE = 512 };
 

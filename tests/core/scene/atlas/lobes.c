@@ -11,7 +11,7 @@
 #include "core/scene/atlas/atlas.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/lights.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static struct rg_lobes lobes;
 

@@ -11,7 +11,7 @@
 
 #include "core/scene/atlas/cave/cave.h"
 #include "core/scene/atlas/streak.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define PI 3.14159265358979323846
 

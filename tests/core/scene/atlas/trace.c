@@ -8,8 +8,8 @@
 #include <math.h>
 
 #include "core/scene/atlas/optics/trace.h"
-#include "tests/expect.h"
 #include "tests/oracle/drop.h"
+#include "tests/tools/expect.h"
 
 #define PI    3.14159265358979323846
 #define INDEX ((double)RG_DROP_INDEX)

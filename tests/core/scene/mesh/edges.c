@@ -10,7 +10,7 @@
 
 #include "core/scene/mesh/edges.h"
 #include "core/scene/mesh/mesh.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // A roof along z from (0, 0, 0) to (0, 0, 1), the eaves at x = -1 and 1 and y = -1, and a third
 // face that stands upright on the ridge.

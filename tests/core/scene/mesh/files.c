@@ -13,7 +13,7 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/scene/mesh/read.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static const char *fuzz_folder; // the program's argument
 

@@ -11,7 +11,7 @@
 #include "core/base/memory.h"
 #include "core/scene/mesh/edges.h"
 #include "core/scene/mesh/models.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // --- in memory ---
 

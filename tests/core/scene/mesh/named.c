@@ -1,7 +1,7 @@
 // Files of meshes as editors and exporters leave them: texts that begin with a byte order mark, and
 // buffers of glTF by any name.
 #include "tests/core/scene/mesh/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #include <stdio.h>
 #include <string.h>

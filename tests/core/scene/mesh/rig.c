@@ -7,7 +7,7 @@
 
 #include "core/base/log.h"
 #include "tests/core/scene/mesh/fault.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // --- the box ---
 

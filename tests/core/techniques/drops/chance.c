@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/drops/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define PANE "columns=128 rows=96 cell_mm=0.5 "
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/drops/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define PANE  "columns=200 rows=160 drops_s=0 meander_rad=0 "
 #define RAINY "columns=250 rows=150 drops_s=30 max_drops=300 "

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/drops/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { FAR, WIDE, HIGH, STILL_WIDE, STILL_HIGH, MEASURES };
 

@@ -12,8 +12,8 @@
 #include <string.h>
 
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/expect.h"
 #include "tests/oracle/flow/box.h"
+#include "tests/tools/expect.h"
 
 static const char *device = "cpu:reference";
 

@@ -11,7 +11,7 @@
 
 #include "core/techniques/flow/instance.h"
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 160, HEIGHT = 120 };
 

@@ -13,7 +13,7 @@
 
 #include "core/techniques/flow/instance.h"
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { DEVICES = 2, UNIT = 65536, BLOCK = 16 }; // texels that `cpu` asks at a time
 

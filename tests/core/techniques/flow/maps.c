@@ -17,7 +17,7 @@
 #include "core/image/files/options.h"
 #include "core/image/srgb.h"
 #include "core/techniques/flow/inputs/flow.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static char folder[] = "/tmp/raingauge-maps-XXXXXX";
 static char path[64];

@@ -12,7 +12,7 @@
 
 #include "core/techniques/flow/instance.h"
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static const char *device = "cpu:reference";
 

@@ -15,8 +15,8 @@
 #include "kernels/dialect/image/memory.h"
 #include "tests/core/folder.h"
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/expect.h"
 #include "tests/oracle/flow/picture.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 132, HEIGHT = 100, PIXELS = WIDTH * HEIGHT, STEPS = 12 };
 

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 struct pane {
     double wet, centre; // shares of the pane

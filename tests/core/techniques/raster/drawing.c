@@ -12,8 +12,8 @@
 
 #include "kernels/dialect/rng.h"
 #include "tests/core/techniques/rigs/scene.h"
-#include "tests/expect.h"
 #include "tests/oracle/raster.h"
+#include "tests/tools/expect.h"
 
 // --- chance ---
 

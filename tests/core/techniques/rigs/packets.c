@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 const struct rg_rain_space rig_space = {.origin_m = {0, 230, 0},
                                         .x = {1, 0, 0},

@@ -9,7 +9,7 @@
 #include "tests/core/techniques/shower/rig.h"
 
 #include "tests/core/folder.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 64, HEIGHT = 36, MAP_PX = 128, PLACES = 500 };
 

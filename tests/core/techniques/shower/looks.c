@@ -7,7 +7,7 @@
 
 #include "kernels/dialect/image/format.h"
 #include "tests/core/techniques/shower/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 160, HEIGHT = 90, ACROSS = 4, DOWN = 3, REGIONS = ACROSS * DOWN, FRAMES = 16 };
 

@@ -6,8 +6,8 @@
 
 #include "kernels/dialect/image/format.h"
 #include "tests/core/techniques/shower/rig.h"
-#include "tests/expect.h"
 #include "tests/oracle/raster.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 320, HEIGHT = 180, ACROSS = 4, DOWN = 3, DROPS = ACROSS * DOWN };
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/shower/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // --- eq. 1 ---
 

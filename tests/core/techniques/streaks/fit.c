@@ -13,7 +13,7 @@
 #include "core/image/compare/compare.h"
 #include "core/techniques/stages/frame.h"
 #include "core/techniques/streaks/instance.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 128, HEIGHT = 72 };
 

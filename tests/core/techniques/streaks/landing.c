@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static const double pi = 3.14159265358979323846, least_mm = 0.8, largest_mm = 6, splash_s = 1;
 

@@ -14,7 +14,7 @@
 #include "core/techniques/streaks/instance.h"
 #include "tests/core/techniques/rigs/scene.h"
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { WIDTH = 96, HEIGHT = 54, HALVES = WIDTH * HEIGHT * 4, MAP_PX = 1024 };
 enum { FILM, PUDDLE, ROUGH, SMOOTH, MATERIALS };

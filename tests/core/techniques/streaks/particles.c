@@ -13,8 +13,8 @@
 #include "core/device/device.h"
 #include "kernels/dialect/rng.h"
 #include "kernels/streaks/params.h"
-#include "tests/expect.h"
 #include "tests/oracle/particle.h"
+#include "tests/tools/expect.h"
 
 enum { BLOCKS = 256, PARTICLES = BLOCKS * STREAKS_BLOCK, MAP_X = 7, MAP_Y = 5, WORDS = 10 };
 enum { SIZES = 4, SIZE_WORDS = 5, FIRST_BLOCK = SIZES * SIZE_WORDS };

@@ -8,7 +8,7 @@
 
 #include "core/scene/spectrum.h"
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static const double pi = 3.14159265358979323846, largest_mm = 6;
 static const double rates[] = {1, 5, 20, 50, 100};

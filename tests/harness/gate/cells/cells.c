@@ -12,7 +12,7 @@
 #include "core/base/log.h"
 #include "core/base/text/place.h"
 #include "harness/compare/gate/cells/cells.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static char logged[2048];
 static int logged_lines;

@@ -10,8 +10,8 @@
 #include <cmocka.h>
 
 #include "harness/compare/gate/decide/course.h"
-#include "tests/expect.h"
 #include "tests/harness/gate/decide/chance.h"
+#include "tests/tools/expect.h"
 
 enum { MOST_ROWS = 4 };
 

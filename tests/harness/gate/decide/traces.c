@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "harness/compare/gate/decide/course.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { MOST_GATES = 64, MOST_ROWS = 8, MOST_LAUNCHES = 1024 };
 

@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "harness/record/schema/schema.h"
-#include "tests/expect.h"
 #include "tests/harness/results/forms/rig.h"
+#include "tests/tools/expect.h"
 
 static void test_sheet(void **state)
 {

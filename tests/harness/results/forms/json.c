@@ -8,8 +8,8 @@
 #include <stdio.h>
 
 #include "harness/record/schema/schema.h"
-#include "tests/expect.h"
 #include "tests/harness/results/forms/rig.h"
+#include "tests/tools/expect.h"
 
 static void test_json(void **state)
 {

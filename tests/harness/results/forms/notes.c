@@ -9,8 +9,8 @@
 
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/trend.h"
-#include "tests/expect.h"
 #include "tests/harness/results/forms/rig.h"
+#include "tests/tools/expect.h"
 
 // Named rows of no paper: the first has all on.
 static const struct rg_table parts_table = {

@@ -10,8 +10,8 @@
 
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/trend.h"
-#include "tests/expect.h"
 #include "tests/harness/results/forms/rig.h"
+#include "tests/tools/expect.h"
 
 static void test_order_of_names(void **state)
 {

@@ -14,9 +14,9 @@
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/measuring/measure.h"
 #include "harness/tables/sweep/plan.h"
-#include "tests/expect.h"
 #include "tests/harness/measuring/fake.h"
 #include "tests/harness/results/planning/slow.h"
+#include "tests/tools/expect.h"
 
 #define assert_ms(value, ms) assert_near(value, ms, 1e-6)
 

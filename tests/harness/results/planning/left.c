@@ -16,8 +16,8 @@
 #include "core/base/log.h"
 #include "harness/console/clock.h"
 #include "harness/tables/runs/regenerate.h"
-#include "tests/expect.h"
 #include "tests/harness/results/planning/slow.h"
+#include "tests/tools/expect.h"
 
 enum { MOST_ROWS = 40, MOST_LINES = 64, MOST_TABLES = 3, RUNS = 24 };
 

@@ -12,7 +12,7 @@
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/runs/needed.h"
 #include "harness/tables/runs/order.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { CPU = 1, GL = 2, REFERENCE = 4 };
 static const struct rg_order_devices devices = {

@@ -16,8 +16,8 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/tables/runs/budget.h"
-#include "tests/expect.h"
 #include "tests/harness/results/planning/slow.h"
+#include "tests/tools/expect.h"
 
 enum { TABLES = 4, ROWS = 4 };
 

@@ -9,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "tests/expect.h"
 #include "tests/oracle/drops/cases/rig.h"
 #include "tests/oracle/drops/drops.h"
 #include "tests/oracle/drops/particles.h"
+#include "tests/tools/expect.h"
 
 // A normal distribution lies below -1/3 with the probability 0.36944, and above 1/3 as often.
 static void test_affinity(void **state)

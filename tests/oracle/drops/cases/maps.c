@@ -8,10 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "tests/expect.h"
 #include "tests/oracle/drops/cases/rig.h"
 #include "tests/oracle/drops/drops.h"
 #include "tests/oracle/drops/map.h"
+#include "tests/tools/expect.h"
 
 static void test_hemisphere(void **state)
 {

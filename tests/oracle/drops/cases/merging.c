@@ -7,11 +7,11 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "tests/expect.h"
 #include "tests/oracle/drops/cases/rig.h"
 #include "tests/oracle/drops/drops.h"
 #include "tests/oracle/drops/map.h"
 #include "tests/oracle/drops/merge.h"
+#include "tests/tools/expect.h"
 
 // Two drops whose water touches become one: its mass is theirs, its velocity carries their
 // momentum, its place is the lower one's. What they are before that comes from a twin that does not

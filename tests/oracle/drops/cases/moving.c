@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "tests/expect.h"
 #include "tests/oracle/drops/cases/rig.h"
 #include "tests/oracle/drops/drops.h"
 #include "tests/oracle/drops/map.h"
+#include "tests/tools/expect.h"
 
 static const double GRAVITY_MM_S2 = 9800;
 

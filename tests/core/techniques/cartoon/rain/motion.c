@@ -14,7 +14,7 @@
 
 #include "core/base/log.h"
 #include "tests/core/techniques/cartoon/rain/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define SIZE_PX 96
 

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/cartoon/rain/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #define PLACED_M  2e-6 // by which places in floats are off; along a way that grazes, more
 #define ROUNDED_M 2e-5 // of where a ray in floats meets a face

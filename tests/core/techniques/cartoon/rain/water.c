@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/cartoon/rain/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { SIDE = 128, CELLS = SIDE * SIDE, SIZE_PX = 128 };
 

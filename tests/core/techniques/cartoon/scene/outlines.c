@@ -14,7 +14,7 @@
 #include "core/scene/mesh/edges.h"
 #include "tests/core/techniques/cartoon/rig.h"
 #include "tests/core/techniques/cartoon/scene/shapes.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { SIZE = 240 };
 static const double ANGLE_DEG = 40;

@@ -13,7 +13,7 @@
 #include "core/base/log.h"
 #include "tests/core/folder.h"
 #include "tests/core/techniques/cartoon/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static int lines;
 

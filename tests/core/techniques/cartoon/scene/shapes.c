@@ -1,5 +1,5 @@
 #include "tests/core/techniques/cartoon/scene/shapes.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/cartoon/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { TONES = 7 }; // the last is blank
 

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/cartoon/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // --- maps ---
 

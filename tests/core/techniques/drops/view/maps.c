@@ -10,7 +10,7 @@
 
 #include "core/image/srgb.h"
 #include "tests/core/techniques/drops/view/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { COLUMNS = 250, ROWS = 150 };
 

@@ -12,7 +12,7 @@
 
 #include "tests/core/folder.h"
 #include "tests/core/techniques/drops/view/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // A pane of 80 x 60 mm in a picture of 160 x 120 pixels, half a mm each.
 #define DRY "columns=80 rows=60 cell_mm=1 drops_s=0 environment=sky environment_px=16 rays_px=2 "

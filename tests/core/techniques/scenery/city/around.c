@@ -7,8 +7,8 @@
 #include "core/scene/environment/cube.h"
 #include "core/techniques/scenery/environment.h"
 #include "tests/core/techniques/scenery/city/stage.h"
-#include "tests/expect.h"
 #include "tests/oracle/flow/light.h"
+#include "tests/tools/expect.h"
 
 enum { FACE_PX = 512, TILE = 10 };
 

@@ -6,7 +6,7 @@
 
 #include "core/base/log.h"
 #include "tests/core/techniques/scenery/city/stage.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { MAP_PX = 128 };
 

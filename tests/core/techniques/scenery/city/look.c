@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "kernels/scenery/openness_grid.h"
-#include "tests/expect.h"
 #include "tests/oracle/vectors.h"
+#include "tests/tools/expect.h"
 
 // --- the oracle's inputs ---
 

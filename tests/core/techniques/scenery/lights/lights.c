@@ -4,7 +4,7 @@
 
 #include "core/base/log.h"
 #include "tests/core/techniques/scenery/lights/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static const struct city_lamp lamps[] = {
     {CITY_STREET_LAMP, {9, 8, 11}, {0, -1, 0}},

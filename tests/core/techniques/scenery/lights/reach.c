@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/scenery/lights/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static double share_due(const struct rg_light *light, struct vec at)
 {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/scenery/lights/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Whether a light reaches a point; -1 where that changes within `margin` of it.
 static int reached_about(const struct rg_light *light, struct vec at, double bias, double margin)

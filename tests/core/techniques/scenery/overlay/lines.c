@@ -6,7 +6,7 @@
 
 #include "core/techniques/scenery/lights/lights.h"
 #include "tests/core/techniques/scenery/overlay/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // An end of a line on the grid of 1/256 pixel, and floats of 1e-6 of a few hundred pixels.
 static const double allowed = 0.006;

@@ -5,7 +5,7 @@
 
 #include "core/scene/matrix.h"
 #include "tests/core/techniques/scenery/overlay/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 static double ramp(double v)
 {

@@ -9,7 +9,7 @@
 #include "core/image/files/io.h"
 #include "core/scene/city/city.h"
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Tests of several devices run side by side.
 static char lights_path[64], map_path[64], mesh_path[64];

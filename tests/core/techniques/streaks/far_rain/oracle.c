@@ -8,8 +8,8 @@
 
 #include "core/image/files/io.h"
 #include "tests/core/techniques/streaks/picture/given.h"
-#include "tests/expect.h"
 #include "tests/oracle/streaks/far.h"
+#include "tests/tools/expect.h"
 
 static char lights_path[64], map_path[64];
 static struct streak_means means;

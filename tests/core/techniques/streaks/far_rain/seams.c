@@ -8,7 +8,7 @@
 
 #include "core/image/files/io.h"
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Light of the sky alone, through a level camera, and nothing that hides it.
 #define SEAMS                                                                                      \

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/expect.h"
 #include "tests/oracle/streaks/packets.h"
+#include "tests/tools/expect.h"
 
 // Particles in the squares of a board, under two schemes that only chance tells apart. A grid
 // scatters no more than single particles do, so that its chi-square may be small, but not large.

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Each particle lies in exactly one packet, which is no larger than asked for, and inside that
 // packet's place.

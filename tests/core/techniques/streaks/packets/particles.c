@@ -12,8 +12,8 @@
 #include <string.h>
 
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/expect.h"
 #include "tests/oracle/streaks/packets.h"
+#include "tests/tools/expect.h"
 
 // --- where particles are ---
 

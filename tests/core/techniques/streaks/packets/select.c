@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/expect.h"
 #include "tests/oracle/streaks/packets.h"
+#include "tests/tools/expect.h"
 
 enum { MAP_SIDE = 6, PARTICLES = 10000, VIEWS = 12, TRIES = 24 };
 

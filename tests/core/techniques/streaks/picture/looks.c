@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/expect.h"
 #include "tests/oracle/drop.h"
+#include "tests/tools/expect.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // As the rig's small rain has it.
 static const double half_m = 30, height_m = 40, radius_m = 12, local_m = 20, eye_m = 3;

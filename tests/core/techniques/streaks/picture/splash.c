@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 // Of an image of crowns: 21 frames of 6 ms, 48 x 32 texels that show 60 x 40 mm, the impact 8 mm
 // above the lower edge.

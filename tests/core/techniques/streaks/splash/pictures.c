@@ -10,7 +10,7 @@
 #include "core/scene/atlas/splash.h"
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/core/techniques/streaks/splash/crown.h"
-#include "tests/expect.h"
+#include "tests/tools/expect.h"
 
 enum { MATERIALS = 4 };
 

@@ -1,6 +1,6 @@
 // Assertions of order that tell both values, where assert_true(a < b) tells only its text.
-#ifndef RG_TESTS_EXPECT_H
-#define RG_TESTS_EXPECT_H
+#ifndef RG_TESTS_TOOLS_EXPECT_H
+#define RG_TESTS_TOOLS_EXPECT_H
 
 #include <setjmp.h>
 #include <stdarg.h>
