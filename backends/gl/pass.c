@@ -1,6 +1,8 @@
 #include "backends/gl/gl.h"
 
+#include <ctype.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
@@ -54,6 +56,23 @@ void gl_pass_destroy(struct rg_pass *pass)
     free(mine);
 }
 
+// Mesa names a shader by the number of its program object ("GLSL168"), which is another where a
+// cache has it from another process, pads the name with zeros, and counts and checks all of it in
+// its head. Without these the same code has the same bytes; how many are left.
+static size_t drop_numbers(unsigned char *bytes, size_t size)
+{
+    enum { HEAD = 24, COUNTED = 32, NAME = 4 }; // count and checksum lie between the first two
+    size_t kept = 0;
+    for (size_t i = 0; i < size; i++) {
+        const bool is_name = i + NAME < size && !memcmp(bytes + i, "GLSL", NAME);
+        for (size_t d = i + NAME; is_name && d < size && isdigit(bytes[d]); d++)
+            bytes[d] = 0;
+        if (bytes[i] && (i < HEAD || i >= COUNTED))
+            bytes[kept++] = bytes[i];
+    }
+    return kept;
+}
+
 bool gl_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
 {
     const struct gl_pass *mine = (const struct gl_pass *)pass;
@@ -70,7 +89,7 @@ bool gl_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
         return rg_harness_error("kernel '%s': no memory for its program", pass->kernel->name);
     if (*bytes)
         glGetProgramBinary(mine->program, length, &length, &format, *bytes);
-    *size = (size_t)length;
+    *size = *bytes ? drop_numbers(*bytes, (size_t)length) : 0;
     return gl_check(gl, "glGetProgramBinary", "kernel", pass->kernel->name);
 }
 

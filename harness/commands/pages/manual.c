@@ -91,7 +91,7 @@ static void print_statuses(void)
         {RG_EXIT_INCONCLUSIVE, "inconclusive: the samples neither prove nor exclude a change"},
         {RG_EXIT_NOTHING, "nothing was compared or measured"},
         {RG_EXIT_HARNESS,
-         "raingauge itself lacked memory, a process, open files or room on the disk"},
+         "raingauge itself lacked something: memory, a process, open files, room on the disk"},
         {RG_EXIT_UNSUPPORTED, "not supported on this machine"},
         {RG_EXIT_GIT_SKIP, "for git: `bisect` inside `git bisect run` skips this commit"},
         {RG_EXIT_SIGNALLED, "for git: `bisect` inside `git bisect run` ends the search"},

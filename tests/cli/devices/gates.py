@@ -320,6 +320,18 @@ def check_miscompiled(runner):
     return problems
 
 
+def check_cached(runner):
+    """code that a cache has from a run of more cells is that which is compiled anew, though Mesa has numbered its programs otherwise"""
+    with Files("flow/pane flow 64x48 2 view=pane resolution_px=64\n" + TORUS) as files:
+        env = {"XDG_CACHE_HOME": files.path("cache")}
+        alone = files.path("alone.txt", TORUS)
+        runner.run(["gate", "gl", "gl@RG_X=1", "--cells", files.cells, "--pictures"], env)
+        result = runner.run(["gate", "gl", "gl@RG_X=2", "--cells", alone, "--budget", "1s", "--json"], env)
+        details = json.loads(result.stdout)["gated"][0]["details"]
+    passes = re.search(r"the same program, the same libraries; compiled passes (\w{8}) and (\w{8}), ", details)
+    return [] if passes and passes[1] == passes[2] else ["exit status %d, %s" % (result.returncode, details)]
+
+
 def check_cost(runner):
     """where pictures differ the tier is told that would hold, and a command that says the same, and which mutants live then; against a baseline too"""
     problems = []
@@ -503,5 +515,5 @@ def check_room(runner):
     return []
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_strange, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_cost, check_gtest, check_required, check_missing, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_strange, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_cached, check_cost, check_gtest, check_required, check_missing, check_no_rain, check_beside,
           check_unwritten, check_apart, check_refused, check_room]

@@ -71,6 +71,7 @@ ROWS = [
     Fault(COMMAND, "exit = rg_exit_worse(exit, «rg_exit_of_error()»); // a full disk", "RG_EXIT_FAIL", "a full disk is a regression", tests=("command line, gates",)),
     Fault(RUN, "return rg_exit_worse(rg_exit_worse(found, «kept»),", "RG_EXIT_PASS", "launches that are lost are not told of", tests=("command line, gates",)),
     Fault(RUN, "    «r->left_ms -= rg_now_ms() - start_ms;»", ";", "each device of two builds has half of the budget that others have taken", tests=("command line, gates",)),
+    Fault("backends/gl/pass.c", "for (size_t d = i + NAME; «is_name» &&", "false", "a program of the cache is other code than the same compiled anew", tests=("command line, gates",)),
     Fault("backends/library.c", "    if («!*id»)\n", "0", "libraries without a build id are all the same", tests=("command line, gates",)),
     Fault(STRAYS, "        any = «rg_glob(row->cell, cells->cells[i].name)»;", "true", "an expectation of no cell is silent", tests=("expectations", "command line, reports")),
     Fault(STRAYS, "return «row->since > s->today» &&", "false", "an expectation to come is silent", tests=("expectations",)),
