@@ -13,7 +13,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/console/threads.h"
 #include "harness/record/passport/build_info.h"
-#include "harness/devices/serving/serving.h"
+#include "harness/measure/serving/serving.h"
 #include "harness/devices/workers/worker.h"
 
 static void print_usage(void)

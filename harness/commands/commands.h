@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_COMMANDS_COMMANDS_H
 #define RG_HARNESS_COMMANDS_COMMANDS_H
 
-#include "harness/cli/command.h"
+#include "harness/commands/cli/command.h"
 
 // NULL-terminated; the build generates it from the list in harness/commands/meson.build.
 extern const struct rg_command *const rg_commands[];

@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_COMMANDS_DRAWN_H
 #define RG_HARNESS_COMMANDS_DRAWN_H
 
-#include "harness/frames/sequence.h"
+#include "harness/devices/frames/sequence.h"
 
 // Nothing in it is owned.
 struct rg_drawn {

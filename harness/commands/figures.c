@@ -4,12 +4,12 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/base/text/words.h"
-#include "harness/cli/command.h"
-#include "harness/cli/shared.h"
+#include "harness/commands/cli/command.h"
+#include "harness/commands/cli/shared.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/names.h"
-#include "harness/frames/figures/figures.h"
+#include "harness/tables/figures/figures.h"
 
 struct figures_options {
     struct rg_size size;

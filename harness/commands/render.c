@@ -10,16 +10,16 @@
 #include "core/base/memory.h"
 #include "core/image/clip/clip.h"
 #include "core/image/files/io.h"
-#include "harness/cli/command.h"
-#include "harness/cli/shared.h"
-#include "harness/cli/subject.h"
+#include "harness/commands/cli/command.h"
+#include "harness/commands/cli/shared.h"
+#include "harness/commands/cli/subject.h"
 #include "harness/commands/drawn.h"
 #include "harness/compare/shrink/case.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/names.h"
-#include "harness/frames/frame.h"
-#include "harness/frames/numbered.h"
+#include "harness/devices/frames/frame.h"
+#include "harness/devices/frames/numbered.h"
 
 struct render_options {
     struct rg_words sets;

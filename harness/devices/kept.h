@@ -6,7 +6,7 @@
 #define RG_HARNESS_DEVICES_KEPT_H
 
 #include "harness/devices/devices.h"
-#include "harness/frames/session.h"
+#include "harness/devices/frames/session.h"
 
 enum { RG_KEPT_DEVICES = 2, RG_KEPT_TRUTHS = 8 };
 

@@ -9,7 +9,7 @@
 #include "harness/console/exit.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/workers/device.h"
-#include "harness/frames/digests.h"
+#include "harness/devices/frames/digests.h"
 
 // Slots hold zeros, more than one item without parameters reads.
 enum { BUFFER_ELEMENTS = 4096, IMAGE_PX = 16, IMAGE_LAYERS = 6 };

@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_MEASURE_EXPECTED_H
 #define RG_HARNESS_MEASURE_EXPECTED_H
 
-#include "harness/frames/session.h"
+#include "harness/devices/frames/session.h"
 
 enum { RG_CHECK_FRAMES = 10 }; // frames before images are compared, by default
 

@@ -3,7 +3,7 @@
 #ifndef RG_HARNESS_MEASURE_JOB_H
 #define RG_HARNESS_MEASURE_JOB_H
 
-#include "harness/frames/session.h"
+#include "harness/devices/frames/session.h"
 #include "harness/measure/expected.h"
 #include "harness/record/record.h"
 

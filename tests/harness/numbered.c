@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "core/base/log.h"
-#include "harness/frames/numbered.h"
+#include "harness/devices/frames/numbered.h"
 
 static void places_are_counted_in_the_name_alone(void **state)
 {

@@ -14,13 +14,9 @@ FLOORS = [
     "tests/tools",
     "harness",
     "harness/commands",
-    "harness/cli",
     "harness/tables harness/compare harness/doctor harness/atlas",
-    "harness/devices/serving",
     "harness/measure",
     "harness/devices",
-    "harness/frames",
-    "harness/devices/workers",
     "harness/record harness/console",
     "core/techniques/T",
     "core/techniques/scenery",
@@ -58,8 +54,8 @@ FENCES = {
 # Names that one folder of the harness alone may use: what stands above it goes through its functions.
 SEAMS = {
     # An instance lives in another process: commands know sessions.
-    "harness/frames": "rg_instance rg_instance_open rg_instance_close rg_frame_read rg_frame_picture "
-                      "rg_frame_read_picture",
+    "harness/devices/frames": "rg_instance rg_instance_open rg_instance_close rg_frame_read rg_frame_picture "
+                              "rg_frame_read_picture",
 }
 
 

@@ -5,8 +5,8 @@
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
-#include "harness/cli/command.h"
-#include "harness/cli/shared.h"
+#include "harness/commands/cli/command.h"
+#include "harness/commands/cli/shared.h"
 #include "harness/compare/gate/baseline/baseline.h"
 #include "harness/console/interrupt.h"
 #include "harness/record/output.h"

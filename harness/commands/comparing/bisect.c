@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/cli/command.h"
-#include "harness/cli/shared.h"
+#include "harness/commands/cli/command.h"
+#include "harness/commands/cli/shared.h"
 #include "harness/compare/bisect/bisect.h"
 #include "harness/compare/bisect/git.h"
 #include "harness/compare/gate/text/shell.h"

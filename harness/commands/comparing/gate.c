@@ -8,8 +8,8 @@
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
-#include "harness/cli/command.h"
-#include "harness/cli/shared.h"
+#include "harness/commands/cli/command.h"
+#include "harness/commands/cli/shared.h"
 #include "harness/commands/comparing/outputs.h"
 #include "harness/compare/gate/cells/strays.h"
 #include "harness/compare/gate/report/gtest.h"

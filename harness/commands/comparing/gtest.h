@@ -5,7 +5,7 @@
 
 #include <limits.h>
 
-#include "harness/cli/option.h"
+#include "harness/commands/cli/option.h"
 
 struct rg_gtest_asked {
     bool list;    // print names and run nothing

@@ -4,9 +4,9 @@
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
-#include "harness/cli/command.h"
-#include "harness/cli/shared.h"
-#include "harness/cli/subject.h"
+#include "harness/commands/cli/command.h"
+#include "harness/commands/cli/shared.h"
+#include "harness/commands/cli/subject.h"
 #include "harness/compare/verify/verify.h"
 
 enum { STAGE_FRAMES = 3, MAX_TECHNIQUES = 16 };

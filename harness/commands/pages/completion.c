@@ -14,7 +14,7 @@
 #include "core/techniques/technique.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pages/pages.h"
-#include "harness/frames/figures/figures.h"
+#include "harness/tables/figures/figures.h"
 #include "harness/tables/papers/papers.h"
 
 // The name of the list with the possible values.

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "harness/frames/subject.h"
+#include "harness/devices/frames/subject.h"
 #include "harness/tables/print.h"
 
 static bool spares(const struct rg_table *table, const void *settings, const char *folder)

@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_COMMANDS_TABLES_SETS_H
 #define RG_HARNESS_COMMANDS_TABLES_SETS_H
 
-#include "harness/cli/option.h"
+#include "harness/commands/cli/option.h"
 
 // Joins words with spaces, which the caller frees; NULL if there are none. False, and one logged
 // line, where one contains a space, the text exceeds a record, or memory runs out.

@@ -6,7 +6,7 @@
 #include <jansson.h>
 
 #include "harness/compare/blame/difference.h"
-#include "harness/frames/digests.h"
+#include "harness/devices/frames/digests.h"
 
 // Zeroed: nothing differs.
 struct rg_blame {

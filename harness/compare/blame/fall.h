@@ -4,7 +4,7 @@
 #define RG_HARNESS_COMPARE_BLAME_FALL_H
 
 #include "core/base/outcome.h"
-#include "harness/frames/digests.h"
+#include "harness/devices/frames/digests.h"
 
 enum { RG_FALL_SIZE = 600 };
 

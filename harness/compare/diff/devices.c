@@ -15,7 +15,7 @@
 #include "harness/console/exit.h"
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"
-#include "harness/frames/frame.h"
+#include "harness/devices/frames/frame.h"
 #include "harness/record/named.h"
 #include "harness/record/output.h"
 #include "harness/record/passport/driver.h"

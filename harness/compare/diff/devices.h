@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "harness/devices/devices.h"
-#include "harness/frames/session.h"
+#include "harness/devices/frames/session.h"
 
 // Nothing in it is owned.
 struct rg_diff_devices_request {

@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_COMPARE_SHRINK_FILES_H
 #define RG_HARNESS_COMPARE_SHRINK_FILES_H
 
-#include "harness/frames/subject.h"
+#include "harness/devices/frames/subject.h"
 
 // ".json": its ending, or "" where that has other characters than letters and digits.
 void rg_file_ending(const char *path, char *ending, size_t size);

@@ -5,7 +5,7 @@
 
 #include "harness/compare/blame/fall.h"
 #include "harness/compare/shrink/shrink.h"
-#include "harness/frames/session.h"
+#include "harness/devices/frames/session.h"
 
 struct rg_search {
     const struct rg_shrink_request *asked;

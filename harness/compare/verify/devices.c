@@ -11,7 +11,7 @@
 #include "harness/compare/verify/snapshot.h"
 #include "harness/compare/verify/verify.h"
 #include "harness/console/exit.h"
-#include "harness/frames/frame.h"
+#include "harness/devices/frames/frame.h"
 #include "harness/record/named.h"
 
 // The results of one check on one device, over all cases.

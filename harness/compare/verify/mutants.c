@@ -13,7 +13,7 @@
 #include "core/base/log.h"
 #include "core/image/compare/compare.h"
 #include "harness/compare/verify/verify.h"
-#include "harness/frames/frame.h"
+#include "harness/devices/frames/frame.h"
 
 enum { MUTANT_STEPS = 100, SCENE_PX = 512 };
 

@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_COMPARE_VERIFY_SNAPSHOT_H
 #define RG_HARNESS_COMPARE_VERIFY_SNAPSHOT_H
 
-#include "harness/frames/session.h"
+#include "harness/devices/frames/session.h"
 
 struct rg_snapshot {
     int state_count;

@@ -8,7 +8,7 @@
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/verify/verify.h"
 #include "harness/console/exit.h"
-#include "harness/frames/digests.h"
+#include "harness/devices/frames/digests.h"
 
 int64_t rg_verify_stage_work(const struct rg_verify *v)
 {

@@ -5,7 +5,7 @@
 #include "harness/compare/verify/checks.h"
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"
-#include "harness/frames/session.h"
+#include "harness/devices/frames/session.h"
 
 enum { RG_VERIFY_SEEDS = 3 };
 

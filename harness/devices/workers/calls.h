@@ -1,11 +1,11 @@
 // The calls from the harness to workers: one list, with each call's service
-// (harness/devices/serving/) and the worker's activity during it. Tables of fields, used by both
-// sides, describe requests and replies (harness/frames/messages.h, harness/measure/messages.h,
+// (harness/measure/serving/) and the worker's activity during it. Tables of fields, used by both
+// sides, describe requests and replies (harness/devices/frames/messages.h, harness/measure/messages.h,
 // harness/devices/workers/device.h).
 #ifndef RG_HARNESS_DEVICES_WORKERS_CALLS_H
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 
-// Of a session that is open (harness/frames/local.c).
+// Of a session that is open (harness/devices/frames/local.c).
 #define RG_SESSION_CALLS(CALL)                                                                     \
     CALL(STEP, step, "simulating a frame")                                                         \
     CALL(DRAW, draw, "drawing a frame")                                                            \
@@ -29,7 +29,7 @@
     CALL(KERNEL_CODE, kernel_code, "reading a kernel's code")                                      \
     CALL(COMPILE, compile, "compiling a kernel")
 
-// The first asks whether both speak of the same things (harness/devices/serving/hello.c), and stays
+// The first asks whether both speak of the same things (harness/measure/serving/hello.c), and stays
 // the first for ever, in all builds. LIST is of a backend's devices, LOAD of libraries that a
 // device's name names, those down to CEILINGS of the one device of this worker, which ends behind
 // CLOSE, and the rest of sessions and runs.

@@ -1,5 +1,5 @@
 // A device in a worker, as a struct rg_device: it has the device's description, and sessions
-// (harness/frames/session.h) do the work.
+// (harness/devices/frames/session.h) do the work.
 #ifndef RG_HARNESS_DEVICES_WORKERS_DEVICE_H
 #define RG_HARNESS_DEVICES_WORKERS_DEVICE_H
 

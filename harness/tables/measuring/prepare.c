@@ -8,7 +8,7 @@
 #include "core/device/device.h"
 #include "core/image/compare/compare.h"
 #include "harness/console/interrupt.h"
-#include "harness/frames/frame.h"
+#include "harness/devices/frames/frame.h"
 #include "harness/tables/measuring/batch.h"
 
 // A row's variant, while its jobs are prepared.

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/techniques/technique.h"
-#include "harness/cli/option.h"
+#include "harness/commands/cli/option.h"
 #include "tests/fuzz/heard.h"
 
 static void set_parameters(const struct rg_technique *technique, const char *text)

@@ -11,8 +11,8 @@
 #include <cmocka.h>
 
 #include "core/base/log.h"
-#include "harness/cli/command.h"
-#include "harness/cli/shared.h"
+#include "harness/commands/cli/command.h"
+#include "harness/commands/cli/shared.h"
 
 struct sample_options {
     struct rg_words sets;

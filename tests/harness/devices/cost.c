@@ -8,10 +8,10 @@
 
 #include "harness/console/clock.h"
 #include "harness/devices/devices.h"
-#include "harness/devices/serving/serving.h"
+#include "harness/measure/serving/serving.h"
 #include "harness/devices/workers/worker.h"
-#include "harness/frames/session.h"
-#include "harness/frames/calling.h"
+#include "harness/devices/frames/session.h"
+#include "harness/devices/frames/calling.h"
 #include "harness/record/stats.h"
 
 enum { ROUNDS = 600 };

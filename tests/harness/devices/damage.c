@@ -15,9 +15,9 @@
 #include "harness/devices/devices.h"
 #include "harness/devices/workers/device.h"
 #include "harness/devices/workers/serve.h"
-#include "harness/frames/digests.h"
-#include "harness/frames/messages.h"
-#include "harness/frames/session.h"
+#include "harness/devices/frames/digests.h"
+#include "harness/devices/frames/messages.h"
+#include "harness/devices/frames/session.h"
 #include "harness/measure/job.h"
 
 // --- in the worker ---

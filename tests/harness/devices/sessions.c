@@ -14,9 +14,9 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/devices/devices.h"
-#include "harness/frames/digests.h"
-#include "harness/frames/session.h"
-#include "harness/devices/serving/serving.h"
+#include "harness/devices/frames/digests.h"
+#include "harness/devices/frames/session.h"
+#include "harness/measure/serving/serving.h"
 #include "harness/devices/workers/device.h"
 #include "tests/tools/expect.h"
 

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/frames/messages.h"
+#include "harness/devices/frames/messages.h"
 
 static char logged[2048];
 

@@ -14,7 +14,7 @@
 
 #include "core/base/log.h"
 #include "core/image/compare/compare.h"
-#include "harness/frames/frame.h"
+#include "harness/devices/frames/frame.h"
 #include "harness/measure/measure.h"
 #include "tests/tools/expect.h"
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/frames/figures/figures.h"
+#include "harness/tables/figures/figures.h"
 #include "tests/tools/expect.h"
 
 // Those that are to be drawn anew.

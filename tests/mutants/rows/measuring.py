@@ -5,7 +5,7 @@ TESTS = ("scripted", "loads", "stats", "measure", "timer_audit")
 
 JOB, MEASURE, PASSES = "harness/measure/job.c", "harness/measure/measure.c", "harness/measure/passes.c"
 AUDIT, CEILINGS, STATS = "harness/measure/timer_audit.c", "harness/measure/ceilings.c", "harness/record/stats.c"
-SESSION = "harness/frames/local.c"
+SESSION = "harness/devices/frames/local.c"
 
 PROGRESS = "harness/console/progress.c"
 SAMPLING = "harness/measure/sampling.c"

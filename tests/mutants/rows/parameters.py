@@ -4,7 +4,7 @@ from fault import Fault
 TESTS = ("parameters", "command line, parsing", "options of all commands", "command line, cases", "command line, wrong",
          "command line, renders", "command line, pages", "streaks, sizes")
 
-PARAMS, VALUE, PARSE, OPTION = ("core/techniques/params.c", "harness/cli/value.c", "harness/cli/parse.c", "harness/cli/option.c")
+PARAMS, VALUE, PARSE, OPTION = ("core/techniques/params.c", "harness/commands/cli/value.c", "harness/commands/cli/parse.c", "harness/commands/cli/option.c")
 WORDS = "core/base/text/words.c"
 
 THREADS = "harness/console/threads.c"

@@ -11,7 +11,7 @@ CASE, SHRINK = "harness/compare/shrink/case.c", "harness/compare/shrink/shrink.c
 REPLAY = "harness/compare/shrink/replay.c"
 CULPRIT, FOLDER = "harness/compare/shrink/culprit.c", "harness/compare/shrink/folder.c"
 SEARCH, ENTRIES, FILES = "harness/compare/shrink/search.c", "harness/compare/shrink/entries.c", "harness/compare/shrink/files.c"
-RECORDER = "harness/frames/recorder.c"
+RECORDER = "harness/devices/frames/recorder.c"
 CONTENTS, STAGES = "core/techniques/stages/contents.c", "core/techniques/stages/stages.c"
 BLAME, DIFFERENCE = "harness/compare/blame/blame.c", "harness/compare/blame/difference.c"
 

@@ -6,8 +6,8 @@ TESTS = ("workers that end", "damaged replies", "damaged findings", "messages", 
 W = "harness/devices/workers/"
 WORKER, CHANNEL, SERVE, MESSAGE, FIELDS, ENVIRONMENT, DEVICE = (
     W + name + ".c" for name in ("worker", "channel", "serve", "message", "fields", "environment", "device"))
-NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/frames/remote.c", "core/base/log.c")
-DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/frames/messages.c", "harness/measure/messages.c"
+NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/devices/frames/remote.c", "core/base/log.c")
+DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/devices/frames/messages.c", "harness/measure/messages.c"
 D = "harness/devices/drivers/"
 CACHES, CHOICE, APART, SIDE, PREFIX = (D + name + ".c" for name in ("caches", "choice", "apart", "side", "prefix"))
 PLAN, DOCTOR, EXAMINE = "harness/tables/sweep/plan.c", "harness/commands/doctor.c", "harness/doctor/examine.c"
@@ -112,7 +112,7 @@ ROWS = [
     Fault(WORKER, "return «is_clean» && !worker->closed_badly;", "true", "a device that was closed badly has closed well", tests=DAMAGED),
     Fault(REMOTE, "if («!rg_worker_has(worker, session->life)»)", "false", "what is gone with its worker is closed, with a line"),
     Fault(REMOTE, "if («!rg_worker_still_has(worker, session->life)»)", "false", "a session of another life is asked", tests=IN_WORKERS),
-    Fault("harness/frames/session.c", "if (ok && «told.size != due»)", "false", "a picture may be of any size", lives="the worker is this program, and sends the size that is due"),
+    Fault("harness/devices/frames/session.c", "if (ok && «told.size != due»)", "false", "a picture may be of any size", lives="the worker is this program, and sends the size that is due"),
     Fault(LOG, "else if («rg_log_is_news(level, line)»)", "true", "one error is many lines"),
     Fault(DIFF, "if (failure.fault == RG_FAULT_INPUT && !s->shot_count)\n        return false;", "return false;", "a device that fails ends the comparison of the others"),
     Fault(PLAN, "else if («!leave_out(plan, d)»)", "true", "a device that fails ends a sweep of the others"),

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "core/base/log.h"
-#include "harness/frames/frame.h"
+#include "harness/devices/frames/frame.h"
 
 static struct rg_subject subject_of(const struct rg_gate_cell *cell)
 {

@@ -10,7 +10,7 @@
 #include "core/image/compare/compare.h"
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/gate/pictures/pictures.h"
-#include "harness/frames/frame.h"
+#include "harness/devices/frames/frame.h"
 #include "harness/record/named.h"
 
 void rg_agreement_code(const struct rg_agreement *agreement, char code[RG_AGREEMENT_CODE])

@@ -8,7 +8,7 @@
 #include "core/device/device.h"
 #include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/sides/sides.h"
-#include "harness/frames/session.h"
+#include "harness/devices/frames/session.h"
 #include "harness/record/record.h"
 
 enum { RG_AGREEMENT_TEXT = 640 };

@@ -7,7 +7,7 @@
 #include "core/base/log.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
-#include "harness/frames/session.h"
+#include "harness/devices/frames/session.h"
 #include "harness/record/named.h"
 #include "harness/record/stats.h"
 

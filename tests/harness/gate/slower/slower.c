@@ -9,7 +9,7 @@
 bool __real_rg_interrupted(void);
 bool __wrap_rg_interrupted(void);
 
-// A session asks once a frame (harness/frames/local.c), within what is timed.
+// A session asks once a frame (harness/devices/frames/local.c), within what is timed.
 bool __wrap_rg_interrupted(void)
 {
     static long loops = -1;

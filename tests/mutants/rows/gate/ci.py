@@ -3,7 +3,7 @@ from fault import Fault
 
 TESTS = ("command line, ci", "command line, reports")
 
-SHARDS, PARSE, FLAGS = "harness/compare/gate/report/gtest.c", "harness/cli/parse.c", "harness/commands/comparing/gtest.c"
+SHARDS, PARSE, FLAGS = "harness/compare/gate/report/gtest.c", "harness/commands/cli/parse.c", "harness/commands/comparing/gtest.c"
 RUN, RESULTS, CASES, HELD = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "results", "cases", "agree"))
 AGREE, SIDES = (f"harness/compare/gate/sides/{name}.c" for name in ("alike", "sides"))
 STRAYS = "harness/compare/gate/cells/strays.c"

@@ -1,0 +1,78 @@
+#include "harness/commands/cli/shared.h"
+
+const struct rg_option rg_timeout_option[] = {
+    {RG_OPTION_INT, "timeout", .argument = "S",
+     .about =
+         "seconds after which a device, or the encoder of a clip, that does nothing is given up",
+     .least = 1, .most = 86400, .initial = "120"},
+    {RG_OPTION_END},
+};
+
+const struct rg_option rg_devices_option[] = {
+    {RG_OPTION_TEXT, "device", .argument = "D,...|all",
+     .about = "devices to use; `raingauge list devices` prints the names, and "
+              "gl@LP_NUM_THREADS=1;KEY=VALUE is one with an environment of its own",
+     .names = RG_NAMES_DEVICES},
+    {RG_OPTION_END},
+};
+
+#define AT(field) offsetof(struct rg_devices_asked, field)
+
+const struct rg_option rg_asked_options[] = {
+    {RG_OPTION_TEXT, "require", .argument = "D,...",
+     .about = "devices or APIs without which the command fails", .offset = AT(require),
+     .names = RG_NAMES_DEVICES},
+    RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
+    {RG_OPTION_END},
+};
+
+#undef AT
+
+const struct rg_option rg_settings_option[] = {
+    {RG_OPTION_TEXTS, "set", .argument = "KEY=VALUE",
+     .about =
+         "sets a parameter, and can be given again for another; `raingauge list params TECHNIQUE` "
+         "prints them",
+     .names = RG_NAMES_PARAMETER},
+    {RG_OPTION_END},
+};
+
+const struct rg_option rg_size_option[] = {
+    {RG_OPTION_SIZE, "size", .argument = "WxH", .about = "size of the image in pixels",
+     .initial = "512x512"},
+    {RG_OPTION_END},
+};
+
+const struct rg_option rg_memory_option[] = {
+    {RG_OPTION_BYTES, "memory", .argument = "SIZE",
+     .about = "memory that may be taken, as 512M or 4G; what needs more is refused. Without it, "
+              "what is free, less a tenth"},
+    {RG_OPTION_END},
+};
+
+const struct rg_option rg_frame_option[] = {
+    {RG_OPTION_INT, "frame", .argument = "N", .about = "frames to simulate before drawing",
+     .least = 0, .most = 1e7},
+    {RG_OPTION_END},
+};
+
+const struct rg_option rg_exposure_option[] = {
+    {RG_OPTION_FACTOR, "exposure", .argument = "X", .about = "brightness of 8-bit images, a factor",
+     .most = 1e6, .initial = "1"},
+    {RG_OPTION_END},
+};
+
+const struct rg_option rg_json_option[] = {
+    {RG_OPTION_FLAG, "json", .about = "results in machine form (docs/records.md)"},
+    {RG_OPTION_END},
+};
+
+#define AT(field) offsetof(struct rg_length, field)
+
+const struct rg_option rg_length_options[] = {
+    {RG_OPTION_FLAG, "quick", .about = "less work: few samples, steps or streaks",
+     .offset = AT(quick), .excludes = "full"},
+    {RG_OPTION_FLAG, "full", .about = "all the work: many samples, steps or streaks",
+     .offset = AT(full)},
+    {RG_OPTION_END},
+};

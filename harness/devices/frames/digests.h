@@ -1,0 +1,60 @@
+// Digests of the assets after each stage of a run. Equal runs have equal digests, so that two runs
+// show which stage differed first.
+#ifndef RG_HARNESS_FRAMES_DIGESTS_H
+#define RG_HARNESS_FRAMES_DIGESTS_H
+
+#include "core/techniques/stages/dispatched.h"
+#include "harness/devices/frames/subject.h"
+
+// A run: this many frames of a subject, each simulated and drawn.
+struct rg_digest_run {
+    struct rg_subject subject;
+    int frames;
+};
+
+// The digest of one asset after one stage. An asset gets one after each stage that wrote it, and
+// after any other stage that changed it.
+struct rg_digest {
+    int64_t frame;  // the frame being simulated or drawn
+    int stages_run; // since the instance was opened, including this one
+    char stage[RG_ASSET_NAME], asset[RG_ASSET_NAME];
+    uint64_t hash;
+    int64_t weight; // work of the run so far: items of its stages, and words of its assets
+};
+
+// Zeroed: none.
+struct rg_digests {
+    int count;
+    int64_t room;
+    struct rg_digest *rows; // owned
+};
+
+// Runs and records; frames are left out once raingauge is interrupted. The caller frees them.
+// False, with one logged line and no digests, on failure.
+bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
+                     struct rg_digests *digests);
+void rg_digests_free(struct rg_digests *digests);
+
+// Runs once more, and brings what the asset of a row held then, with what is known of it as a state
+// (`state`: its name is NULL where it is none) and of a buffer's words. False, and one logged line,
+// on failure; the contents are to be freed in either case.
+bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
+                         struct rg_contents *contents, struct rg_state *state);
+
+// Runs again, up to the stage with this number of stages run, and records each dispatch between the
+// end of the stage before and its own end. False, and one logged line, on failure; free them in
+// either case.
+bool rg_digests_dispatches(const struct rg_digest_run *run, struct rg_device *device,
+                           int stages_run, struct rg_dispatches *dispatches);
+// Replays one dispatch on a device (rg_dispatched_run).
+bool rg_digests_dispatch(struct rg_dispatched *dispatched, struct rg_device *device);
+
+// The code of a kernel that a device gives to its driver, or would give if its API took this kind:
+// bytes that the caller frees. NULL, and one logged line, on failure.
+void *rg_digests_code(struct rg_device *device, const struct rg_kernel *kernel,
+                      enum rg_code_kind kind, size_t *size);
+
+// Has a device compile a kernel, and drops it. False, and one logged line, on failure.
+bool rg_digests_compile(struct rg_device *device, const struct rg_kernel *kernel);
+
+#endif

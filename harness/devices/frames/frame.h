@@ -1,0 +1,32 @@
+// One frame of a subject as a picture.
+#ifndef RG_HARNESS_FRAMES_FRAME_H
+#define RG_HARNESS_FRAMES_FRAME_H
+
+#include "harness/devices/frames/session.h"
+
+// Opens a subject on a device, simulates this many frames and reads the picture of the last, which
+// the caller destroys. False, and one logged line, on failure.
+bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, int frames,
+                   struct rg_picture *picture);
+
+// The same without rain, by the technique's own `dry` settings: the background for the rain mask.
+bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
+                       struct rg_picture *picture);
+
+enum { RG_FRAME_DRY = 160 };
+// Writes a line saying that a subject shows no rain after this many frames, and a frame that does,
+// if one is found; `option` is the option with the frame, as "--frame".
+void rg_frame_tell_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
+                       float exposure, const char *option, char text[RG_FRAME_DRY]);
+
+// Opens a subject on a device, simulates this many frames and draws the last, with a progress bar.
+// For a very large picture, an estimate from one of an eighth of its width and height is told
+// first. NULL, and one logged line, on failure.
+struct rg_session *rg_frame_run(struct rg_device *device, const struct rg_subject *subject,
+                                int frames);
+
+// Writes the frame last drawn by a session to a picture file, and drops an alpha that is 1
+// everywhere. False, and one logged line, on failure.
+bool rg_frame_write(struct rg_session *session, const char *path, double exposure);
+
+#endif
