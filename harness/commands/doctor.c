@@ -11,7 +11,7 @@
 #include "harness/devices/devices.h"
 #include "harness/devices/names.h"
 #include "harness/doctor/compile.h"
-#include "harness/doctor/report.h"
+#include "harness/doctor/doctor.h"
 #include "harness/record/passport/passport.h"
 #include "harness/devices/workers/worker.h"
 

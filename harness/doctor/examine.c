@@ -4,7 +4,7 @@
 
 #include "core/base/log.h"
 #include "harness/devices/devices.h"
-#include "harness/doctor/report.h"
+#include "harness/doctor/doctor.h"
 #include "harness/devices/workers/device.h"
 #include "harness/measure/messages.h"
 

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/doctor/report.h"
+#include "harness/doctor/doctor.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
 

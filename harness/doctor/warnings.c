@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "backends/kernel.h"
-#include "harness/doctor/report.h"
+#include "harness/doctor/doctor.h"
 #include "harness/record/passport/machine.h"
 #include "harness/record/named.h"
 

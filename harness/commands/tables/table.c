@@ -19,7 +19,7 @@
 #include "harness/record/disk/stored.h"
 #include "harness/record/output.h"
 #include "harness/tables/claims/json.h"
-#include "harness/tables/claims/sheet.h"
+#include "harness/tables/claims/text.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/compile.h"

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "harness/compare/bisect/judge.h"
+#include "harness/compare/bisect/verdict.h"
 #include "harness/compare/bisect/list.h"
 
 enum rg_bisect_end {

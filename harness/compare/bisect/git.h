@@ -3,7 +3,7 @@
 #ifndef RG_HARNESS_COMPARE_BISECT_GIT_H
 #define RG_HARNESS_COMPARE_BISECT_GIT_H
 
-#include "harness/compare/bisect/judge.h"
+#include "harness/compare/bisect/verdict.h"
 
 // The exit status that tells git a verdict; stop ends its search.
 int rg_git_status(enum rg_judgement verdict);

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "harness/compare/bisect/judge.h"
+#include "harness/compare/bisect/verdict.h"
 
 // What is known of candidates that stand in order, from a good end to a bad one.
 struct rg_search {

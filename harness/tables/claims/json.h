@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_TABLES_CLAIMS_JSON_H
 #define RG_HARNESS_TABLES_CLAIMS_JSON_H
 
-#include "harness/tables/claims/sheet.h"
+#include "harness/tables/claims/text.h"
 
 // The document described in docs/records.md; the caller owns it. NULL when memory runs out.
 json_t *rg_claims_json(const struct rg_claim_outcomes *outcomes);

@@ -15,7 +15,7 @@
 #include "harness/devices/devices.h"
 #include "harness/devices/workers/device.h"
 #include "harness/devices/workers/serve.h"
-#include "harness/doctor/report.h"
+#include "harness/doctor/doctor.h"
 #include "harness/devices/frames/messages.h"
 #include "harness/devices/frames/session.h"
 #include "harness/measure/drawing.h"

@@ -89,5 +89,5 @@ ROWS = [
     Fault("harness/tables/claims/json.c", "bound(«test->has_least», claim->least)", "true", "programs are told bounds that a test has not", tests=("command line, kept",)),
     Fault("harness/tables/claims/claims.c", "part = is_of_word ? 0 : *c == ',' || part == '/' ? part : «'-'»;", "0", "ids of claims run their words together", tests=("command line, kept",)),
     Fault("harness/tables/claims/judge.c", "return «j->verdict == RG_CLAIM_NOT_REPRODUCED» ? j->in_favour : j->against;", "false", "what is not reproduced has the probability that it is", tests=("command line, kept",)),
-    Fault("harness/tables/claims/sheet.c", "const char *length = «result->full ? \"full\" : \"quick\"»;", "\"quick\"", "claims of full tables are told as quick", tests=("command line, kept",)),
+    Fault("harness/tables/claims/text.c", "const char *length = «result->full ? \"full\" : \"quick\"»;", "\"quick\"", "claims of full tables are told as quick", tests=("command line, kept",)),
 ]

@@ -3,7 +3,7 @@ from fault import Fault
 
 TESTS = ("verify", "differing", "blame", "image diff", "exit", "command line, wrong", "command line, cases")
 
-DEVICES, MUTANTS = "harness/compare/verify/devices.c", "harness/compare/verify/mutants.c"
+DEVICES, MUTANTS = "harness/compare/verify/proof.c", "harness/compare/verify/mutants.c"
 POSES = "harness/compare/verify/poses.c"
 SNAPSHOT, CHECKS = ("harness/compare/verify/snapshot.c", "harness/compare/verify/checks.c")
 REPORT = "harness/compare/diff/report.c"

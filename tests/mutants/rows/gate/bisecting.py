@@ -4,7 +4,7 @@ from fault import Fault
 TESTS = ("bisect", "command line, bisects")
 
 BISECT = "harness/compare/bisect/"
-SEARCH, JUDGE = BISECT + "search.c", BISECT + "judge.c"
+SEARCH, JUDGE = BISECT + "search.c", BISECT + "verdict.c"
 LIST, RUN = BISECT + "list.c", BISECT + "bisect.c"
 COMMAND, GIT = "harness/commands/comparing/bisect.c", BISECT + "git.c"
 

@@ -1,4 +1,4 @@
-#include "harness/tables/claims/sheet.h"
+#include "harness/tables/claims/text.h"
 
 #include <math.h>
 #include <stdio.h>

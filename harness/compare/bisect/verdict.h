@@ -1,6 +1,6 @@
 // One candidate of a bisect, judged by a command.
-#ifndef RG_HARNESS_COMPARE_BISECT_JUDGE_H
-#define RG_HARNESS_COMPARE_BISECT_JUDGE_H
+#ifndef RG_HARNESS_COMPARE_BISECT_VERDICT_H
+#define RG_HARNESS_COMPARE_BISECT_VERDICT_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -2,7 +2,7 @@
 #include <limits.h>
 #include <stdio.h>
 
-#include "harness/doctor/report.h"
+#include "harness/doctor/doctor.h"
 #include "harness/record/named.h"
 #include "harness/record/passport/passport.h"
 

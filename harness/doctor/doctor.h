@@ -1,6 +1,6 @@
 // The findings of `raingauge doctor`, and their two printed forms.
-#ifndef RG_HARNESS_DOCTOR_REPORT_H
-#define RG_HARNESS_DOCTOR_REPORT_H
+#ifndef RG_HARNESS_DOCTOR_DOCTOR_H
+#define RG_HARNESS_DOCTOR_DOCTOR_H
 
 #include <jansson.h>
 

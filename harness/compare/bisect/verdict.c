@@ -1,4 +1,4 @@
-#include "harness/compare/bisect/judge.h"
+#include "harness/compare/bisect/verdict.h"
 
 #include <math.h>
 #include <signal.h>

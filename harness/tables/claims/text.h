@@ -1,6 +1,6 @@
 // Verdicts on the claims of all papers, on one screen.
-#ifndef RG_HARNESS_TABLES_CLAIMS_SHEET_H
-#define RG_HARNESS_TABLES_CLAIMS_SHEET_H
+#ifndef RG_HARNESS_TABLES_CLAIMS_TEXT_H
+#define RG_HARNESS_TABLES_CLAIMS_TEXT_H
 
 #include "harness/console/sheet.h"
 #include "harness/tables/claims/claim.h"
