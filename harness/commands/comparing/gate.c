@@ -11,7 +11,7 @@
 #include "harness/commands/cli/command.h"
 #include "harness/commands/cli/shared.h"
 #include "harness/commands/comparing/outputs.h"
-#include "harness/compare/gate/cells/strays.h"
+#include "harness/compare/gate/cells/unused.h"
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/duration.h"
@@ -328,7 +328,7 @@ static bool read_input(const struct gate_options *o, struct gate_input *in)
     const bool is_read =
         rg_gate_cells_read(o->cells, &in->cells) && read_known(o, &in->known) && can_search(in);
     if (is_read && !o->gtest.list) {
-        rg_gate_warn_of_strays(&in->known, &in->cells);
+        rg_gate_warn_of_unused(&in->known, &in->cells);
         rg_gate_warn_of_days(&in->known, today());
     }
     return is_read &&

@@ -195,7 +195,7 @@ def check_crash(runner):
     return problems
 
 
-def check_strange(runner):
+def check_unused(runner):
     """what is expected of a device or a driver that a gate does not have is told in a line; the patterns of the pages hold"""
     problems = []
     root = os.path.dirname(TESTS)
@@ -515,5 +515,5 @@ def check_room(runner):
     return []
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_strange, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_cached, check_cost, check_gtest, check_required, check_missing, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_unused, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_cached, check_cost, check_gtest, check_required, check_missing, check_no_rain, check_beside,
           check_unwritten, check_apart, check_refused, check_room]

@@ -10,7 +10,7 @@
 
 // What a launch tells of a row.
 struct rg_quads {
-    double log;        // rg_quad_log of its quad; of several, the median
+    double log;        // rg_block_log_ratio of its quad; of several, the median
     double a_ms, b_ms; // a frame, in median
     bool is_disturbed; // others took the processors meanwhile: it does not count, whatever it says
 };

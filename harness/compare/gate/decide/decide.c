@@ -7,18 +7,18 @@
 #include "harness/compare/gate/decide/inside.h"
 #include "harness/record/stats.h"
 
-// Launches whose neighbours are this much alike, and more than those that are not linked are by
-// chance one time of twenty, are counted in pairs, and pairs in pairs of pairs.
-#define LINKED    0.2
-#define BY_CHANCE 1.645
-// Of fewer it cannot be told how alike they are.
-enum { LEAST_LINKED = 8 };
+// Launches with a lag-1 autocorrelation above this, and above what independent ones have by chance
+// one time of twenty, are averaged in pairs, and pairs in pairs of pairs.
+#define CORRELATED 0.2
+#define NORMAL_95  1.645 // the normal distribution's quantile of 0.95
+// Fewer launches do not show their autocorrelation.
+enum { LEAST_CORRELATED = 8 };
 // More launches than this share that see no difference at all come from a coarse timer.
 #define COARSE 0.05
-// The standard deviation of a normal distribution by its median absolute deviation, and that of a
-// median by it and the root of the count.
-#define DEVIATION 1.4826
-#define OF_MEDIAN 1.2533
+// Of a normal distribution: the standard deviation over the median absolute deviation, and the
+// median's standard error over the mean's, which is sqrt(pi / 2).
+#define DEVIATION_OF_MAD 1.4826
+#define SQRT_HALF_PI     1.2533
 
 const char *rg_two_name(enum rg_verdict_of_two verdict)
 {
@@ -45,7 +45,7 @@ struct rg_gate_rule rg_gate_rule_apart(int rows)
                                  .looks = {8, 16, 32}};
 }
 
-double rg_quad_log(const double a_ms[2], const double b_ms[2])
+double rg_block_log_ratio(const double a_ms[2], const double b_ms[2])
 {
     return (log(b_ms[0]) + log(b_ms[1]) - log(a_ms[0]) - log(a_ms[1])) / 2;
 }
@@ -57,8 +57,8 @@ static double above(double x)
     return erfc(x / sqrt(2)) / 2;
 }
 
-// What a normal variable exceeds with this probability, by halving.
-static double exceeded_with(double probability)
+// The quantile that a standard normal variable exceeds with this probability, by bisection.
+static double upper_quantile(double probability)
 {
     double low = 0, high = 40;
     for (int i = 0; i < 100; i++) {
@@ -70,22 +70,22 @@ static double exceeded_with(double probability)
 
 // --- launches ---
 
-// How alike neighbours are: the correlation of each launch with the one before it.
-static double link_of(const double *logs, int count)
+static double lag1_autocorrelation(const double *logs, int count)
 {
-    double mean = 0, all = 0, linked = 0;
+    double mean = 0, variance = 0, covariance = 0;
     for (int i = 0; i < count; i++)
         mean += logs[i] / count;
     for (int i = 0; i < count; i++)
-        all += (logs[i] - mean) * (logs[i] - mean);
+        variance += (logs[i] - mean) * (logs[i] - mean);
     for (int i = 1; i < count; i++)
-        linked += (logs[i] - mean) * (logs[i - 1] - mean);
-    return all > 0 ? linked / all : 0;
+        covariance += (logs[i] - mean) * (logs[i - 1] - mean);
+    return variance > 0 ? covariance / variance : 0;
 }
 
 int rg_gate_group(double *logs, int count)
 {
-    while (count >= LEAST_LINKED && link_of(logs, count) > fmax(LINKED, BY_CHANCE / sqrt(count))) {
+    while (count >= LEAST_CORRELATED &&
+           lag1_autocorrelation(logs, count) > fmax(CORRELATED, NORMAL_95 / sqrt(count))) {
         count /= 2;
         for (int i = 0; i < count; i++)
             logs[i] = (logs[2 * i] + logs[2 * i + 1]) / 2;
@@ -98,7 +98,7 @@ double rg_gate_spread(const double *sorted, int count, double median)
     double away[RG_GATE_UNITS];
     for (int i = 0; i < count; i++)
         away[i] = fabs(sorted[i] - median);
-    return DEVIATION * rg_median_at(away, count, 0).median;
+    return DEVIATION_OF_MAD * rg_median_at(away, count, 0).median;
 }
 
 static int ascending(const void *a, const void *b)
@@ -160,13 +160,13 @@ static enum rg_verdict_of_two judge(const struct rg_gate_rule *rule, double medi
     return low > -margin && high < margin ? RG_TWO_PASS : RG_TWO_INCONCLUSIVE;
 }
 
-// A change is seen where the interval is above what it must exclude, and the median is worth a
-// word.
-static double seen_from(const struct rg_gate_rule *rule, double error, double surety)
+// The least log ratio that is found: its interval lies above what it must exclude, and its median
+// is worth a word. `quantile`: of the probability that it is found.
+static double seen_from(const struct rg_gate_rule *rule, double error, double quantile)
 {
     const double by_interval =
-        excluded(rule) + (exceeded_with(rg_gate_tail(rule)) + surety) * error;
-    const double by_worth = worth(rule) + surety * error;
+        excluded(rule) + (upper_quantile(rg_gate_tail(rule)) + quantile) * error;
+    const double by_worth = worth(rule) + quantile * error;
     return fmax(by_interval, by_worth);
 }
 
@@ -176,7 +176,7 @@ void rg_gate_conclude(const struct rg_gate_rule *rule, const struct rg_interval 
     d->ratio = exp(of->median);
     if (isnan(of->low)) // too few: nothing could be seen
         return;
-    d->smallest = expm1(seen_from(rule, d->error, exceeded_with(0.05)));
+    d->smallest = expm1(seen_from(rule, d->error, upper_quantile(0.05)));
     d->low = exp(of->low);
     d->high = exp(of->high);
     if (!d->is_coarse)
@@ -198,7 +198,7 @@ struct rg_gate_decision rg_gate_decide(const struct rg_gate_rule *rule, const do
     const struct rg_interval median = rg_median_at(sorted, d.units, rg_gate_tail(rule));
     d.shift = exp(shift_of(sorted, d.units));
     d.spread = rg_gate_spread(sorted, d.units, median.median);
-    d.error = OF_MEDIAN * d.spread / sqrt(d.units);
+    d.error = SQRT_HALF_PI * d.spread / sqrt(d.units);
     rg_gate_conclude(rule, &median, &d);
     return d;
 }

@@ -1,8 +1,8 @@
 // Whether one of two things takes longer than the other, from times that were taken in turn.
 //
 // The unit of all of it is a launch: both are started anew, and give a quad, four times in the
-// order ABBA or BAAB, of which one number follows (rg_quad_log). Launches differ by more than the
-// times of one, for where a process lies in memory counts: so they are what is counted.
+// order ABBA or BAAB, of which one number follows (rg_block_log_ratio). Launches differ by more
+// than the times of one, for where a process lies in memory counts: so they are what is counted.
 //
 // The interval is the sign test's, exact whatever the distribution. A verdict needs both: that the
 // interval excludes no change, and that the change is worth a word. Nothing here reads a clock.
@@ -48,7 +48,7 @@ struct rg_gate_rule rg_gate_rule_apart(int rows);
 
 // By how much B's times are above A's in a quad, as a logarithm of their ratio: what rises or falls
 // steadily over the quad is not in it.
-double rg_quad_log(const double a_ms[2], const double b_ms[2]);
+double rg_block_log_ratio(const double a_ms[2], const double b_ms[2]);
 
 // What launches tell of a row. Ratios are B's time by A's.
 struct rg_gate_decision {
@@ -63,8 +63,8 @@ struct rg_gate_decision {
     bool is_coarse; // more than 5 % of the launches saw no difference: the timer cannot tell
 };
 
-// Decides after the launches of a look; `logs` are rg_quad_log's, in the order in which they were
-// taken, at most RG_GATE_UNITS.
+// Decides after the launches of a look; `logs` are rg_block_log_ratio's, in the order in which they
+// were taken, at most RG_GATE_UNITS.
 struct rg_gate_decision rg_gate_decide(const struct rg_gate_rule *rule, const double *logs,
                                        int count);
 

@@ -7,7 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/compare/gate/cells/strays.h"
+#include "harness/compare/gate/cells/unused.h"
 #include "harness/compare/gate/report/texts.h"
 #include "harness/compare/gate/run/agree.h"
 #include "harness/console/clock.h"
@@ -163,7 +163,7 @@ static int look_at_sides(struct run *r)
     }
     if (rg_interrupted())
         return RG_EXIT_PASS;
-    rg_gate_warn_of_strange(r->asked->known, r->asked->cells, targets, target_count);
+    rg_gate_warn_of_unused_on(r->asked->known, r->asked->cells, targets, target_count);
     return rg_sides_have(seen, count, r->asked->require, &r->gate->report) ? RG_EXIT_PASS
                                                                            : RG_EXIT_FAIL;
 }

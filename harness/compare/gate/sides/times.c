@@ -194,7 +194,7 @@ static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions
         if (is_pair ? !time_quad(timed, sessions, b_first ^ (i & 1), at)
                     : !time_slot(sessions[RG_SIDE_B], &timed->slot, at[RG_SIDE_B]))
             return false;
-        logs[i] = is_pair ? rg_quad_log(at[RG_SIDE_A], at[RG_SIDE_B]) : 0;
+        logs[i] = is_pair ? rg_block_log_ratio(at[RG_SIDE_A], at[RG_SIDE_B]) : 0;
     }
     *quads = (struct rg_quads){.b_ms = rg_median(b_ms, is_pair ? 2 * QUADS : QUADS).median,
                                .is_disturbed = was_disturbed(&before)};

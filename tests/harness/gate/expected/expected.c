@@ -13,7 +13,7 @@
 #include "core/base/log.h"
 #include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/expected/expected.h"
-#include "harness/compare/gate/cells/strays.h"
+#include "harness/compare/gate/cells/unused.h"
 #include "harness/compare/gate/text/date.h"
 #include "harness/compare/gate/text/glob.h"
 
@@ -368,7 +368,7 @@ static void an_expectation_of_no_cell_is_told(void **state)
     static const struct {
         const char *text;
         enum rg_known_form form;
-        int strays;
+        int unused;
         const char *said;
     } rows[] = {
         {"skip streaks/rain" REST "skip *" REST "skip flow/?ane" REST, RG_FORM_OWN, 0, ""},
@@ -384,8 +384,8 @@ static void an_expectation_of_no_cell_is_told(void **state)
         struct rg_known expected = {.count = 0};
         assert_true(add(&expected, "skip flow/*" REST, RG_FORM_OWN));
         assert_true(add(&expected, rows[i].text, rows[i].form));
-        assert_int_equal(rg_gate_warn_of_strays(&expected, &cells), rows[i].strays);
-        assert_int_equal(logged_lines, rows[i].strays > 0);
+        assert_int_equal(rg_gate_warn_of_unused(&expected, &cells), rows[i].unused);
+        assert_int_equal(logged_lines, rows[i].unused > 0);
         if (strncmp(logged, rows[i].said, strlen(rows[i].said)) != 0)
             fail_msg("row %zu said: %s", i, logged);
         rg_known_free(&expected);
@@ -445,7 +445,7 @@ static void an_expectation_of_no_device_or_driver_is_told(void **state)
     static const struct {
         const char *text;
         enum rg_known_form form;
-        int strays;
+        int unused;
         const char *said;
     } rows[] = {
         {"skip *" REST "skip *\n device gl" REST DRIVER "*Mesa 22.3.*" VALUES, RG_FORM_OWN, 0, ""},
@@ -463,8 +463,8 @@ static void an_expectation_of_no_device_or_driver_is_told(void **state)
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         struct rg_known expected = {.count = 0};
         assert_true(add(&expected, rows[i].text, rows[i].form));
-        assert_int_equal(rg_gate_warn_of_strange(&expected, &cells, targets, 3), rows[i].strays);
-        assert_int_equal(logged_lines, rows[i].strays > 0);
+        assert_int_equal(rg_gate_warn_of_unused_on(&expected, &cells, targets, 3), rows[i].unused);
+        assert_int_equal(logged_lines, rows[i].unused > 0);
         if (strncmp(logged, rows[i].said, strlen(rows[i].said)) != 0)
             fail_msg("row %zu said: %s", i, logged);
         rg_known_free(&expected);

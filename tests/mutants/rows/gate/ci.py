@@ -6,7 +6,7 @@ TESTS = ("command line, ci", "command line, reports")
 SHARDS, PARSE, FLAGS = "harness/compare/gate/report/gtest.c", "harness/commands/cli/parse.c", "harness/commands/comparing/gtest.c"
 RUN, RESULTS, CASES, HELD = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "results", "cases", "agree"))
 AGREE, SIDES = (f"harness/compare/gate/sides/{name}.c" for name in ("alike", "sides"))
-STRAYS = "harness/compare/gate/cells/strays.c"
+UNUSED = "harness/compare/gate/cells/unused.c"
 CELLS = "harness/compare/gate/cells/cells.c"
 FILE = "core/base/files/file.c"
 COMMAND = "harness/commands/comparing/gate.c"
@@ -73,14 +73,14 @@ ROWS = [
     Fault(RUN, "    «r->left_ms -= rg_now_ms() - start_ms;»", ";", "each device of two builds has half of the budget that others have taken", tests=("command line, gates",)),
     Fault("backends/gl/pass.c", "for (size_t d = i + NAME; «is_name» &&", "false", "a program of the cache is other code than the same compiled anew", tests=("command line, gates",)),
     Fault("backends/library.c", "    if («!*id»)\n", "0", "libraries without a build id are all the same", tests=("command line, gates",)),
-    Fault(STRAYS, "        any = «rg_glob(row->cell, cells->cells[i].name)»;", "true", "an expectation of no cell is silent", tests=("expectations", "command line, reports")),
-    Fault(STRAYS, "return «row->since > s->today» &&", "false", "an expectation to come is silent", tests=("expectations",)),
-    Fault(STRAYS, "&& row->until - s->today > «YEAR_DAYS» &&", "100 * YEAR_DAYS", "an expectation without end is silent", tests=("expectations",)),
+    Fault(UNUSED, "        any = «rg_glob(row->cell, cells->cells[i].name)»;", "true", "an expectation of no cell is silent", tests=("expectations", "command line, reports")),
+    Fault(UNUSED, "return «row->since > s->today» &&", "false", "an expectation to come is silent", tests=("expectations",)),
+    Fault(UNUSED, "&& row->until - s->today > «YEAR_DAYS» &&", "100 * YEAR_DAYS", "an expectation without end is silent", tests=("expectations",)),
     Fault("harness/compare/gate/expected/judge.c", "if («today < row->since»)", "false", "an expectation to come holds already", tests=("expectations",)),
-    Fault(STRAYS, "if («!driver || !targets[i].driver» || rg_glob(", "!driver", "a driver that is not there is told to be another", tests=("expectations",)),
-    Fault(STRAYS, "if (device && «!rg_glob(device, targets[i].device)»)", "false", "an expectation of no device is silent", tests=("expectations", "command line, gates")),
-    Fault(STRAYS, "if («row->file == i / look_count» &&", "true", "expectations of no cell are told of each file", tests=("expectations",)),
-    Fault(STRAYS, "«file->form == RG_FORM_OWN» &&", "true", "Mesa's lists of other suites are complained about", tests=("expectations",)),
+    Fault(UNUSED, "if («!driver || !targets[i].driver» || rg_glob(", "!driver", "a driver that is not there is told to be another", tests=("expectations",)),
+    Fault(UNUSED, "if (device && «!rg_glob(device, targets[i].device)»)", "false", "an expectation of no device is silent", tests=("expectations", "command line, gates")),
+    Fault(UNUSED, "if («row->file == i / look_count» &&", "true", "expectations of no cell are told of each file", tests=("expectations",)),
+    Fault(UNUSED, "«file->form == RG_FORM_OWN» &&", "true", "Mesa's lists of other suites are complained about", tests=("expectations",)),
     Fault(COMMAND, "if («is_read && !o->gtest.list»)", "false", "nobody is told of an expectation of no cell", tests=("command line, reports",)),
     Fault(CELLS, "           «has_keys_once(cell->assignments)»;", "true", "of a parameter that stands twice the last holds", tests=("gate cells",)),
     Fault(COMMAND, "if («gate.is_told» && ", "true", "a gate that fails early leaves an empty report", tests=("command line, gates",)),

@@ -1,4 +1,4 @@
-#include "harness/compare/gate/cells/strays.h"
+#include "harness/compare/gate/cells/unused.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -15,8 +15,8 @@ static bool is_of_none(const struct rg_expectation *row, const struct rg_gate_ce
 }
 
 // The field by which an expectation is of none of these; -1: it may be of one.
-static int strange_field(const struct rg_expectation *row, const struct rg_gate_target *targets,
-                         int count)
+static int unmatched_field(const struct rg_expectation *row, const struct rg_gate_target *targets,
+                           int count)
 {
     const char *device = row->values[RG_FIELD_DEVICE], *driver = row->values[RG_FIELD_DRIVER];
     bool any = false;
@@ -74,10 +74,11 @@ static int64_t warn(const struct search *s, const looker *looks, int look_count)
 
 // --- patterns that nothing has ---
 
-static bool is_stray(const struct search *s, const struct rg_expectation *row, struct odd *odd)
+static bool is_unused(const struct search *s, const struct rg_expectation *row, struct odd *odd)
 {
     const bool has_cell = !is_of_none(row, s->cells);
-    const int field = s->targets && has_cell ? strange_field(row, s->targets, s->target_count) : -1;
+    const int field =
+        s->targets && has_cell ? unmatched_field(row, s->targets, s->target_count) : -1;
     if (s->targets ? field < 0 : has_cell)
         return false;
     odd->line = row->line;
@@ -90,15 +91,15 @@ static bool is_stray(const struct search *s, const struct rg_expectation *row, s
     return true;
 }
 
-int64_t rg_gate_warn_of_strays(const struct rg_known *known, const struct rg_gate_cells *cells)
+int64_t rg_gate_warn_of_unused(const struct rg_known *known, const struct rg_gate_cells *cells)
 {
-    return warn(&(struct search){.known = known, .cells = cells}, &(looker){is_stray}, 1);
+    return warn(&(struct search){.known = known, .cells = cells}, &(looker){is_unused}, 1);
 }
 
-int64_t rg_gate_warn_of_strange(const struct rg_known *known, const struct rg_gate_cells *cells,
-                                const struct rg_gate_target *targets, int count)
+int64_t rg_gate_warn_of_unused_on(const struct rg_known *known, const struct rg_gate_cells *cells,
+                                  const struct rg_gate_target *targets, int count)
 {
-    return warn(&(struct search){known, cells, targets, count, 0}, &(looker){is_stray}, 1);
+    return warn(&(struct search){known, cells, targets, count, 0}, &(looker){is_unused}, 1);
 }
 
 // --- days ---
