@@ -13,7 +13,7 @@ static void drop_rows(struct rg_known *expected, int64_t from)
     expected->count = from;
 }
 
-// Takes over the lines, whether it succeeds or not.
+// Takes ownership of the lines, whether it succeeds or not.
 static bool add(struct rg_known *expected, struct rg_lines lines, enum rg_known_form form)
 {
     const int64_t before = expected->count;

@@ -1,5 +1,5 @@
-// What a gate expects to go wrong: failures, flakes and skips that are known, with reason, evidence
-// and expiry. docs/expectations.md has the format. Nothing here looks at a clock or a device.
+// Expectations of a gate: known failures, flakes and skips, each with its reason, evidence and
+// expiry. docs/expectations.md describes the format. Nothing here reads a clock or opens a device.
 #ifndef RG_HARNESS_COMPARE_GATE_EXPECTED_EXPECTED_H
 #define RG_HARNESS_COMPARE_GATE_EXPECTED_EXPECTED_H
 
@@ -32,7 +32,7 @@ enum rg_known_field {
 };
 enum { RG_FIELD_COUNT = RG_FIELD_UNTIL + 1 };
 
-// Least and most, both within it.
+// Smallest and largest accepted value, inclusive.
 struct rg_envelope {
     double least, most;
 };
@@ -41,12 +41,12 @@ struct rg_expectation {
     enum rg_known_kind kind;
     int file;                           // in rg_known.files
     int64_t line, line_count;           // in the file, from 0
-    const char *cell;                   // a pattern (rg_glob), or of Mesa's fails the name itself
-    struct rg_regex *regex;             // of Mesa's flakes and skips, instead of `cell`
-    const char *values[RG_FIELD_COUNT]; // as they stand in the file; NULL: not given
-    int64_t at[RG_FIELD_COUNT];         // their lines
-    unsigned outcomes;                  // a bit, 1 << enum rg_outcome, for each that is expected
-    struct rg_envelope pixels, difference; // where values[] has them
+    const char *cell;                   // a pattern (rg_glob); in Mesa's fails the exact name
+    struct rg_regex *regex;             // in Mesa's flakes and skips, in place of `cell`
+    const char *values[RG_FIELD_COUNT]; // as written in the file; NULL: not given
+    int64_t at[RG_FIELD_COUNT];         // the line of each field
+    unsigned outcomes;                  // bit 1 << enum rg_outcome is set for each expected outcome
+    struct rg_envelope pixels, difference; // valid where values[] has the field
     int since, until; // days (harness/compare/gate/text/date.h); INT_MAX: no end
 };
 
@@ -54,70 +54,71 @@ struct rg_known {
     int file_count;
     struct rg_known_file {
         enum rg_known_form form;
-        struct rg_lines lines; // owned; texts of the rows lie in it
+        struct rg_lines lines; // owned; the rows' texts point into it
     } files[16];
     int64_t count, room;
-    struct rg_expectation *rows; // file by file, in the order of their lines
+    struct rg_expectation *rows; // ordered by file, then by line
 };
 
-// What was measured of a cell on a device.
+// A gate's result for a cell on a device.
 struct rg_known_result {
     const char *cell;   // "streaks/rain-128"
     const char *device; // "vulkan", "vulkan@VK_DRIVER_FILES=old.json"
-    const char *driver; // as the passport has it: "Mesa 22.3.6"; NULL: it was not to run here, or
-                        // could not, so that nothing is known of it, and the outcome unsupported
+    const char *driver; // as in the passport: "Mesa 22.3.6"; NULL: the cell was skipped or could
+                        // not run, so nothing is known and the outcome is unsupported
     enum rg_outcome outcome;
-    double pixels;     // that differ; NAN: not measured
-    double difference; // the largest of a channel; NAN: not measured
-    bool is_foreign;   // what failed is not this device's driver: nothing is expected of that
+    double pixels;     // number of differing pixels; NAN: not measured
+    double difference; // largest difference of a channel; NAN: not measured
+    bool is_foreign;   // the failure is not this device's driver's, so expectations do not apply
 };
 
-// How a result meets what is expected.
+// How a result compares with its expectation.
 enum rg_met {
-    RG_MET_NOTHING,   // nothing is expected: the result stands for itself
+    RG_MET_NOTHING,   // no expectation applies; the result's own outcome counts
     RG_MET_EXPECTED,  // it fails, as expected
-    RG_MET_FIXED,     // it passes, and was expected to fail
-    RG_MET_DIFFERENT, // it fails in another way: another outcome, or outside the envelope
-    RG_MET_EXPIRED,   // what is expected was to be looked at again by now
-    RG_MET_FLAKY,     // quarantined: whatever came of it is reported and decides nothing
-    RG_MET_SKIPPED,   // it was not to run
+    RG_MET_FIXED,     // it passes although it was expected to fail
+    RG_MET_DIFFERENT, // it fails, but with another outcome or outside the envelope
+    RG_MET_EXPIRED,   // the expectation is past its `until` day
+    RG_MET_FLAKY,     // quarantined: the result is reported and decides nothing
+    RG_MET_SKIPPED,   // it was not supposed to run
 };
 
-// Adds a file. False, and one logged line "FILE:LINE: what; mend", where it is refused; then
-// nothing of it is added. `expected` is zeroed at first.
+// Adds a file. A refused file adds nothing: false, and one logged line "FILE:LINE: what; mend".
+// `expected` must be zeroed before the first call.
 bool rg_known_add(struct rg_known *expected, const char *path, enum rg_known_form form);
-// The same of a text in memory, which is copied.
+// The same for a text in memory, which is copied.
 bool rg_known_add_text(struct rg_known *expected, const char *name, const char *text, size_t size,
                        enum rg_known_form form);
 void rg_known_free(struct rg_known *expected);
 
-// Whether all regular expressions can be searched for in a cell's name, which is asked before any
-// work. False, and one logged line with the file's, where one takes too long: for no name like that
-// does it hold.
+// Checks before any work that every regular expression can be searched for in this cell's name.
+// False, and one logged line with the expression's place, if a search takes too long: such an
+// expression would match no name of this kind.
 bool rg_known_can_search(const struct rg_known *expected, const char *cell);
 
-// The row that holds for a cell on this day: of several, a skip before a flake before a failure,
-// and then the first. -1: none; one that begins later does not hold yet.
+// The row that applies to a cell on this day. If several match, a skip wins over a flake and a
+// flake over a failure, then the first wins; rows whose `since` is still to come do not match. -1:
+// none.
 int64_t rg_known_row(const struct rg_known *expected, const char *cell, const char *device,
                      const char *driver, int today);
-// Whether a row keeps its cell from running on this day; false for row -1.
+// Whether a row forbids running its cell on this day; false for row -1.
 bool rg_known_skips(const struct rg_known *expected, int64_t row, int today);
 
-// How a result meets its row, -1 for none, on this day.
+// How a result compares with its row, -1 for none, on this day.
 enum rg_met rg_known_judge(const struct rg_known *expected, int64_t row,
                            const struct rg_known_result *result, int today);
 // "none", "expected", "fixed", "fails differently", "expired", "flaky", "skipped".
 const char *rg_met_name(enum rg_met met);
-// Whether the gate fails by it. What met nothing fails by its own outcome: wrong or broken does,
-// and unsupported does not.
+// Whether the gate fails because of this result. Without an expectation a wrong or broken outcome
+// fails, and an unsupported one does not.
 bool rg_met_fails(enum rg_met met, enum rg_outcome outcome);
 
-// What a file has to say so that it is true of these results: rows that are fixed go; rows that
-// fail otherwise get the new evidence; what has expired gets 90 days, or goes if it is a skip or
-// has passed. What a row expects of cells of which nothing is known stays expected. With
-// `adds_new`, failures that nothing expects are added at the end. All other bytes stay. The caller
-// frees the text, which is NULL where the file is true, or is none of ours or of Mesa's fails.
-// False, and one logged line, without memory.
+// Rewrites a file so that it is true of these results. Rows whose failure is fixed are removed;
+// rows that fail differently get the new evidence; expired rows get 90 more days, or are removed if
+// they are skips or have passed. Expectations of cells without a known result remain. With
+// `adds_new`, unexpected failures are appended. All other bytes stay the same. The caller frees the
+// text; it is NULL if nothing has to change, or if the file is neither in our own form nor Mesa's
+// fails. False, and one logged line, without memory.
 bool rg_known_mend(const struct rg_known *expected, int file, const struct rg_known_result *results,
                    int64_t count, int today, bool adds_new, char **text);
 

@@ -72,7 +72,7 @@ bool rg_known_skips(const struct rg_known *expected, int64_t row, int today)
            today <= expected->rows[row].until;
 }
 
-// NAN is in no envelope.
+// False for NAN.
 static bool is_in(const struct rg_envelope *envelope, double value)
 {
     return value >= envelope->least && value <= envelope->most;
@@ -97,9 +97,9 @@ enum rg_met rg_known_judge(const struct rg_known *expected, int64_t index,
     const bool is_over = today > row->until;
     if (row->kind == RG_EXPECT_SKIP && !is_over)
         return RG_MET_SKIPPED;
-    if (result->outcome == RG_UNSUPPORTED) // it neither passed nor failed
+    if (result->outcome == RG_UNSUPPORTED) // neither passed nor failed
         return RG_MET_NOTHING;
-    if (result->is_foreign) // of the device nothing is known
+    if (result->is_foreign) // of another driver than the device has
         return RG_MET_NOTHING;
     if (row->kind == RG_EXPECT_SKIP)
         return RG_MET_EXPIRED;

@@ -1,4 +1,4 @@
-// What would make a file of expectations true: the file as it would have to be.
+// Rewrites a file of expectations so that it is true of a gate's results.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@ struct mend {
     const struct rg_lines *lines;
     enum rg_known_form form;
     int file, today;
-    const char *end; // of the file's lines
+    const char *end; // line end of the file
     const struct rg_known_result *results;
     int64_t count;
     int64_t *rows;    // by result
@@ -23,11 +23,11 @@ struct mend {
     size_t *size;
 };
 
-// --- what a row is to say ---
+// --- a row and its results ---
 
-// Of the results that a row holds for.
+// The results that one row applies to.
 struct summary {
-    int64_t fixed, failing, wrong; // wrong: differ or have expired
+    int64_t fixed, failing, wrong; // wrong: fail differently or have expired
     int64_t unknown;               // neither passed nor failed, or did not run
     bool has_expired;
     unsigned outcomes;
@@ -56,8 +56,8 @@ static void count_result(struct summary *s, const struct rg_known_result *result
     widen(&s->difference, result->difference);
 }
 
-// Whether a row expects to fail what another before it expected, and what is fixed: once that one
-// is gone, this one would be what is not true.
+// Whether this row also expects a failure that is fixed, and only an earlier row was compared with
+// the result. Once the earlier row is removed, this one would be wrong.
 static bool is_fixed_behind(const struct mend *m, int64_t row, int64_t result)
 {
     const struct rg_expectation *r = &m->expected->rows[row];
@@ -66,8 +66,8 @@ static bool is_fixed_behind(const struct mend *m, int64_t row, int64_t result)
            rg_known_holds(m->expected, r, of->cell, of->device, of->driver, m->today);
 }
 
-// Whether a row may be the one that holds for a result: which one does is not known of a driver
-// without a name.
+// Whether a row may be the one that applies to a result. Without the driver's name any row that
+// matches may be.
 static bool is_of_row(const struct mend *m, int64_t row, int64_t result)
 {
     const struct rg_known_result *of = &m->results[result];
@@ -76,7 +76,7 @@ static bool is_of_row(const struct mend *m, int64_t row, int64_t result)
                                           of->device, of->driver, m->today));
 }
 
-// Of result `only`, or of all with -1. Of what nothing is known of, what was expected still is.
+// Counts result `only`, or all with -1. For results that are unknown the row's old outcomes remain.
 static struct summary sum_up(const struct mend *m, int64_t row, int64_t only)
 {
     const struct rg_expectation *r = &m->expected->rows[row];
@@ -89,8 +89,8 @@ static struct summary sum_up(const struct mend *m, int64_t row, int64_t only)
     return s;
 }
 
-// Whether a field is evidence of pictures in a row none of whose new outcomes compares them: such
-// a row would be refused.
+// Whether a field would hold evidence of pictures although none of the new outcomes compares any;
+// the reader refuses such a row.
 static bool is_idle(const struct rg_expectation *row, const struct summary *s, int field)
 {
     const unsigned old = row->kind == RG_EXPECT_FLAKE || !s->outcomes ? row->outcomes : 0;
@@ -98,7 +98,7 @@ static bool is_idle(const struct rg_expectation *row, const struct summary *s, i
            !((s->outcomes | old) & 1U << RG_FAIL);
 }
 
-// What a field is to say; false where it stays as it is.
+// The field's new value; false if the old one stays.
 static bool new_value(const struct mend *m, const struct rg_expectation *row,
                       const struct summary *s, int field, char *text, size_t size)
 {
@@ -122,16 +122,15 @@ static bool new_value(const struct mend *m, const struct rg_expectation *row,
     }
 }
 
-// --- rows as they are written ---
+// --- writing rows ---
 
-// Copies lines as they are.
 static void copy(const struct mend *m, int64_t line, int64_t end)
 {
     for (; line < end; line++)
         fwrite(m->lines->raw + m->lines->lines[line].at, 1, m->lines->lines[line].length, m->out);
 }
 
-// Writes a line of a row, which may have a field that changes or goes.
+// Writes a line of a row; if it holds a field, that may have a new value or be dropped.
 static void write_line(const struct mend *m, const struct rg_expectation *row,
                        const struct summary *s, int64_t line)
 {
@@ -149,7 +148,7 @@ static void write_line(const struct mend *m, const struct rg_expectation *row,
         copy(m, line, line + 1);
 }
 
-// A row as it stands, narrowed to one result.
+// Writes a copy of a row that applies to one result only.
 static void write_narrowed(const struct mend *m, int64_t index, int64_t result)
 {
     const struct rg_expectation *row = &m->expected->rows[index];
@@ -167,7 +166,7 @@ static void write_narrowed(const struct mend *m, int64_t index, int64_t result)
     }
 }
 
-// Whether a result needs a row of its own where not all that a row expects still is.
+// Whether a result keeps a row of its own after the row is split.
 static bool stays(const struct mend *m, int64_t row, int64_t result)
 {
     const bool has_passed = m->met[result] == RG_MET_FIXED || (m->met[result] == RG_MET_EXPIRED &&
@@ -175,7 +174,7 @@ static bool stays(const struct mend *m, int64_t row, int64_t result)
     return is_of_row(m, row, result) && !has_passed;
 }
 
-// Some of the cells of a row pass, and others do not, or are not known to: a row each for these.
+// Some cells of the row now pass: replaces it by a row for each that does not, or is not known to.
 static void write_split(const struct mend *m, int64_t index)
 {
     const char *between = "";
@@ -188,7 +187,7 @@ static void write_split(const struct mend *m, int64_t index)
     }
 }
 
-// Writes a row of our own form; false where it goes.
+// Writes a row of our own form; false if it is removed.
 static bool write_own(const struct mend *m, int64_t index, const struct summary *s)
 {
     const struct rg_expectation *row = &m->expected->rows[index];
@@ -203,8 +202,8 @@ static bool write_own(const struct mend *m, int64_t index, const struct summary 
     return true;
 }
 
-// A line has one status: where a test passes here and fails there, none is true, and where nothing
-// is known of it there, the line may be.
+// A line of Mesa's has one status for all devices. If the test passes on one and fails on another,
+// no status is true, and if one is unknown, the old status may be: both keep the line.
 static bool write_mesa(const struct mend *m, int64_t index, const struct summary *s)
 {
     const struct rg_expectation *row = &m->expected->rows[index];
@@ -217,8 +216,8 @@ static bool write_mesa(const struct mend *m, int64_t index, const struct summary
     return true;
 }
 
-// Writes a row; returns the line that follows. One that goes takes the blank line behind it along,
-// so that none stand in pairs.
+// Writes a row and returns the line after it. A removed row also drops the blank line after it, so
+// that no two blank lines meet.
 static int64_t write_row(const struct mend *m, int64_t index)
 {
     const struct rg_expectation *row = &m->expected->rows[index];
@@ -232,7 +231,7 @@ static int64_t write_row(const struct mend *m, int64_t index)
     return next;
 }
 
-// --- what nothing expects ---
+// --- unexpected failures ---
 
 static bool is_new(const struct mend *m, int64_t i)
 {
@@ -240,7 +239,7 @@ static bool is_new(const struct mend *m, int64_t i)
            rg_met_fails(m->met[i], m->results[i].outcome);
 }
 
-// Adds failures behind the last line.
+// Appends them after the last line.
 static void write_new(const struct mend *m)
 {
     for (int64_t i = 0; i < m->count; i++) {
@@ -255,7 +254,7 @@ static void write_new(const struct mend *m)
     }
 }
 
-// --- all of it ---
+// --- the whole file ---
 
 static bool judge_all(struct mend *m)
 {

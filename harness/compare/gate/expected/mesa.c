@@ -1,5 +1,5 @@
-// The files of Mesa's CI, as deqp-runner reads them: lines "test,Status", or regular expressions.
-// Empty lines and those that begin with # say nothing.
+// Reads the files of Mesa's CI as deqp-runner does: lines "test,Status", or regular expressions.
+// Empty lines and lines that begin with # are comments.
 #include <string.h>
 
 #include "core/base/log.h"
@@ -7,7 +7,7 @@
 
 static const struct {
     const char *word;
-    unsigned outcomes; // 0: the line expects nothing that could go wrong
+    unsigned outcomes; // 0: the status is no failure, so the line is ignored
 } words[] = {
     {"Fail", 1 << RG_FAIL | 1 << RG_ERROR},
     {"Crash", 1 << RG_CRASH},
@@ -32,7 +32,7 @@ static int find(const char *word)
     return -1;
 }
 
-// "test,Status", and what else deqp-runner's own results have behind another comma.
+// "test,Status"; deqp-runner's own results have more after another comma, which is ignored.
 static bool take_fail(const char *place, struct rg_known *expected, char *text, int64_t line)
 {
     char *word = strchr(text, ',');

@@ -1,4 +1,4 @@
-// Our own form: a line "fail PATTERN", and its fields on indented lines below.
+// Reads our own form: a line "fail PATTERN" with its fields on indented lines below.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +29,7 @@ static bool read_outcomes(const char *place, char *value, unsigned *outcomes)
     return true;
 }
 
-// As people write numbers: strtod takes hexadecimal ones, blanks and words too.
+// Accepts plain decimal numbers only; strtod alone would also take hexadecimal, blanks and words.
 static bool read_number(const char *text, double *number)
 {
     char *end;
@@ -113,7 +113,7 @@ static bool begin(const char *place, struct rg_known *expected, char *text, int6
     return row;
 }
 
-// Whether it has no evidence of pictures where none are compared.
+// Rejects evidence of pictures if no expected outcome compares pictures.
 static bool has_pictures(const char *name, const struct rg_expectation *row)
 {
     static const int evidence[] = {RG_FIELD_PIXELS, RG_FIELD_DIFFERENCE};
@@ -127,7 +127,7 @@ static bool has_pictures(const char *name, const struct rg_expectation *row)
     return true;
 }
 
-// What must be there, once all fields of a row have been read.
+// Rejects a row that lacks a required field; called once all its fields are read.
 static bool is_whole(const char *name, const struct rg_expectation *row)
 {
     static const int needed[] = {RG_FIELD_REASON, RG_FIELD_SINCE, RG_FIELD_UNTIL, RG_FIELD_OUTCOME};

@@ -4,7 +4,7 @@
 #include "harness/compare/gate/expected/inside.h"
 #include "harness/compare/gate/text/date.h"
 
-// What is `blank` or a control character becomes a ?.
+// Replaces control characters, and the one that `blank` names, by ?.
 static void write_pattern(FILE *out, const char *text, char blank)
 {
     for (const char *c = *text ? text : "*"; *c; c++)
@@ -54,7 +54,7 @@ void rg_known_write_new(FILE *out, const struct rg_known_result *result, int tod
 {
     rg_known_write_head(out, RG_EXPECT_FAIL, result->cell, end);
     rg_known_write_field(out, RG_FIELD_DEVICE, result->device, end);
-    if (*result->driver) // one that falls before it is asked has no name
+    if (*result->driver) // empty if the driver crashed before it told its name
         rg_known_write_field(out, RG_FIELD_DRIVER, result->driver, end);
     rg_known_write_field(out, RG_FIELD_OUTCOME, rg_outcome_name(result->outcome), end);
     if (result->outcome == RG_FAIL) {

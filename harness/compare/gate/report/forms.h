@@ -1,21 +1,22 @@
-// The forms of a report. A form is a row here and a function that writes it: its option in the
-// gate's help, where it goes, and which file it must not replace all follow from the row.
+// The forms of a report. A form is a row here and a function that writes it; its option in the
+// gate's help, its destination and the file it must not replace all follow from the row.
 #ifndef RG_HARNESS_COMPARE_GATE_REPORT_FORMS_H
 #define RG_HARNESS_COMPARE_GATE_REPORT_FORMS_H
 
 #include "harness/compare/gate/report/report.h"
 
-// Where a form goes.
+// Where a form's output goes.
 enum rg_report_where {
     RG_WHERE_FILE,     // its option names a file
-    RG_WHERE_INSTEAD,  // its option, a flag, prints it instead of text
-    RG_WHERE_BELOW,    // its option, a flag, prints it below what is printed else
-    RG_WHERE_DEFAULT,  // it is printed where nothing else is asked for; it has no option
-    RG_WHERE_APPENDED, // the form before it appends it to the file of an environment variable
+    RG_WHERE_INSTEAD,  // its option, a flag, prints it in place of text
+    RG_WHERE_BELOW,    // its option, a flag, prints it after the other output
+    RG_WHERE_DEFAULT,  // printed if nothing else is asked for; no option
+    RG_WHERE_APPENDED, // appended to the file of an environment variable, if the form before it is
+                       // asked for
 };
 
-// Its name here, where it goes, the name of its option or variable, what help says of the option,
-// what it excludes (NULL: nothing), what writes it. In the order in which they are written.
+// Id, destination, name of the option or variable, help text of the option, the option that it
+// excludes (NULL: none), writer. Reports are written in this order.
 #define RG_REPORT_FORMS(ROW)                                                                       \
     ROW(JUNIT, FILE, "junit", "writes JUnit's XML (docs/ci.md)", NULL, rg_report_junit)            \
     ROW(BMF, FILE, "bmf", "writes Bencher's metric format", NULL, rg_report_bmf)                   \
@@ -36,8 +37,8 @@ extern const struct rg_report_form {
     rg_report_writer write;
 } rg_report_forms[RG_REPORT_FORM_COUNT];
 
-// Whether a file can be appended to, as is found out before any work; it is made. A FIFO or device
-// is refused, and not waited for. False, and one logged line that names the variable.
+// Checks before any work that a file can be appended to, and creates it. A FIFO or device is
+// refused, not waited for. False, and one logged line that names the variable, if not.
 bool rg_report_can_append(const char *path, const char *variable);
 bool rg_report_append(const struct rg_report *report, const struct rg_report_form *form,
                       const char *path);

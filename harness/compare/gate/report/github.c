@@ -10,7 +10,7 @@
 
 // --- annotations ---
 
-// A property has more marks than the text behind it.
+// A property needs more characters escaped than the text after it.
 static void put_command_text(FILE *out, const char *text, bool is_property)
 {
     for (; *text; text++) {
@@ -20,7 +20,7 @@ static void put_command_text(FILE *out, const char *text, bool is_property)
     }
 }
 
-// The command that annotates an ending; NULL: none does.
+// The command that annotates an ending; NULL: no annotation.
 static const char *command_of(enum rg_ending ending)
 {
     if (rg_ending_fails(ending))
@@ -83,7 +83,7 @@ static void make_row(FILE *out, const struct rg_report *report, int number)
     fprintf(out, " |\n");
 }
 
-// The fence of a block is longer than any run of its marks in the text.
+// A block's fence must be longer than any run of backquotes in its text.
 static int fence_of(const char *text)
 {
     int longest = 2, run = 0;
@@ -125,15 +125,15 @@ static void make_details(FILE *out, const struct rg_report *report, int number)
     }
 }
 
-// What is written so far, and the room that is left.
+// The page written so far, and the space left on it.
 struct page {
     FILE *out;
     size_t room;
-    int left_out;   // of the parts that are made now
-    bool is_broken; // without memory
+    int left_out;   // number of parts left out of the current list
+    bool is_broken; // out of memory
 };
 
-// Writes a part if it fits and none before it was left out.
+// Writes a part if it fits and no earlier part was left out.
 static void put_part(struct page *page, char *text, size_t size)
 {
     const bool fits = !page->left_out && size + NOTE <= page->room;
@@ -142,7 +142,7 @@ static void put_part(struct page *page, char *text, size_t size)
     page->left_out += size && !fits;
 }
 
-// Makes a part of each case that `order` names, in this order; how many are left out.
+// Writes the cases of `order` as parts, in this order; returns how many were left out.
 static int put_parts(struct page *page, const struct rg_report *report, const int *order, int count,
                      void (*make)(FILE *out, const struct rg_report *report, int number))
 {
@@ -162,7 +162,7 @@ static int put_parts(struct page *page, const struct rg_report *report, const in
     return page->left_out;
 }
 
-// What the steps before have left of GitHub's limit.
+// How much of GitHub's limit earlier commands of the step have left.
 static size_t room_of(FILE *out)
 {
     struct stat st;

@@ -14,7 +14,7 @@
 
 // --- the filter ---
 
-// Whether one of the patterns between `filter` and `end` does.
+// Whether one of the patterns between `filter` and `end` matches.
 static bool matches_any(const char *filter, const char *end, const char *name)
 {
     for (;;) {
@@ -76,7 +76,7 @@ static bool is_same_suite(const char *a, const char *b)
 
 // --- the list ---
 
-// Whether a case's suite has been listed with an earlier one.
+// Whether an earlier case has listed this suite already.
 static bool is_listed(const struct rg_report *report, int until, const char *made,
                       const char *filter)
 {
@@ -107,7 +107,8 @@ void rg_gtest_list(FILE *out, const struct rg_report *report, const char *filter
 
 // --- results ---
 
-// Text of a case, whose brackets no runner takes for a result, nor GitHub for a command.
+// Writes a case's text such that no runner takes its brackets for a result, nor GitHub for a
+// command.
 static void put_text(FILE *out, const char *text)
 {
     if (!*text)
@@ -149,7 +150,7 @@ static void put_case(FILE *out, const struct rg_report_case *told)
     fprintf(out, "%s %s (%" PRId64 " ms)\n", word_of(told->ending), made, ms_of(told->seconds));
 }
 
-// The cases whose word this is, below a count of them.
+// Lists the cases that ended with this word, after their number.
 static void put_listed(FILE *out, const struct rg_report *report, const char *word)
 {
     char made[RG_GTEST_NAME];
@@ -204,8 +205,8 @@ static bool read_number(const char *variable, int *number)
                variable, text, INT_MAX);
 }
 
-// The file by which a runner knows that shards are understood: it need only be there, so that what
-// it holds already stays.
+// Creates the file that tells the runner that shards are understood. Only its existence counts, so
+// existing contents stay.
 static bool tell_runner(void)
 {
     const char *path = getenv("GTEST_SHARD_STATUS_FILE"), *why;

@@ -1,9 +1,9 @@
-// googletest's protocol, so that runners that know gtest drive the gate: what they ask for, and the
+// googletest's protocol, so that runners that know gtest can drive the gate: their options, and the
 // lines that they read. https://google.github.io/googletest/advanced.html
 //
-// deqp-runner is the strictest of them. In its list a line with a point is a suite, and a name ends
-// at a space. While a test runs it takes any "[WORD] " for its result, ends at a WORD that it does
-// not know, and takes a process that ends without a result for a crash.
+// deqp-runner is the strictest of them. In the list it takes a line with a point for a suite,
+// and ends a name at a space. While a test runs, it takes any "[WORD] " for the result, stops at a
+// WORD that it does not know, and takes a process that ends without a result for a crash.
 #ifndef RG_HARNESS_COMPARE_GATE_REPORT_GTEST_H
 #define RG_HARNESS_COMPARE_GATE_REPORT_GTEST_H
 
@@ -12,31 +12,30 @@
 
 #include "harness/compare/gate/report/report.h"
 
-// Whether --gtest_filter=FILTER lets a test through: patterns between colons, of which one must
-// match, then "-" and patterns of which none may. "*" is any text, "?" any character. Nothing
-// before the "-" is "*"; an empty filter lets nothing through.
+// Whether --gtest_filter=FILTER selects a test: patterns between colons, one of which must match,
+// then "-" and patterns none of which may. "*" is any text, "?" any character. No pattern before
+// the "-" means "*"; an empty filter selects nothing.
 bool rg_gtest_matches(const char *filter, const char *name);
 
-// Of the cases that a filter lets through, in their order, every `total`th runs, from `index` on.
+// A shard runs every `total`th of the selected cases, in their order, starting at `index`.
 struct rg_gtest_shards {
     int total, index;
 };
-// What $GTEST_TOTAL_SHARDS and $GTEST_SHARD_INDEX say; without them one shard has all. Makes the
-// file of $GTEST_SHARD_STATUS_FILE. False, and one logged line, where they are no shard.
+// Reads $GTEST_TOTAL_SHARDS and $GTEST_SHARD_INDEX; without them one shard has all. Creates the
+// file of $GTEST_SHARD_STATUS_FILE. False, and one logged line, if they name no shard.
 bool rg_gtest_shards(struct rg_gtest_shards *shards);
 
-// The name for gtest of a case of a report, "streaks.small/cpu" of "streaks.small.cpu": its suite
-// reaches to the first point, and further points become slashes. Where that is not enough, for a
-// name has no suite, or characters that a filter or a list would misread, or more than
-// RG_GTEST_KEPT bytes, these become "_" or are cut, and a hash of the whole name follows, so that
-// it stays the only one.
+// The gtest name of a report's case, "streaks.small/cpu" for "streaks.small.cpu": the suite ends at
+// the first point, and further points become slashes. If the name has no suite, is
+// longer than RG_GTEST_KEPT bytes, or has characters that a filter or a list would misread, it is
+// cut or gets "_" for them, and a hash of the whole name follows to keep it unique.
 enum { RG_GTEST_KEPT = 160, RG_GTEST_NAME = 256 };
 void rg_gtest_name(const char *name, char made[RG_GTEST_NAME]);
 
-// --gtest_list_tests: the cases that the filter lets through, by suite; none need have run.
+// --gtest_list_tests: lists the selected cases by suite; none needs to have run.
 void rg_gtest_list(FILE *out, const struct rg_report *report, const char *filter);
 
-// What googletest prints of a run of these cases.
+// Prints what googletest prints after a run of these cases.
 bool rg_gtest_print(const struct rg_report *report, FILE *out);
 
 #endif

@@ -1,4 +1,4 @@
-// The forms in JSON: Bencher's, and our own.
+// The JSON forms: Bencher's, and our own.
 #include <jansson.h>
 #include <math.h>
 #include <string.h>
@@ -19,8 +19,8 @@ static bool dump(json_t *json, const char *form, FILE *out)
 
 // --- Bencher's ---
 
-// A measure. A bound that is not known is left out: of NaN and infinity jansson makes no number,
-// and then sets none.
+// Adds a measure. An unknown bound is left out, since jansson makes no number of NaN or infinity,
+// and sets none then.
 static void set_measure(json_t *measures, const char *name, struct rg_bounded number, double unit)
 {
     if (!isfinite(number.value))

@@ -1,6 +1,6 @@
 // JUnit's XML. https://docs.gitlab.com/ci/testing/unit_test_reports/
 //
-// It is written without a library: docs/dependencies.md says why.
+// It is written without a library, for the reason in docs/dependencies.md.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +9,8 @@
 #include "harness/compare/gate/report/report.h"
 #include "harness/compare/gate/report/texts.h"
 
-// What stands for a byte of clean text; NULL: the byte. Attributes lose line breaks that are not
-// escaped.
+// The escape of a byte; NULL: written as it is. A reader drops unescaped line breaks and tabs of an
+// attribute.
 static const char *escape(char c, bool is_attribute)
 {
     return c == '&'                    ? "&amp;"
@@ -45,7 +45,7 @@ static double seconds_of(double seconds)
     return isfinite(seconds) && seconds > 0 ? seconds : 0;
 }
 
-// --- details, which are cut where the file would be too large ---
+// --- details, cut if the file would be too large ---
 
 static size_t escaped_size(const char *text)
 {
@@ -57,7 +57,7 @@ static size_t escaped_size(const char *text)
     return size;
 }
 
-// At most `most` bytes of what is written.
+// Writes details up to `most` bytes, counted after escaping.
 static void put_details(FILE *out, const char *details, size_t most)
 {
     size_t bytes = 0, written = 0;
@@ -85,7 +85,8 @@ static size_t details_size(const struct rg_report *report, size_t most)
     return sum;
 }
 
-// The most bytes of a case's details, so that all of them have `room`: the longest are cut first.
+// The most bytes that a case's details may have so that all of them fit into `room`; this cuts the
+// longest first.
 static size_t most_of_details(const struct rg_report *report, size_t room)
 {
     size_t low = 0, high = RG_JUNIT_LIMIT;
@@ -101,7 +102,7 @@ static size_t most_of_details(const struct rg_report *report, size_t room)
 
 // --- a case ---
 
-// What a reader of the body sees without the attributes: the message comes again.
+// Repeats the message, for readers that show the body without the attributes.
 static void put_body(FILE *out, const struct rg_report_case *told, size_t most)
 {
     put(out, told->message, strlen(told->message), false);
@@ -110,7 +111,7 @@ static void put_body(FILE *out, const struct rg_report_case *told, size_t most)
         put_details(out, told->details, most);
 }
 
-// GitLab shows the pictures that stand so in system-out; a path has no escape there.
+// GitLab shows pictures that system-out names in this form; it has no escape for a path.
 static void put_attachments(FILE *out, const struct rg_report_case *told)
 {
     if (!told->attachment_count)
@@ -126,7 +127,8 @@ static void put_attachments(FILE *out, const struct rg_report_case *told)
     fprintf(out, "</system-out>\n");
 }
 
-// What passed has its body in system-err: in system-out a message could name a file as a picture.
+// A case that passes has its body in system-err: in system-out GitLab could take part of a message
+// for a picture.
 static void put_case(FILE *out, const struct rg_report_case *told, size_t most)
 {
     const char *element = rg_ending_element(told->ending);
@@ -136,7 +138,7 @@ static void put_case(FILE *out, const struct rg_report_case *told, size_t most)
     put_attribute(out, "classname", told->technique);
     fprintf(out, " time=\"%.3f\">\n", seconds_of(told->seconds));
     if (passes)
-        put_attachments(out, told); // system-out stands before system-err
+        put_attachments(out, told); // the schema wants system-out first
     fprintf(out, "   <%s", passes ? "system-err" : element);
     if (!passes)
         put_attribute(out, "message", told->message);
@@ -189,7 +191,7 @@ static void put_report(FILE *out, const struct rg_report *report, size_t most)
     fprintf(out, " </testsuite>\n</testsuites>\n");
 }
 
-// How large the file is when each case's details are cut to nothing.
+// The file's size when all details are cut to nothing.
 static bool size_without_details(const struct rg_report *report, size_t *size)
 {
     char *text = NULL;

@@ -55,9 +55,9 @@ bool rg_ending_fails(enum rg_ending ending)
     return exit == RG_EXIT_FAIL || exit == RG_EXIT_NOTHING || exit == RG_EXIT_HARNESS;
 }
 
-// --- texts that the report owns ---
+// --- texts owned by the report ---
 
-// Keeps memory with the report; NULL, and it is freed, where it cannot.
+// Makes the report the owner of memory. On failure it frees the memory and returns NULL.
 static void *keep(struct rg_report *report, void *memory)
 {
     if (memory && rg_array_fit(&report->texts, &report->text_room, report->text_count + 1,
@@ -72,7 +72,7 @@ static const char *keep_text(struct rg_report *report, const char *text, bool is
     return keep(report, rg_texts_clean(text ? text : "", is_line));
 }
 
-// A text of one line, cut where it is longer than RG_REPORT_LINE.
+// Keeps a text as one line, cut if longer than RG_REPORT_LINE.
 static const char *keep_line(struct rg_report *report, const char *text)
 {
     char *line = keep(report, rg_texts_clean(text ? text : "", true));
@@ -104,7 +104,7 @@ static bool has_name(const struct rg_report *report, const char *name)
     return false;
 }
 
-// A name that no other case has.
+// Makes the name unique among the cases.
 static const char *keep_name(struct rg_report *report, const char *name)
 {
     enum { TAIL = 32 };

@@ -1,4 +1,4 @@
-// For people at a terminal, or at a log of CI.
+// The text form, for terminals and CI logs.
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,8 +8,8 @@
 
 // --- lines of RG_REPORT_WIDTH characters ---
 
-// How many bytes of the text go on a line of `room` characters: up to a line break, or to the last
-// space that fits, or through the middle of a word that is longer than a line.
+// How many bytes of the text go on a line of `room` characters: up to a line break, or the last
+// space that fits, or through a word that is longer than a line.
 static size_t line_of(const char *text, int room)
 {
     const size_t whole = strcspn(text, "\n");
@@ -23,7 +23,7 @@ static size_t line_of(const char *text, int room)
     return fits == whole || text[fits] == ' ' ? fits : space ? space : fits;
 }
 
-// A log of GitHub's takes "##[" for a command anywhere in a line.
+// Replaces "##[", which GitHub takes for a command anywhere in a log's line.
 static void put_bytes(FILE *out, const char *text, size_t bytes)
 {
     for (size_t i = 0; i < bytes; i++) {
@@ -32,8 +32,8 @@ static void put_bytes(FILE *out, const char *text, size_t bytes)
     }
 }
 
-// Writes text from column `from` on. Each further line begins with a bar, so that none of another's
-// text is taken for a command by what reads the log, as GitHub takes "::error::".
+// Writes text from column `from` on. Each further line begins with a bar, so that a reader of the
+// log does not take foreign text at a line's start for a command, as GitHub does with "::error::".
 static void put_wrapped(FILE *out, const char *text, int from)
 {
     static const char bar[] = "  | ";

@@ -7,7 +7,7 @@
 
 enum { FOREIGN = 0xfffd, PICTURES = 0x2400, PICTURE_OF_DELETE = 0x2421, LONGEST = 3 };
 
-// Decodes a character of `*bytes` bytes; FOREIGN, and one byte, where there is none.
+// Decodes a character of `*bytes` bytes; FOREIGN, and one byte, if it is not valid UTF-8.
 static uint32_t decode(const unsigned char *text, int *bytes)
 {
     static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
@@ -29,7 +29,7 @@ static uint32_t decode(const unsigned char *text, int *bytes)
     return code;
 }
 
-// What stands for a character that some form cannot hold, or the character.
+// Replaces a character that some form cannot hold; returns others unchanged.
 static uint32_t shown(uint32_t code, bool is_line)
 {
     if (!is_line && (code == '\n' || code == '\t'))
@@ -38,15 +38,15 @@ static uint32_t shown(uint32_t code, bool is_line)
         return PICTURES + code;
     if (code == 0x7f)
         return PICTURE_OF_DELETE;
-    // Controls of eight bits steer terminals; others are line breaks to some readers, or turn the
-    // order of what follows; the last two are none of XML's.
+    // 8-bit controls steer terminals; other characters break lines in some readers, or reverse the
+    // text after them; XML cannot hold the last two.
     const bool is_control = code >= 0x80 && code < 0xa0;
     const bool is_break = code == 0x2028 || code == 0x2029;
     const bool is_turn = (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
     return is_control || is_break || is_turn || code == 0xfffe || code == 0xffff ? FOREIGN : code;
 }
 
-// Writes a character of three bytes, as all are that stand for others.
+// Writes a character of three bytes, as all replacements are.
 static char *put(char *to, uint32_t code)
 {
     *to++ = (char)(0xe0 | code >> 12);

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <time.h>
 
-// What is no date is written as another.
+// Rejects an impossible day such as 02-30 by writing the result back: it gives another text.
 bool rg_date_read(const char *text, int *day)
 {
     static const int before[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
@@ -14,7 +14,7 @@ bool rg_date_read(const char *text, int *day)
     if (sscanf(text, "%4d-%2d-%2d", &year, &month, &of_month) != 3 || year < 1970 || month < 1 ||
         month > 12)
         return false;
-    const int past = month > 2 ? year : year - 1; // whose Februaries are over
+    const int past = month > 2 ? year : year - 1; // the last year whose February is over
     *day = 365 * (year - 1970) + past / 4 - past / 100 + past / 400 - LEAP_DAYS +
            before[month - 1] + of_month - 1;
     rg_date_write(*day, again);

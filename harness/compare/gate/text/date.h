@@ -6,10 +6,10 @@
 
 enum { RG_DATE_SIZE = 16 };
 
-// The day of a text "YYYY-MM-DD" of the years 1970 to 9999, as days since 1970-01-01. False for
-// all else, such as a 30th of February.
+// Reads "YYYY-MM-DD" of the years 1970 to 9999 as days since 1970-01-01. False for anything else,
+// such as a 30th of February.
 bool rg_date_read(const char *text, int *day);
-// Writes a day that rg_date_read could have read.
+// Writes a day that rg_date_read can read.
 void rg_date_write(int day, char text[RG_DATE_SIZE]);
 
 #endif

@@ -2,11 +2,12 @@
 
 #include <string.h>
 
-// After a mismatch the last * takes one character more: no earlier one need be tried again.
+// After a mismatch it is enough to let the last * take one more character; earlier ones need no
+// second try.
 bool rg_glob_part(const char *pattern, size_t length, const char *text)
 {
     const char *end = pattern + length;
-    const char *star = NULL, *from = NULL; // behind the last *, and what it has not taken yet
+    const char *star = NULL, *from = NULL; // after the last *; the text that it has not taken yet
     while (*text) {
         if (pattern < end && *pattern == '*') {
             star = ++pattern;

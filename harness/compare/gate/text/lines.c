@@ -50,7 +50,7 @@ static bool is_clean(const struct rg_lines *lines, const char *text, size_t leng
     return true;
 }
 
-// The line that begins at `at`. False where it is refused.
+// Adds the line that begins at `at`. False if it is refused.
 static bool add_line(struct rg_lines *lines, size_t at)
 {
     char *text = lines->texts + at;
@@ -69,7 +69,8 @@ static bool add_line(struct rg_lines *lines, size_t at)
     return true;
 }
 
-// The mark stays in the bytes, which may be written back.
+// Skips a byte order mark in the first line's text. `raw` keeps it, because the bytes may be
+// written back.
 static void skip_mark(struct rg_lines *lines)
 {
     if (lines->count)
@@ -101,7 +102,7 @@ bool rg_lines_of(const char *name, const char *text, size_t size, struct rg_line
     return split(lines);
 }
 
-// All bytes of a file, which the caller frees; NULL where they cannot be read.
+// Reads the whole file into memory that the caller frees; NULL on failure.
 static char *read_bytes(const char *path, FILE *in, size_t *size)
 {
     char *bytes = NULL;

@@ -1,4 +1,4 @@
-// A text file as lines that know where they stand.
+// A text file as lines with their positions.
 #ifndef RG_HARNESS_COMPARE_GATE_TEXT_LINES_H
 #define RG_HARNESS_COMPARE_GATE_TEXT_LINES_H
 
@@ -7,33 +7,33 @@
 #include <stdint.h>
 
 struct rg_line {
-    char *text;    // without its end and what is blank before that
-    size_t at;     // of its first byte in `raw`
+    char *text;    // without its line end and trailing blanks
+    size_t at;     // position of its first byte in `raw`
     size_t length; // in `raw`, with its end
 };
 
 struct rg_lines {
-    char *name; // the file's
-    char *raw;  // its bytes as they are
+    char *name; // of the file
+    char *raw;  // the bytes as read
     size_t size;
     int64_t count, room;
     struct rg_line *lines;
-    char *texts; // what the lines' texts lie in
+    char *texts; // memory of the lines' texts
 };
 
-// Reads a file of up to 64 MiB; line ends are LF or CR LF, and the last line may have none. False,
-// and one logged line with the file and the line, where it cannot be read or has a control
-// character other than a tab. The caller calls rg_lines_free in either case.
+// Reads a file of up to 64 MiB; lines end in LF or CR LF, the last one may have no end. False, and
+// one logged line with file and line, if it cannot be read or has a control character other than a
+// tab. The caller calls rg_lines_free in either case.
 bool rg_lines_read(const char *path, struct rg_lines *lines);
-// The same of a text in memory, which is copied. `name` stands for the file in messages.
+// The same for a text in memory, which is copied. `name` is the file's name in messages.
 bool rg_lines_of(const char *name, const char *text, size_t size, struct rg_lines *lines);
 void rg_lines_free(struct rg_lines *lines);
 
-// Whether a line says nothing: it is blank, or its first character that is not blank is a #.
+// Whether a line is blank or a comment, whose first character after blanks is a #.
 bool rg_line_is_empty(const struct rg_line *line);
 // Skips blanks.
 char *rg_line_skip(char *text);
-// Cuts the first word off: ends it, and returns what follows behind the blanks.
+// Ends the first word and returns the text after the blanks that follow it.
 char *rg_line_cut(char *text);
 
 #endif

@@ -12,10 +12,10 @@
 enum {
     MOST_BYTES = 4096,
     MOST_DEPTH = 250,
-    MOST_NESTED = 8192,        // of libpcre2's groups, with those for repetitions of repetitions
-    MOST_STEPS = 1000000,      // of a search
-    STATES = 2 + 6 * 600,      // of a search that goes all ways side by side: 600, and their heads
-    MOST_HEAP_KIB = 16 * 1024, // of a search
+    MOST_NESTED = 8192,   // for libpcre2's groups, including those added for nested repetitions
+    MOST_STEPS = 1000000, // of one search
+    STATES = 2 + 6 * 600, // work space of a parallel search: 600 states and their heads
+    MOST_HEAP_KIB = 16 * 1024, // of one search
 };
 
 struct rg_regex {
@@ -25,16 +25,16 @@ struct rg_regex {
 
 // --- from Rust's syntax to libpcre2's ---
 
-// The two differ in what is refused here, in a ) without its (, which this reads as itself, and in
-// repetitions of repetitions, of which libpcre2 makes possessive ones.
+// The syntaxes differ in the constructs refused here, in an unmatched ), which is read here as
+// itself, and in a repetition of a repetition, which libpcre2 would read as possessive.
 struct translation {
     const char *place;
-    const char *at;                    // what comes next
-    char *to;                          // where it goes
-    char *last;                        // where the item that comes before it begins
-    char *groups[MOST_DEPTH];          // where the groups around it begin
-    int depth;                         // of these
-    enum { ONCE, REPEATED, LAZY } how; // often the item is there
+    const char *at;                    // the rest to translate
+    char *to;                          // the end of the translation
+    char *last;                        // start of the item before it in the translation
+    char *groups[MOST_DEPTH];          // starts of the groups around it
+    int depth;                         // number of these groups
+    enum { ONCE, REPEATED, LAZY } how; // how often the last item is repeated
 };
 
 static bool refuse(const struct translation *t, const char *what)
@@ -58,7 +58,7 @@ static void put_item(struct translation *t, size_t length)
     put(t, length);
 }
 
-// Escapes that the two have alike; Rust's \< and \> are ends of words.
+// Escapes with the same meaning in both; Rust's \< and \> are word boundaries.
 static bool is_escape(char c, const char *letters)
 {
     return c && (strchr(letters, c) || (ispunct((unsigned char)c) && c != '<' && c != '>'));
@@ -72,7 +72,7 @@ static bool take_escape(struct translation *t)
     return true;
 }
 
-// In a class Rust has further classes and operators.
+// Refuses Rust's nested classes and class operators.
 static bool take_class(struct translation *t)
 {
     const char *end = t->at + 1;
@@ -87,7 +87,7 @@ static bool take_class(struct translation *t)
     return true;
 }
 
-// The length of a count, {3}, {3,} or {3,5}; 0: it is none.
+// The length of a repetition count, {3}, {3,} or {3,5}; 0: it is none.
 static size_t count_length(const char *at)
 {
     static const char digits[] = "0123456789";
@@ -160,7 +160,7 @@ static bool take_next(struct translation *t)
 
 static pcre2_code *compile(const char *place, const char *text, const char *translated)
 {
-    // As of bytes: . is any, and $ is the end.
+    // Works on bytes: . matches any of them, and $ only the end.
     enum { OPTIONS = PCRE2_DOTALL | PCRE2_DOLLAR_ENDONLY | PCRE2_NEVER_UTF | PCRE2_NEVER_UCP };
     pcre2_compile_context *context = pcre2_compile_context_create(NULL);
     if (!context)
@@ -191,7 +191,7 @@ static bool add_limits(const char *place, struct rg_regex *regex)
 
 struct rg_regex *rg_regex_of(const char *place, const char *text)
 {
-    enum { GROWTH = 5 }; // a + that follows one gets (?:)
+    enum { GROWTH = 5 }; // a + after another repetition adds (?:)
     const size_t length = strlen(text);
     if (length > MOST_BYTES)
         return rg_error_null("%s: a regular expression of %zu bytes; at most %d", place, length,
@@ -223,11 +223,10 @@ enum rg_regex_found rg_regex_search(const struct rg_regex *regex, const char *te
 {
     const PCRE2_SPTR in = (PCRE2_SPTR)text;
     const PCRE2_SIZE length = PCRE2_ZERO_TERMINATED;
-    pcre2_match_data *data = pcre2_match_data_create(1, NULL); // keeps 20 kB once it was used
+    pcre2_match_data *data = pcre2_match_data_create(1, NULL); // not kept: holds 20 kB once used
     int found = data ? pcre2_match(regex->code, in, length, 0, 0, data, regex->limits)
                      : PCRE2_ERROR_NOMEMORY;
-    // One way after the other takes too many steps: all ways side by side take fewer, and each
-    // step longer.
+    // Backtracking took too many steps. A parallel search needs fewer, although each takes longer.
     int states[STATES];
     if (data && found < 0 && found != PCRE2_ERROR_NOMATCH)
         found = pcre2_dfa_match(regex->code, in, length, 0, PCRE2_DFA_SHORTEST, data, regex->limits,

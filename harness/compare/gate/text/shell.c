@@ -12,7 +12,7 @@ static bool is_plain(const char *text, size_t length)
     return length > 0;
 }
 
-// Quotes of a shell are put around a text, and end before each that stands in it.
+// Puts shell quotes around a text; a quote within it has to end them first.
 void rg_shell_word(FILE *out, const char *text, size_t length)
 {
     const bool is_quoted = !is_plain(text, length);

@@ -1,12 +1,12 @@
-// Words of a shell's line.
+// Words of a shell command line.
 #ifndef RG_HARNESS_COMPARE_GATE_TEXT_SHELL_H
 #define RG_HARNESS_COMPARE_GATE_TEXT_SHELL_H
 
 #include <stddef.h>
 #include <stdio.h>
 
-// Writes the first bytes of a text such that a shell reads them as one word, in quotes where it
-// needs them.
+// Writes the first `length` bytes of a text so that a shell reads them as one word, quoted if
+// necessary.
 void rg_shell_word(FILE *out, const char *text, size_t length);
 
 #endif

@@ -41,7 +41,7 @@ ROWS = [
     Fault(JUDGE, "if («row->kind == RG_EXPECT_FAIL && result->outcome == RG_OK»)", "false", "what is fixed is not noticed"),
     Fault(JUDGE, "if («!(row->outcomes & 1U << result->outcome)»)", "false", "another outcome is as good as that expected"),
     Fault(JUDGE, "return value >= envelope->least && «value <= envelope->most»;", "true", "an envelope has no upper end"),
-    Fault(JUDGE, "if («result->outcome == RG_UNSUPPORTED») // it neither", "false", "what did not run fails differently"),
+    Fault(JUDGE, "if («result->outcome == RG_UNSUPPORTED») // neither", "false", "what did not run fails differently"),
     Fault(JUDGE, "if ((found < 0 || «row->kind < expected->rows[found].kind») &&", "false", "a failure that stands first hides a skip"),
     Fault(JUDGE, "is_of(row->values[RG_FIELD_DEVICE], device) &&\n           (!driver || «is_of(row->values[RG_FIELD_DRIVER], driver)»);", "true", "an expectation is of all drivers"),
     Fault(JUDGE, "(«!driver» || is_of(row", "false", "what is expected of one driver goes where nobody knows which there is"),
