@@ -49,7 +49,7 @@ void rg_baseline_free(struct rg_baseline *baseline)
     *baseline = (struct rg_baseline){.count = 0};
 }
 
-// --- whether it is of these cells ---
+// --- whether a baseline fits the cells ---
 
 static bool is_named_by(const char *devices, const char *device)
 {
@@ -79,10 +79,10 @@ static bool has_devices(const struct rg_baseline *baseline, const char *path, co
     return true;
 }
 
-// Names the option, which has all devices of the baseline as a shell takes them.
+// Refuses, and names the option with all devices of the baseline, quoted for a shell.
 static bool refuse_variables(const struct rg_baseline *baseline, const char *path, const char *name)
 {
-    enum { MOST_TOLD = 500 }; // so that the line is not cut in quotes
+    enum { MOST_TOLD = 500 }; // keeps the line from being cut within quotes
     char *names = NULL, *word = NULL;
     size_t size;
     FILE *out = open_memstream(&names, &size);
@@ -103,7 +103,8 @@ static bool refuse_variables(const struct rg_baseline *baseline, const char *pat
     return false;
 }
 
-// A file alone sets no variable: neither starts it a program, nor chooses drivers and libraries.
+// A file alone must not set variables, which could start a program or choose drivers and libraries:
+// the user has to name such devices.
 static bool sets_no_variables(const struct rg_baseline *baseline, const char *path,
                               const char *devices)
 {
@@ -115,7 +116,7 @@ static bool sets_no_variables(const struct rg_baseline *baseline, const char *pa
     return true;
 }
 
-// Each row's cell is there, and does what it did.
+// Whether each row's cell exists, with the settings that it had.
 static bool has_its_cells(const struct rg_baseline *baseline, const char *path,
                           const struct rg_gate_cells *cells, const char *cells_name)
 {

@@ -1,5 +1,5 @@
-// What cells did on devices, kept for later: a baseline. It holds no picture: a picture has a
-// digest there, and where that is another, cpu:reference draws anew what it should be.
+// A baseline: what cells did on devices earlier. It has no pictures but their digests; where a
+// digest differs, cpu:reference draws the true picture anew.
 #ifndef RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 #define RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 
@@ -15,20 +15,20 @@ enum { RG_BASELINE_FORMAT = 1, RG_BASELINE_LAUNCHES = RG_SHIFT_SAMPLES };
 struct rg_baseline_row {
     char cell[RG_GATE_NAME_SIZE], technique[RG_NAME_SIZE], settings[RG_DIGEST_SIZE];
     char device[RG_DEVICE_NAME_SIZE];
-    enum rg_outcome outcome; // fail: its picture was not that of cpu:reference
-    bool is_ours;            // as of struct rg_agreement; not kept
+    enum rg_outcome outcome; // fail: its picture differed from cpu:reference's
+    bool is_ours;            // as in struct rg_agreement; not in the file
     char why[RG_AGREEMENT_TEXT];
-    // Without an outcome OK or fail, nothing of what follows.
-    char picture[RG_DIGEST_SIZE]; // its texels as the device had them
+    // Filled in only if the outcome is OK or fail.
+    char picture[RG_DIGEST_SIZE]; // of its texels as the device stored them
     int state_count;
     struct rg_baseline_state {
         char name[RG_NAME_SIZE], digest[RG_DIGEST_SIZE];
     } states[RG_MAX_STATE];
     struct rg_counters counters; // of all frames
-    struct rg_tally work;        // of the frame behind them
-    struct rg_session_code code; // that ran now; a file has none
-    // Without an outcome OK, nothing of what follows.
-    struct rg_slot slot;         // that was timed; zeroed: none was
+    struct rg_tally work;        // of the frame after them
+    struct rg_session_code code; // that ran now; not in the file
+    // Filled in only if the outcome is OK.
+    struct rg_slot slot;         // used for timing; zeroed: not timed
     struct rg_launches launches; // of a frame
 };
 
@@ -37,87 +37,87 @@ struct rg_baseline_device {
     json_t *parts; // of its comparison key (harness/record/passport/key.h); owned
 };
 
-// Zeroed: none. The owner calls rg_baseline_free.
+// Zeroed: an empty baseline. The owner calls rg_baseline_free.
 struct rg_baseline {
     json_t *passport; // owned
     int device_count;
     struct rg_baseline_device devices[RG_MAX_DEVICES];
     struct rg_launches yardsticks[RG_YARDSTICKS]; // taken between the launches
     int64_t count, room;
-    struct rg_baseline_row *rows; // each device's cells
+    struct rg_baseline_row *rows; // the cells of one device after the other
 };
 
-// Room for one more, zeroed. NULL, and one logged line, without memory.
+// Adds a zeroed row. NULL, and one logged line, without memory.
 struct rg_baseline_row *rg_baseline_add(struct rg_baseline *baseline);
-// NULL where there is none.
+// NULL if there is none.
 const struct rg_baseline_row *rg_baseline_find(const struct rg_baseline *baseline, const char *cell,
                                                const char *device);
 const struct rg_baseline_device *rg_baseline_device(const struct rg_baseline *baseline,
                                                     const char *name);
 void rg_baseline_free(struct rg_baseline *baseline);
 
-// --- as a file: docs/records.md ---
+// --- files: docs/records.md ---
 
-// Reads it. False, and one logged line that names the file, the place and the mend, where it is
-// missing, damaged, another version's or no baseline.
+// Reads a file. False, and one logged line with the file, the place and the remedy, if it is
+// missing, damaged, of another version or no baseline.
 bool rg_baseline_read(struct rg_baseline *baseline, const char *path);
-// Writes it, with its checksum, by a temporary file that is renamed. False, and one logged line.
+// Writes it with its checksum by renaming a temporary file. False, and one logged line, on failure.
 bool rg_baseline_write(const struct rg_baseline *baseline, const char *path);
 
-// Whether its cells and those at hand are the same, of those devices that `devices` names (names
-// with commas; NULL or "all": all). Else one line is logged, which names both files: `cells_name`
-// is what the cells at hand are called. So is one where it would run a device with variables (an
-// '@') that `devices` does not name.
+// Whether the baseline's cells equal those at hand, for the devices that `devices` names (names
+// with commas; NULL or "all": all). Else logs one line with both files; `cells_name` names the
+// cells at hand. Also false, with a line, if a device with variables (an '@') would run that
+// `devices` does not name.
 bool rg_baseline_fits(const struct rg_baseline *baseline, const char *path,
                       const struct rg_gate_cells *cells, const char *cells_name,
                       const char *devices);
-// Whether `devices` has a device.
+// Whether `devices` includes a device.
 bool rg_baseline_asks(const char *devices, const char *device);
 
-// --- what is done with two ---
+// --- times of a row ---
 
-// A sample for a decision.
+// The sample for a decision.
 struct rg_gate_sample rg_baseline_sample(const struct rg_launches *launches);
 double rg_launches_median(const struct rg_launches *launches);
-// By how much a launch scatters: the standard deviation, by the median, robustly; 0.05 is 5 %.
+// The spread of launches: a robust relative standard deviation; 0.05 is 5 %.
 double rg_baseline_scatter(const struct rg_launches *launches);
 
-// --- what cells do now ---
+// --- running cells ---
 
-// Runs a cell on a device, and fills in all of a zeroed row but its times. The picture is for the
-// caller to destroy; it has no texels without an outcome OK.
+// Runs a cell on a device and fills in all of a zeroed row but its times. The caller destroys the
+// picture; it has no texels unless the outcome is OK.
 void rg_baseline_take(const struct rg_gate_cell *cell, struct rg_device *device,
                       struct rg_baseline_row *row, struct rg_picture *picture);
 
-// cpu:reference, which draws what a picture should be, and is opened when it is asked first.
+// cpu:reference, which draws the true pictures; opened on first use.
 struct rg_truth {
-    struct rg_device *device; // NULL: not yet
+    struct rg_device *device; // NULL: not opened yet
 };
-// False, and one logged line, where it does not open.
+// False, and one logged line, if it cannot be opened.
 bool rg_truth_open(struct rg_truth *truth);
-// Whether a device's picture of a cell is that of cpu:reference, by the tier that the device owes;
+// Whether a device's picture of a cell matches cpu:reference's by the tier that the device owes;
 // else it ends the agreement.
 bool rg_truth_holds(struct rg_truth *truth, const struct rg_gate_cell *cell,
                     const struct rg_device *device, const struct rg_picture *picture,
                     struct rg_agreement *agreement);
-// False as rg_device_close is.
+// Closes it; false as for rg_device_close.
 bool rg_truth_close(struct rg_truth *truth);
 
-// --- one is made, and held against the one that is to be replaced ---
+// --- making a baseline, and comparing it with the one that it replaces ---
 
 struct rg_baseline_request {
     const struct rg_gate_cells *cells;
-    int launches; // of each device, that time each cell; 0: nothing is timed
+    int launches; // of each device, to time each cell; 0: nothing is timed
 };
 
 // Runs all cells on all devices, which it closes, into a zeroed baseline. False, and one logged
-// line, where it cannot be made, or the user interrupts. `clean` is false where a device was closed
-// badly, which takes nothing from the baseline.
+// line, if it cannot be made or the user interrupts. `clean` becomes false if a device was closed
+// badly; the baseline is complete even then.
 bool rg_baseline_make(const struct rg_baseline_request *request, struct rg_devices *devices,
                       struct rg_baseline *baseline, bool *clean);
 
-// Prints what is another in `now` than in `then`, a line a cell. Returns how many lines that were.
-// Times are another where a gate of the same cells would find it.
+// Prints one line per cell that has changed from `then` to `now`, and returns their number. Times
+// have changed if a gate of the same cells would say so.
 int rg_baseline_print_changes(const struct rg_baseline *then, const struct rg_baseline *now,
                               FILE *out);
 

@@ -1,4 +1,4 @@
-// What is another in a baseline than in the one before it.
+// Prints the changes between a baseline and the one before it.
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
@@ -84,7 +84,7 @@ static void put_work(struct line *line, const struct rg_tally *then, const struc
     }
 }
 
-// `rows`: among so many cells a gate shares its error.
+// `rows`: the number of cells among which a gate shares its error.
 static void put_times(struct line *line, int rows, const struct rg_launches *then,
                       const struct rg_launches *now)
 {
@@ -118,7 +118,7 @@ static void put_row(struct line *line, const struct rg_baseline_row *then,
         put_times(line, rows, &then->launches, &now->launches);
 }
 
-// --- all of it ---
+// --- all changes ---
 
 static int print_devices(const struct rg_baseline *then, const struct rg_baseline *now, FILE *out)
 {

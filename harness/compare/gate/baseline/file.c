@@ -225,7 +225,7 @@ static bool read_yardsticks(struct rg_reader *r, const json_t *document,
     return ok;
 }
 
-// What a version is, is said before its checksum: another version may have another.
+// Checks the version before the checksum, which another version may compute differently.
 static bool read_format(struct rg_reader *r, const json_t *document)
 {
     int format;

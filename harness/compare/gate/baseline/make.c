@@ -15,10 +15,10 @@ struct make {
     struct rg_baseline *made;
     struct rg_side sides[RG_MAX_DEVICES];
     bool clean;                  // no device was closed badly
-    struct rg_timed_cell *cells; // one a row; those of rows that are not OK are not timed
+    struct rg_timed_cell *cells; // one per row; rows that are not OK are not timed
 };
 
-// --- what is the same every time ---
+// --- what is the same in every run ---
 
 static bool set_devices(struct rg_baseline *made, const struct rg_devices *devices)
 {
@@ -36,7 +36,7 @@ static bool set_devices(struct rg_baseline *made, const struct rg_devices *devic
     return made->passport != NULL;
 }
 
-// A picture that is not what it should be is no measure of later ones.
+// A wrong picture must not become the measure of later ones.
 static void check(struct rg_truth *truth, const struct rg_gate_cell *cell,
                   const struct rg_device *device, const struct rg_picture *picture,
                   struct rg_baseline_row *row)
@@ -97,8 +97,8 @@ static void take_time(struct make *m, struct rg_gate_times *times, int row)
         launches->ms[launches->count++] = rg_number_kept(quads.b_ms);
 }
 
-// Every launch begins with another row, and every second goes the other way. For launches that do
-// not count there are others, as many again.
+// Each launch begins with another row, and every second one runs backwards. Launches that do not
+// count are repeated, up to as many again.
 static bool time_all(struct make *m, struct rg_gate_times *times, struct rg_progress *bar)
 {
     const int count = (int)m->made->count;
@@ -122,7 +122,7 @@ static bool time_all(struct make *m, struct rg_gate_times *times, struct rg_prog
         if (row->outcome == m->cells[i].outcome)
             continue;
         row->outcome = m->cells[i].outcome;
-        row->launches.count = 0; // a part of them is no time
+        row->launches.count = 0; // some launches alone make no baseline
         rg_text_copy(row->why, sizeof(row->why), m->cells[i].why);
     }
     return !rg_interrupted();

@@ -11,7 +11,7 @@ static struct rg_subject subject_of(const struct rg_gate_cell *cell)
     return (struct rg_subject){cell->technique, cell->settings, cell->width, cell->height};
 }
 
-// --- what is the same every time ---
+// --- what is the same in every run ---
 
 static bool take_picture(struct rg_session *session, struct rg_baseline_row *row,
                          struct rg_picture *picture)
@@ -41,7 +41,7 @@ static bool take_states(struct rg_session *session, struct rg_baseline_row *row)
     return true;
 }
 
-// Its counters, and the work of one frame more.
+// Takes the counters, and the work of one further frame.
 static bool take_work(struct rg_session *session, struct rg_baseline_row *row)
 {
     struct rg_account told;

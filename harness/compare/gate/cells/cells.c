@@ -14,7 +14,7 @@
 
 enum { MAX_SIZE_PX = 16384, MAX_FRAMES = 100000 };
 
-// A name stands in reports, in files' names and in filters of tests.
+// Names appear in reports, file names and test filters, which limits their characters.
 static bool is_name(const char *name)
 {
     for (const char *c = name; *c; c++)
@@ -39,7 +39,7 @@ static bool take_technique(struct rg_gate_cell *cell, const char *name)
            rg_error("technique '%.80s': unknown; `raingauge list techniques` prints them", name);
 }
 
-// A whole number of at most `most` up to `end`; -1 for anything else.
+// A whole number of at most `most` that ends at `end`; -1 for anything else.
 static int number(const char *text, char end, int most, const char **rest)
 {
     long value = 0;
@@ -68,7 +68,7 @@ static bool take_frames(struct rg_gate_cell *cell, const char *text)
            rg_error("frames '%.80s': write a whole number of 0 to %d", text, MAX_FRAMES);
 }
 
-// Whether a word of `rest` sets the key that `assignment` begins with.
+// Whether a later word in `rest` sets the same key as `assignment`.
 static bool sets_key_of(const char *rest, const char *assignment)
 {
     const size_t length = strcspn(assignment, "= ");
@@ -78,7 +78,7 @@ static bool sets_key_of(const char *rest, const char *assignment)
     return false;
 }
 
-// Of a key that stands twice the last would hold, and a reader of the line would trust the first.
+// Refuses a key that is set twice: the last value would count, but a reader would trust the first.
 static bool has_keys_once(const char *assignments)
 {
     const char *next;

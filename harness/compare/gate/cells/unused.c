@@ -14,7 +14,7 @@ static bool is_of_none(const struct rg_expectation *row, const struct rg_gate_ce
     return !any;
 }
 
-// The field by which an expectation is of none of these; -1: it may be of one.
+// The field by which an expectation matches none of the targets; -1: it may match one.
 static int unmatched_field(const struct rg_expectation *row, const struct rg_gate_target *targets,
                            int count)
 {
@@ -30,7 +30,7 @@ static int unmatched_field(const struct rg_expectation *row, const struct rg_gat
     return any ? RG_FIELD_DRIVER : RG_FIELD_DEVICE;
 }
 
-// What is looked for.
+// Where the warnings look.
 struct search {
     const struct rg_known *known;
     const struct rg_gate_cells *cells;
@@ -39,8 +39,8 @@ struct search {
     int today;
 };
 
-// What is odd about an expectation: on which line, and what is said of it, with the count of others
-// between the two texts.
+// A warning about an expectation: its line, and two parts of a message, with the number of similar
+// expectations between them.
 struct odd {
     int64_t line;
     char says[200];
@@ -48,7 +48,8 @@ struct odd {
 };
 typedef bool (*looker)(const struct search *s, const struct rg_expectation *row, struct odd *odd);
 
-// A line a file and looker. Mesa's files are none of ours.
+// Logs one line per file and kind of warning. Mesa's files are skipped, since they belong to other
+// suites too.
 static int64_t warn(const struct search *s, const looker *looks, int look_count)
 {
     int64_t all = 0;
@@ -72,7 +73,7 @@ static int64_t warn(const struct search *s, const looker *looks, int look_count)
     return all;
 }
 
-// --- patterns that nothing has ---
+// --- patterns that match nothing ---
 
 static bool is_unused(const struct search *s, const struct rg_expectation *row, struct odd *odd)
 {
@@ -120,7 +121,7 @@ static bool is_to_come(const struct search *s, const struct rg_expectation *row,
            is_day(row, RG_FIELD_SINCE, "is to come, so that nothing is expected until then", odd);
 }
 
-// Nobody looks at it again before people and drivers have changed.
+// After so long, people and drivers have changed, and nobody looks at it again.
 static bool is_far(const struct search *s, const struct rg_expectation *row, struct odd *odd)
 {
     enum { YEAR_DAYS = 366 };

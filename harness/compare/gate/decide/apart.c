@@ -1,14 +1,14 @@
-// Two samples that were taken apart.
+// Decides from two samples that were taken at different times.
 #include <math.h>
 #include <string.h>
 
 #include "harness/compare/gate/decide/inside.h"
 
-// By what the error of Hodges' and Lehmann's estimate exceeds that of a difference of means, of
-// normal noise: the root of its efficiency, 3 / pi.
+// The standard error of Hodges' and Lehmann's estimate is this factor above that of a difference of
+// means, for normal noise: the root of its efficiency, 3 / pi.
 #define OF_SHIFT 0.9772
 
-// A sample's launches, or groups of them, sorted.
+// A sample's launches, or means of groups of them, sorted.
 struct units {
     int count;
     double logs[RG_SHIFT_SAMPLES];

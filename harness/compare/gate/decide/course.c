@@ -7,13 +7,13 @@
 #include "harness/record/stats.h"
 #include "kernels/dialect/rng.h"
 
-// A row while it is measured.
+// State of a row while it is measured.
 struct row_course {
     double logs[RG_GATE_UNITS];        // of the launches that count
     double times_ms[2][RG_GATE_UNITS]; // A's and B's
     int count;
-    int look;      // the next
-    bool is_again; // it is measured again, for its verdict to be confirmed
+    int look;      // the next one
+    bool is_again; // measured again, to confirm its verdict
     bool is_done;
 };
 
@@ -24,7 +24,7 @@ struct gate {
     struct rg_gate_row *rows;
     struct row_course *courses;
     int *order;
-    int launch; // the next
+    int launch; // the next one
 };
 
 // --- chance ---
@@ -56,7 +56,7 @@ static struct rg_gate_decision decide(const struct gate *s, int row)
                : rg_gate_decide(s->rule, c->logs, c->count);
 }
 
-// Of times that were taken earlier, all.
+// The median of A's times; if they were taken earlier, of all of them.
 static struct rg_interval a_ms_of(const struct gate *s, int row)
 {
     if (!s->source->before)
@@ -81,7 +81,7 @@ static void end(struct gate *s, int row, enum rg_course_end why)
     found->b_ms = rg_median(c->times_ms[1], c->count);
 }
 
-// Has a row measured again, from the first look on.
+// Starts to measure a row again, from the first look, to confirm its verdict.
 static void begin_again(struct gate *s, int row)
 {
     struct row_course *c = &s->courses[row];
@@ -90,7 +90,7 @@ static void begin_again(struct gate *s, int row)
     c->count = c->look = 0;
 }
 
-// Seeks a row's verdict after a look's launches.
+// Seeks a row's verdict at a look.
 static void look(struct gate *s, int row)
 {
     struct row_course *c = &s->courses[row];
@@ -127,7 +127,7 @@ static void keep(struct gate *s, int row, const struct rg_quads *quads)
         look(s, row);
 }
 
-// A row of which each launch is disturbed would go on for ever.
+// Whether to give up a row most of whose launches are disturbed; it would go on for ever.
 static bool is_hopeless(const struct rg_gate_row *row)
 {
     return row->disturbed > 32 && row->disturbed > 3 * (row->launches - row->disturbed);

@@ -7,16 +7,16 @@
 #include "harness/compare/gate/decide/inside.h"
 #include "harness/record/stats.h"
 
-// Launches with a lag-1 autocorrelation above this, and above what independent ones have by chance
-// one time of twenty, are averaged in pairs, and pairs in pairs of pairs.
+// Launches are averaged in pairs, and pairs in pairs again, if their lag-1 autocorrelation is above
+// this and above what independent launches exceed by chance in one of twenty cases.
 #define CORRELATED 0.2
 #define NORMAL_95  1.645 // the normal distribution's quantile of 0.95
-// Fewer launches do not show their autocorrelation.
+// Fewer launches cannot show their autocorrelation.
 enum { LEAST_CORRELATED = 8 };
-// More launches than this share that see no difference at all come from a coarse timer.
+// If more than this share of launches sees no difference at all, the timer is coarse.
 #define COARSE 0.05
-// Of a normal distribution: the standard deviation over the median absolute deviation, and the
-// median's standard error over the mean's, which is sqrt(pi / 2).
+// For a normal distribution: the standard deviation by the median absolute deviation, and the
+// median's standard error by the mean's, sqrt(pi / 2).
 #define DEVIATION_OF_MAD 1.4826
 #define SQRT_HALF_PI     1.2533
 
@@ -107,8 +107,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The median of the means of all pairs, each with itself too: that of at most 64 launches, evenly
-// taken, which is as good.
+// The median of the means of all pairs, each launch with itself too (Hodges and Lehmann). At most
+// 64 launches, evenly chosen, are enough for it.
 static double shift_of(const double *sorted, int count)
 {
     enum { MOST = 64 };
@@ -138,7 +138,7 @@ double rg_gate_tail(const struct rg_gate_rule *rule)
     return rule->error / rule->rows / rule->look_count / 2;
 }
 
-// What the interval must exclude, and the median exceed.
+// The log ratio that the interval must exclude; `worth` is the one that the median must exceed.
 static double excluded(const struct rg_gate_rule *rule)
 {
     return rule->is_apart ? log1p(rule->margin / 2) : 0;
@@ -160,8 +160,8 @@ static enum rg_verdict_of_two judge(const struct rg_gate_rule *rule, double medi
     return low > -margin && high < margin ? RG_TWO_PASS : RG_TWO_INCONCLUSIVE;
 }
 
-// The least log ratio that is found: its interval lies above what it must exclude, and its median
-// is worth a word. `quantile`: of the probability that it is found.
+// The smallest log ratio that gets a verdict: its interval excludes `excluded`, and its median
+// exceeds `worth`. `quantile` belongs to the probability with which it is noticed.
 static double seen_from(const struct rg_gate_rule *rule, double error, double quantile)
 {
     const double by_interval =
@@ -174,7 +174,7 @@ void rg_gate_conclude(const struct rg_gate_rule *rule, const struct rg_interval 
                       struct rg_gate_decision *d)
 {
     d->ratio = exp(of->median);
-    if (isnan(of->low)) // too few: nothing could be seen
+    if (isnan(of->low)) // too few launches for an interval
         return;
     d->smallest = expm1(seen_from(rule, d->error, upper_quantile(0.05)));
     d->low = exp(of->low);

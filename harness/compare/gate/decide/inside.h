@@ -1,21 +1,21 @@
-// What both ways of deciding share, for files of this folder alone.
+// Shared by both ways of deciding; for this folder's files alone.
 #ifndef RG_HARNESS_COMPARE_GATE_DECIDE_INSIDE_H
 #define RG_HARNESS_COMPARE_GATE_DECIDE_INSIDE_H
 
 #include "harness/compare/gate/decide/decide.h"
 
-// Takes the means of pairs, until those that follow each other are no longer alike. What is left
-// over in the end is in none. Returns how many there are.
+// Averages pairs until neighbours are no longer correlated; an odd one at the end is dropped.
+// Returns how many are left.
 int rg_gate_group(double *logs, int count);
 
-// The standard deviation of launches, by their median absolute deviation.
+// The standard deviation of launches, estimated by their median absolute deviation.
 double rg_gate_spread(const double *sorted, int count, double median);
 
-// What each end of a look's interval may be wrong with.
+// The error probability of each end of a look's interval.
 double rg_gate_tail(const struct rg_gate_rule *rule);
 
 // Fills in ratio, interval, smallest and verdict from the interval of a logarithm, whose ends are
-// NAN where there is none, and from the decision's error.
+// NAN if there is none, and from the decision's error.
 void rg_gate_conclude(const struct rg_gate_rule *rule, const struct rg_interval *of,
                       struct rg_gate_decision *decision);
 

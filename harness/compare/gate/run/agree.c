@@ -5,13 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
-// What a side left of a cell, or what a baseline has of it.
+// A cell's result on a side, or in a baseline.
 struct left {
     struct rg_baseline_row row;
     struct rg_picture picture;
 };
 
-// Adds to what is to be known.
+// Appends a remark to the message.
 __attribute__((format(printf, 2, 3))) static void say(struct rg_agreement *agreement,
                                                       const char *format, ...)
 {
@@ -24,15 +24,15 @@ __attribute__((format(printf, 2, 3))) static void say(struct rg_agreement *agree
     va_end(args);
 }
 
-// --- what did not run ---
+// --- cells that did not run ---
 
 static bool did_run(enum rg_outcome outcome)
 {
     return outcome == RG_OK || outcome == RG_FAIL;
 }
 
-// Makes of what is unsupported now, a device that is not there or a cell that it cannot run, a
-// difference, where it ran when the baseline was made.
+// Turns unsupported, for a missing device or a cell that it cannot run, into a difference if the
+// cell ran when the baseline was made.
 static void end_by(const struct rg_baseline_row *before, struct rg_agreement *agreement)
 {
     char why[RG_AGREEMENT_TEXT];
@@ -46,7 +46,7 @@ void rg_gate_agree_fails(struct rg_gate_case *c, const char *device)
 {
     rg_agreement_fails(&c->agreement, device);
     end_by(c->before, &c->agreement);
-    c->agreement.is_ours |= c->agreement.outcome == RG_FAIL; // no driver drew what is expected
+    c->agreement.is_ours |= c->agreement.outcome == RG_FAIL; // no driver drew a picture
 }
 
 static bool take(struct rg_gate_case *c, int side, struct left *left)
@@ -66,7 +66,7 @@ static bool take(struct rg_gate_case *c, int side, struct left *left)
     return false;
 }
 
-// --- what ran ---
+// --- cells that ran ---
 
 static const struct rg_device_info *info_of(const struct rg_gate_case *c, int side)
 {
@@ -78,7 +78,7 @@ static enum rg_tier owed_by(const struct rg_gate_case *c)
     return rg_tier_owed(info_of(c, RG_SIDE_A), info_of(c, RG_SIDE_B));
 }
 
-// The picture of a baseline was what it should be, so one that is the same to the bit is too.
+// The baseline's picture was right, so a picture with equal bits is right too.
 static bool has_its_picture(struct rg_gate_case *c, const struct left *now, struct rg_truth *truth)
 {
     const bool is_same = !strcmp(c->before->picture, now->row.picture);
@@ -132,8 +132,8 @@ static bool have_alike_counts(struct rg_gate_case *c, const struct rg_baseline_r
            rg_alike_work(&before->work, &now->work, &c->agreement);
 }
 
-// A baseline has no stages, but cpu:reference can be asked now. Where it `holds` the same picture
-// as the device, what differs from the baseline may be what all devices compute.
+// A baseline has no stages, but cpu:reference can be run now. If it `holds` the device's picture, a
+// difference from the baseline may come from what all devices compute.
 static void blame(struct rg_gate_case *c, struct rg_truth *truth, bool holds)
 {
     struct rg_agreement *found = &c->agreement;

@@ -1,22 +1,22 @@
-// Whether a cell does the work that it is held against: only what agrees is timed.
+// Compares a cell's two sides. Only cells whose sides agree are timed.
 #ifndef RG_HARNESS_COMPARE_GATE_RUN_AGREE_H
 #define RG_HARNESS_COMPARE_GATE_RUN_AGREE_H
 
 #include "harness/compare/gate/run/cases.h"
 
-// Runs a case's cell on its sides, which are open, and compares its picture by the tier that the
-// two owe each other, its states to the bit where that is T0, and its counters and the work of a
-// frame exactly. Of a baseline there is no picture, but a digest: where that is another,
-// cpu:reference draws now what it should be. Fills in the agreement; where the case agrees its
-// message says what is to be known of it. Pictures that differ are written into a folder, under the
-// case's name (harness/compare/gate/pictures/); NULL: none are.
+// Runs a case's cell on its open sides, and compares its picture by the tier that the two owe each
+// other, its states bit for bit where that is T0, and its counters and the work of a frame exactly.
+// A baseline has a digest in place of a picture: if it differs, cpu:reference draws the true
+// picture now. Fills in the agreement; if the case agrees, its message holds remarks. Pictures that
+// differ are written into `folder` under the case's name (harness/compare/gate/pictures/); NULL:
+// they are not.
 void rg_gate_agree(struct rg_gate_case *of, struct rg_truth *truth, const char *folder);
 
-// Ends a case, whose side could not be launched, by the last error.
+// Ends a case with the last error, because its side could not be launched.
 void rg_gate_agree_fails(struct rg_gate_case *of, const char *device);
 
-// Says how long a frame takes, by what it took on a machine with another key, where the yardsticks
-// took `then` and take `now` (RG_YARDSTICKS of each). It is advice, and ends nothing.
+// Adds how long a frame takes, compared with a baseline of another machine key by the yardsticks,
+// which took `then` and take `now` (RG_YARDSTICKS of each). This is advice and fails nothing.
 void rg_gate_advise(const struct rg_gate_row *row, const struct rg_timed_cell *timed,
                     const struct rg_launches *then, const struct rg_launches *now,
                     struct rg_agreement *agreement);

@@ -44,7 +44,7 @@ static enum rg_ending ending_of_outcome(enum rg_outcome outcome)
     return endings[outcome];
 }
 
-// Whether it agreed, and then something kept it from being timed to the end.
+// Whether it agreed, but its timing was cut short.
 static bool broke_off(const struct rg_gate_case *c)
 {
     return c->agreement.outcome == RG_OK && c->is_timed && c->row.end == RG_END_BROKEN &&
@@ -81,14 +81,14 @@ static enum rg_ending ending_of(const struct rg_gate_case *c, enum rg_met met)
     case RG_MET_FIXED:
         return RG_ENDING_UNEXPECTED_PASS;
     case RG_MET_DIFFERENT:
-    case RG_MET_EXPIRED: // fails, also where it is faster, or its times leave it open
+    case RG_MET_EXPIRED: // fails, even if it is faster or inconclusive
         return rg_ending_fails(own) ? own : RG_ENDING_UNEXPECTED_PASS;
     default:
         return own;
     }
 }
 
-// --- words ---
+// --- messages ---
 
 static const char *why_open(const struct rg_gate_case *c)
 {
@@ -106,8 +106,8 @@ static const char *why_open(const struct rg_gate_case *c)
     }
 }
 
-// A change with its interval. A word says which way it went, so that less has no sign; only an end
-// of the interval that lies on the other side has one.
+// Writes a change with its interval. A word gives the direction, so a decrease has no sign; only an
+// end of the interval on the other side has one.
 static void put_change(const struct rg_gate_decision *d, double before_ms, char *text, size_t size)
 {
     const bool is_less = d->ratio < 1;
@@ -118,7 +118,7 @@ static void put_change(const struct rg_gate_decision *d, double before_ms, char 
              before_ms);
 }
 
-// What its times tell, whatever is expected of it: what is in quarantine is measured to be seen.
+// Reports the times whatever is expected of the case: quarantined cases are measured to be seen.
 static void put_times(const struct rg_gate_case *c, char *text, size_t size)
 {
     const enum rg_ending ending = ending_of_times(c);
@@ -132,7 +132,7 @@ static void put_times(const struct rg_gate_case *c, char *text, size_t size)
         snprintf(text, size, "%s", c->times.why);
 }
 
-// Which code ran on both sides. It explains a verdict, and never makes one.
+// Reports which code ran on both sides. It explains a verdict, and never decides one.
 static void put_code(const struct rg_gate_case *c, FILE *out)
 {
     const struct rg_session_code *a = &c->agreement.code[RG_SIDE_A];
@@ -172,7 +172,7 @@ static void put_decision(const struct rg_gate_case *c, FILE *out)
 
 enum { WHOLE = 2 * RG_DEVICE_NAME_SIZE + 2 };
 
-// A short name with what it stands for.
+// A device's short name with the full name that it stands for.
 static const char *whole_name(const char *name, char whole[WHOLE])
 {
     const char *full = rg_device_name_full(name);
@@ -180,7 +180,8 @@ static const char *whole_name(const char *name, char whole[WHOLE])
     return whole;
 }
 
-// Writes `raingauge diff` of a cell on two devices, with its mutants, as a shell takes it.
+// Writes a `raingauge diff` command for a cell on two devices, with its mutants, quoted for a
+// shell.
 static void put_command(FILE *out, const struct rg_gate_cell *cell, const char *a, const char *b)
 {
     char devices[2 * WHOLE], whole_a[WHOLE], whole_b[WHOLE];
@@ -198,7 +199,8 @@ static void put_command(FILE *out, const struct rg_gate_cell *cell, const char *
     fputs(" --mutants", out);
 }
 
-// What it would cost to let a picture pass that differs: mutants that nobody would notice.
+// Writes how to find out the cost of accepting a picture that differs: the mutants that would go
+// unnoticed.
 static void put_again(const struct rg_gate_case *c, FILE *out)
 {
     const struct rg_agreement *agreement = &c->agreement;
@@ -268,8 +270,8 @@ static void put_pictures(struct rg_gate_case *c, const char *folder, struct rg_r
     told->attachment_count = c->paths ? RG_GATE_PICTURES : 0;
 }
 
-// Whether what failed is no driver of the device that the case is of: the side that it is held
-// against did, or the truth, or raingauge itself by what it was given.
+// Whether the failure is not that of the case's own driver: it was the other side's, the truth's,
+// or raingauge's own through its input.
 static bool is_foreign(const struct rg_gate_case *c)
 {
     const char *device = c->agreement.device, *own = rg_gate_case_device(c);
@@ -277,7 +279,7 @@ static bool is_foreign(const struct rg_gate_case *c)
         return c->times.is_ours || c->times.side != RG_SIDE_B;
     if (c->agreement.is_ours || !device)
         return c->agreement.is_ours;
-    // Both sides may have one name, and then lie apart.
+    // Both sides may have the same name; their pointers differ.
     return c->before ? strcmp(device, own) != 0 : device != own;
 }
 

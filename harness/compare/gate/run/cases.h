@@ -1,5 +1,4 @@
-// What a gate is asked, and of each of its cells all that was found, which makes a case of a
-// report.
+// A gate's request, and all results of one of its cells, from which a report's case is made.
 #ifndef RG_HARNESS_COMPARE_GATE_RUN_CASES_H
 #define RG_HARNESS_COMPARE_GATE_RUN_CASES_H
 
@@ -11,65 +10,65 @@
 #include "harness/compare/gate/sides/pairs.h"
 #include "harness/compare/gate/sides/times.h"
 
-// Nothing in it is owned.
+// Owns nothing.
 struct rg_gate_request {
     const struct rg_gate_cells *cells;
-    // What B is held against: the other side of each pair, one pair after the other, or what a
-    // baseline has of a device, whose cells are those above (rg_baseline_fits).
+    // B's other side: the pairs, one after the other, or the devices of a baseline, whose cells are
+    // those above (rg_baseline_fits).
     const struct rg_gate_pairs *pairs;
-    const struct rg_baseline *baseline; // NULL: pairs
-    const char *devices;                // of the baseline, names with commas; NULL: all
-    const struct rg_known *known;       // what is expected to go wrong
-    const char *require; // names of devices or of backends that must be there; NULL: none
-    // Devices that it could be of and that it was not asked for: what is expected of them stays.
+    const struct rg_baseline *baseline; // NULL: the gate compares pairs
+    const char *devices;                // of the baseline, with commas; NULL: all
+    const struct rg_known *known;       // the expectations
+    const char *require;                // devices or backends that must be there; NULL: none
+    // Devices that could have been gated too; expectations of theirs stay.
     struct rg_gate_left left;
     int today;          // harness/compare/gate/text/date.h
     double margin;      // 0.05 for 5 %
-    double budget_s;    // for times; no launch is begun behind it, which pairs share; 0: none
+    double budget_s;    // for times, shared by the pairs; no launch begins after it; 0: no limit
     bool pictures_only; // nothing is timed
-    const char *filter; // of googletest, for names of cases; NULL: all
-    struct rg_gtest_shards shards; // of what it lets through
-    const char *pictures;          // a folder for those that differ, which is made; NULL: none
-    const char *folder;            // where times are kept, which is there; NULL: nowhere
-    bool fresh;                    // what is kept there is not gone on with
+    const char *filter; // of googletest, for case names; NULL: all
+    struct rg_gtest_shards shards; // of the cases that the filter selects
+    const char *pictures; // folder for pictures that differ, created if missing; NULL: none
+    const char *folder;   // existing folder for the journal; NULL: none
+    bool fresh;           // ignores a journal that is there
 };
 
 struct rg_gate_case {
     const struct rg_gate_cell *cell;
     char *name; // owned by the gate
     double seconds;
-    int pair; // of the request's, 0 with a baseline
-    // B is held against A, or against what a baseline has of it: then A is NULL.
+    int pair; // index in the request's pairs; 0 with a baseline
+    // B is compared with A, or with its row of a baseline; A is NULL then.
     struct rg_side *sides[RG_SIDES];
     const struct rg_baseline_row *before;
-    const char *devices[RG_SIDES]; // names of the sides that there are
+    const char *devices[RG_SIDES]; // names of the sides that exist
     int device_count;
     char driver[160];    // B's
     int64_t expectation; // of request->known; -1: none
     bool is_skipped, is_compared;
-    bool is_timed, is_advised; // its times decide, or are told alone
+    bool is_timed, is_advised; // the times decide, or are only reported
     struct rg_agreement agreement;
-    // Where it is timed.
+    // Valid if it is timed.
     struct rg_gate_rule rule;
     struct rg_gate_row row;
     struct rg_timed_cell times;
-    // What its case of a report points to.
+    // The report's case points to these.
     char message[RG_AGREEMENT_TEXT + 400];
     char *details; // owned by the gate
     const char *pictures[RG_GATE_PICTURES];
-    char (*paths)[PATH_MAX]; // of pictures that were written; owned by the gate
+    char (*paths)[PATH_MAX]; // of the written pictures; owned by the gate
 };
 
-// The device that a case is of.
+// The device whose case this is.
 const char *rg_gate_case_device(const struct rg_gate_case *of);
-// Finds what is expected of it, by B's driver where that is open.
+// Finds the case's expectation, by B's driver if B is open.
 void rg_gate_case_expect(struct rg_gate_case *of, const struct rg_gate_request *request);
 
-// Whether its pictures were: what else ended it proves nothing.
+// Whether its pictures were compared; any other end proves nothing.
 bool rg_gate_case_was_compared(const struct rg_gate_case *of);
 
-// Fills in its case, which points into it and into the request, and what the expectations are held
-// against.
+// Fills in the report's case, which points into `of` and the request, and the result that is
+// compared with expectations.
 void rg_gate_case_tell(struct rg_gate_case *of, const struct rg_gate_request *request,
                        struct rg_report_case *told, struct rg_known_result *result);
 

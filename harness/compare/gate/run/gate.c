@@ -23,22 +23,22 @@ enum { MOST_SIDES = RG_SIDES * RG_MAX_DEVICES };
 // A gate while it runs.
 struct run {
     const struct rg_gate_request *asked;
-    struct rg_gate *gate; // a case a cell that the filter lets through
-    // Of pairs two by two, A first; else those that run alone.
+    struct rg_gate *gate; // one case per cell that the filter selects
+    // Pairs two by two, A first; or the sides that run alone.
     int side_count;
     struct rg_side sides[MOST_SIDES];
-    struct rg_device_info infos[MOST_SIDES]; // of those that are there
-    json_t *passport;                        // of these
-    // Of those that run alone and are there.
-    json_t *parts[RG_MAX_DEVICES]; // of their keys
-    bool same_key[RG_MAX_DEVICES]; // as the baseline's
+    struct rg_device_info infos[MOST_SIDES]; // of the sides that are there
+    json_t *passport;                        // of the sides that are there
+    // For sides that run alone and are there.
+    json_t *parts[RG_MAX_DEVICES]; // of their comparison keys
+    bool same_key[RG_MAX_DEVICES]; // equal to the baseline's key
     struct rg_truth truth;
     struct rg_launches yardsticks[RG_YARDSTICKS];
-    double left_ms;                  // of the budget, for this pair and those behind it
-    struct rg_gate_journal *journal; // NULL: nothing is kept
+    double left_ms;                  // of the budget, for this pair and later ones
+    struct rg_gate_journal *journal; // NULL: no journal
 };
 
-// --- cells are chosen ---
+// --- choosing cells ---
 
 char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
 {
@@ -52,7 +52,7 @@ char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
     return clean;
 }
 
-// Whether the filter lets a case of this name through, and the shard has it.
+// Whether the filter selects a case of this name, and the shard includes it.
 static bool is_chosen(struct run *r, const char *name)
 {
     char gtest[RG_GTEST_NAME];
@@ -61,8 +61,8 @@ static bool is_chosen(struct run *r, const char *name)
            r->gate->chosen++ % r->asked->shards.total == r->asked->shards.index;
 }
 
-// The case of a cell on a device, NULL: it is not chosen. False, and one logged line, without
-// memory.
+// Adds the case of a cell on a device; `added` is NULL if it is not chosen. False, and one logged
+// line, without memory.
 static bool add_case(struct run *r, const struct rg_gate_cell *cell, const char *device,
                      struct rg_gate_case **added)
 {
@@ -78,7 +78,7 @@ static bool add_case(struct run *r, const struct rg_gate_cell *cell, const char 
     return ok;
 }
 
-// All pairs are there, whatever is chosen.
+// All pairs become sides, even those without a chosen case.
 static bool choose_of_pairs(struct run *r)
 {
     struct rg_gate_case *c;
@@ -139,9 +139,8 @@ static bool choose(struct run *r)
 
 // --- sides ---
 
-// Launches each side once. Names of pairs must be such that a device could have them, and the two
-// of a pair be apart; what is required must be there. Another side that is not ends its cases.
-// Returns an enum rg_exit.
+// Launches each side once. Names of pairs must be valid, the two of a pair distinct, and required
+// devices there; any other missing side only ends its cases. Returns an enum rg_exit.
 static int look_at_sides(struct run *r)
 {
     struct rg_side_seen seen[MOST_SIDES];
@@ -168,7 +167,7 @@ static int look_at_sides(struct run *r)
                                                                            : RG_EXIT_FAIL;
 }
 
-// What the report's numbers depend on: the machine, and the sides that are there.
+// Describes what the report's numbers depend on: the machine, and the sides that are there.
 static bool set_passport(struct run *r)
 {
     struct rg_device_info there[MOST_SIDES];
@@ -183,7 +182,8 @@ static bool set_passport(struct run *r)
     return ok;
 }
 
-// Whether times of a side that runs alone can be held against the baseline's; a line says why.
+// Finds out whether the times of a side that runs alone can be compared with the baseline's, and
+// writes the reason to `out`.
 static void compare_key(struct run *r, int side, FILE *out)
 {
     const struct rg_baseline_device *was =
@@ -203,7 +203,7 @@ static void compare_key(struct run *r, int side, FILE *out)
                 was->name, now_key, was_key, text);
 }
 
-// Which driver each side runs, above all that is found.
+// Notes which driver each side runs, to be printed above the results.
 static bool note_sides(struct run *r)
 {
     size_t size;
@@ -222,9 +222,9 @@ static bool note_sides(struct run *r)
     return (out && fclose(out) == 0) || rg_harness_error("gate: no memory for its devices' lines");
 }
 
-// --- what is kept of the times ---
+// --- the journal ---
 
-// All that decides the times of pairs.
+// Everything that the times of pairs depend on.
 static json_t *key_of_pairs(const struct run *r)
 {
     json_t *cells = json_object(), *pairs = json_array();
@@ -236,14 +236,14 @@ static json_t *key_of_pairs(const struct run *r)
     for (int i = 0; i < r->side_count; i += RG_SIDES)
         json_array_append_new(
             pairs, json_pack("[s, s]", r->sides[i + RG_SIDE_A].name, r->sides[i + RG_SIDE_B].name));
-    const struct rg_gtest_shards *shards = &r->asked->shards; // one may share another's folder
+    const struct rg_gtest_shards *shards = &r->asked->shards; // shards may use the same folder
     return json_pack("{s:o, s:o, s:O, s:f, s:s, s:i, s:i}", "cells", cells, "pairs", pairs,
                      "passport", r->passport, "margin", r->asked->margin, "filter",
                      r->asked->filter ? r->asked->filter : "", "shard", shards->index, "shards",
                      shards->total);
 }
 
-// All that decides the times that are gated: those of the baseline too.
+// Everything that the compared times depend on, the baseline's times included.
 static json_t *key_of_baseline(const struct run *r)
 {
     json_t *was = json_object();
@@ -269,9 +269,9 @@ static bool open_journal(struct run *r)
     return r->journal;
 }
 
-// --- what is the same every time ---
+// --- what is the same in every run ---
 
-// Whether the sides of a case are there, and no others; else what keeps one from it ends the case.
+// Makes the case's sides, and no others, run; a failure ends the case.
 static bool launch_for(struct run *r, struct rg_gate_case *c)
 {
     for (int i = 0; i < r->side_count; i++)
@@ -307,14 +307,14 @@ static void compare(struct run *r, struct rg_gate_case *c)
     }
 }
 
-// --- what agrees is timed ---
+// --- timing the cases that agree ---
 
-// Cases whose times are taken in one course.
+// Cases that are timed in one course.
 struct lot {
     int count;
     struct rg_gate_case **cases;
     struct rg_timed_cell *cells;
-    struct rg_gate_sample *before; // of a baseline
+    struct rg_gate_sample *before; // with a baseline
     struct rg_gate_row *rows;
 };
 
@@ -326,7 +326,7 @@ static void free_lot(struct lot *lot)
     free(lot->rows);
 }
 
-// Of `count` cases those that are advised, or those that are timed.
+// Chooses the advised cases, or the timed ones, from `count` cases.
 static bool make_lot(struct rg_gate_case *cases, int count, bool is_advice, struct lot *lot)
 {
     const size_t room = (size_t)count;
@@ -353,8 +353,7 @@ static bool make_lot(struct rg_gate_case *cases, int count, bool is_advice, stru
     return true;
 }
 
-// Advice is one look, after which no change is worth a word: what comes of it is told, and decides
-// nothing.
+// Advice takes one look, and no change matters to it: it is reported and decides nothing.
 static struct rg_gate_rule rule_of(const struct run *r, const struct lot *lot, bool is_advice)
 {
     struct rg_gate_rule rule =
@@ -367,7 +366,7 @@ static struct rg_gate_rule rule_of(const struct run *r, const struct lot *lot, b
     return rule;
 }
 
-// What was timed with other code is not gone on with.
+// Drops journal times that were taken with other code.
 static void expect_codes(struct run *r, const struct lot *lot)
 {
     for (int i = 0; r->journal && i < lot->count; i++) {
@@ -397,7 +396,7 @@ static bool time_lot(struct run *r, const struct lot *lot, bool is_advice,
                                           r->asked->baseline ? lot->before : NULL};
     times->cell_count = lot->count;
     times->cells = lot->cells;
-    times->journal = is_advice ? NULL : r->journal; // what decides nothing is not kept
+    times->journal = is_advice ? NULL : r->journal; // advice is not kept
     times->failed = false;
     if (!is_advice)
         expect_codes(r, lot);
@@ -407,11 +406,11 @@ static bool time_lot(struct run *r, const struct lot *lot, bool is_advice,
     return ok;
 }
 
-// Of a pair's cases, or of all that run alone.
+// Times the cases of a pair, or all that run alone.
 static bool time_all(struct run *r, struct rg_gate_case *cases, int count)
 {
     struct rg_yardstick_room room = {NULL};
-    struct lot lots[2] = {{.count = 0}, {.count = 0}}; // those that are timed, and those advised
+    struct lot lots[2] = {{.count = 0}, {.count = 0}}; // timed cases, and advised ones
     const int pairs_left = r->asked->baseline ? 1 : r->asked->pairs->count - cases->pair;
     const double start_ms = rg_now_ms();
     struct rg_gate_times times = {
@@ -435,7 +434,7 @@ static bool time_all(struct run *r, struct rg_gate_case *cases, int count)
     return ok || rg_interrupted();
 }
 
-// --- all of it ---
+// --- the whole gate ---
 
 static bool run_all(struct run *r)
 {
@@ -450,7 +449,7 @@ static bool run_all(struct run *r)
     return ok && (rg_interrupted() || rg_gate_report(r->asked, r->gate));
 }
 
-// False where a device was closed badly, once.
+// False if a device was ever closed badly.
 static bool close_all(struct run *r)
 {
     bool clean = rg_truth_close(&r->truth);

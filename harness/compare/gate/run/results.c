@@ -8,7 +8,7 @@
 #include "harness/console/exit.h"
 #include "harness/devices/names.h"
 
-// Of a cell that did not run on a device.
+// The result of a cell that did not run on a device.
 static struct rg_known_result unknown(const char *cell, const char *device)
 {
     return (struct rg_known_result){.cell = cell,
@@ -30,8 +30,8 @@ static bool make_results(const struct rg_gate_request *asked, struct rg_gate *ga
     return gate->results;
 }
 
-// A device that is required, and of whose cells none was compared though none fails the gate,
-// becomes a case as one that is missing does. What is unsupported does not pass anyway.
+// Adds a failing case, as for a missing device, if a required device has cells but none was
+// compared or failed. Unsupported cells are left out, since they do not pass anyway.
 static void hold_required(struct rg_gate *gate, const char *name)
 {
     bool any = false, is_told = false;
@@ -77,7 +77,7 @@ bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
     return ok;
 }
 
-// Why a gate that failed nothing proves nothing.
+// Logs why a gate without a failure proves nothing.
 static void tell_nothing(const struct rg_gate_request *asked, const struct rg_gate *gate)
 {
     const struct rg_gtest_shards *shards = &asked->shards;

@@ -57,7 +57,7 @@ bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *devic
     return ok;
 }
 
-// A cell without rain would pass whatever a device makes of rain. That is the cell's fault, and no
+// A cell without rain would pass whatever a device draws. This is the cell's fault, not a
 // difference.
 static bool shows_nothing(const struct rg_gate_cell *cell, struct rg_device *device,
                           struct rg_agreement *agreement)
@@ -69,7 +69,7 @@ static bool shows_nothing(const struct rg_gate_cell *cell, struct rg_device *dev
     return false;
 }
 
-// What a looser expectation would have to be is told with it.
+// Also reports the strictest tier that the picture would pass, for a looser expectation.
 static bool picture_differs(const struct rg_tiers *tiers, enum rg_tier owed, const char *truth,
                             struct rg_agreement *agreement)
 {
@@ -83,7 +83,7 @@ static bool picture_differs(const struct rg_tiers *tiers, enum rg_tier owed, con
 
 bool rg_alike_has_room(const struct rg_gate_cell *cell, struct rg_agreement *agreement)
 {
-    enum { PICTURES = 5 }; // three, what a worker draws the third into, and planes of as much
+    enum { PICTURES = 5 }; // three, a worker's copy of the third, and the comparison's planes
     char begin[64];
     const int64_t bytes = rg_pictures_bytes(cell->width, cell->height, PICTURES);
     if (rg_memory_allows(bytes))

@@ -1,5 +1,4 @@
-// Whether what two runs of a cell left is alike: its picture by a tier, its counters and the work
-// of a frame exactly.
+// Compares two runs of a cell: its picture by a tier, its counters and the work of a frame exactly.
 #ifndef RG_HARNESS_COMPARE_GATE_SIDES_ALIKE_H
 #define RG_HARNESS_COMPARE_GATE_SIDES_ALIKE_H
 
@@ -14,51 +13,50 @@
 enum { RG_AGREEMENT_TEXT = 640 };
 
 struct rg_agreement {
-    enum rg_outcome outcome; // OK: they agree; fail: they do not; else what kept it from being seen
-    bool is_ours;            // what kept it was input, memory or the cell itself, and no driver
-    const char *device;      // the side that it is about, where one alone failed; NULL: both
-    char message[RG_AGREEMENT_TEXT]; // why, one line; where they agree what is to be known of it,
-                                     // or ""
-    char details[RG_AGREEMENT_TEXT]; // the first stage that left other bits; ""
-    // Where pictures that differ are written (harness/compare/gate/pictures/), and under which
-    // name; NULL: nowhere. Whether they have been.
+    enum rg_outcome outcome; // OK: they agree; fail: they differ; else why they were not compared
+    bool is_ours;            // the reason was input, memory or the cell itself, not a driver
+    const char *device;      // the side that failed alone; NULL: it concerns both
+    char message[RG_AGREEMENT_TEXT]; // why, in one line; if they agree, a remark or ""
+    char details[RG_AGREEMENT_TEXT]; // the first stage whose bits differ; ""
+    // Folder and name for pictures that differ (harness/compare/gate/pictures/); NULL: not written.
+    // has_pictures: they have been written.
     const char *folder, *name;
     bool has_pictures;
-    // Where pictures differ: the device that drew what is held for the truth, which is not owned
-    // and outlives the gate, and the strictest tier that would hold, RG_TIER_COUNT: none.
+    // If pictures differ: the name of the device whose picture counts as true, not owned, outlives
+    // the gate; and the strictest tier that the pictures pass, RG_TIER_COUNT: none.
     const char *truth;
     int would_hold;
-    bool has_code; // which code ran on both sides, which are held against each other
-    struct rg_session_code code[RG_SIDES]; // of one that ran alone, B's
+    bool has_code;                         // `code` is known and can be reported
+    struct rg_session_code code[RG_SIDES]; // of a side that runs alone, B's
     double pixels,
-        difference; // that differ, and the most a channel of them does; NAN: not compared
+        difference; // count of differing pixels, largest difference of a channel; NAN: not compared
 };
 
 enum { RG_AGREEMENT_CODE = 512 };
-// Which code ran as a text, the same where the code is.
+// Describes the code that ran as a text that is equal for equal code.
 void rg_agreement_code(const struct rg_agreement *agreement, char code[RG_AGREEMENT_CODE]);
 
-// Ends it: they do not agree. False.
+// Ends the agreement with a difference. False.
 bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-// Ends it by what the last error comes to, on a device. False.
+// Ends the agreement with the last error, which happened on `device`. False.
 bool rg_agreement_fails(struct rg_agreement *agreement, const char *device);
 
-// Says in the details which stage was the first to leave other bits on a device than on the one
-// that is held for the truth, where one was. Whether that could be found out.
+// Finds the first stage after which the device's bits differ from the truth's, and names it in the
+// details. False if that could not be found out.
 bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *device,
                         struct rg_device *truth, struct rg_agreement *agreement);
 
-// A picture of a cell, and whose it is.
+// A cell's picture and the device that drew it.
 struct rg_drawn {
-    const char *name; // of the device; a's outlives the agreement
+    const char *name; // of the device; that of `a` outlives the agreement
     struct rg_picture picture;
 };
-// Whether there is room for both, for one without rain, and to compare them.
+// Whether memory suffices for both pictures, for one without rain, and to compare them.
 bool rg_alike_has_room(const struct rg_gate_cell *cell, struct rg_agreement *agreement);
-// Compares b with a by the tier that they owe each other; the picture without rain, which says
-// where it rains, is drawn on `device`, which is a's. Each of these functions returns whether they
-// are alike, and has else ended the agreement.
+// Compares b with a by the tier that they owe each other. The picture without rain, which shows
+// where it rains, is drawn on `device`, the one of a. Each of these functions returns whether the
+// two are equivalent, and has ended the agreement if they are not.
 bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device, enum rg_tier owed,
                        const struct rg_drawn *a, const struct rg_drawn *b,
                        struct rg_agreement *agreement);
@@ -69,7 +67,8 @@ struct rg_counters {
 };
 bool rg_alike_counters(const struct rg_counters *a, const struct rg_counters *b,
                        struct rg_agreement *agreement);
-// How many dispatches a frame has, is an API's own; what a device cannot count says nothing.
+// Compares all counted work but the number of dispatches, which depends on the API. Work that a
+// device cannot count is ignored.
 bool rg_alike_work(const struct rg_tally *a, const struct rg_tally *b,
                    struct rg_agreement *agreement);
 

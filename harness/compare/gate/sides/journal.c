@@ -16,10 +16,10 @@ enum { FORMAT = 2 };
 
 struct rg_gate_journal {
     char *folder, path[2048];
-    json_t *document; // format, key, "codes": which code a row ran, by its name, and "rows": an
+    json_t *document; // format, key, "codes": the code that ran each row, by name, and "rows": an
                       // object of arrays of launches, by name
-    int had;          // launches that were there
-    bool is_changed, is_broken; // it could not be written, which one logged line said
+    int had;          // launches that the file had when it was opened
+    bool is_changed, is_broken; // is_broken: it could not be written, which was logged
 };
 
 static json_t *rows_of(const struct rg_gate_journal *j)
@@ -27,7 +27,7 @@ static json_t *rows_of(const struct rg_gate_journal *j)
     return json_object_get(j->document, "rows");
 }
 
-// --- a launch of a row: its number, and what it told ---
+// --- a launch of a row: its number and its results ---
 
 static json_t *launch_json(int number, const struct rg_quads *quads)
 {
@@ -64,7 +64,7 @@ static bool begin_anew(struct rg_gate_journal *j, json_t *key)
     return j->document;
 }
 
-// Counts the launches of a document, -1 where it has something else.
+// Counts the launches of a document; -1 if it has anything else.
 static int count_launches(json_t *document)
 {
     const char *name;
@@ -85,7 +85,7 @@ static int count_launches(json_t *document)
     return is_whole ? count : -1;
 }
 
-// Takes over the document of the folder, where it is this gate's.
+// Takes over the folder's document if it belongs to this gate.
 static void read_journal(struct rg_gate_journal *j, const json_t *key)
 {
     char why[RG_WHY_SIZE];
@@ -157,7 +157,7 @@ void rg_gate_journal_expect(struct rg_gate_journal *j, const char *name, const c
                 j->path, name);
 }
 
-// What cannot be written is told once, and the gate goes on without.
+// Logs the first failure to write; the gate goes on without its journal.
 void rg_gate_journal_save(struct rg_gate_journal *j)
 {
     if (!j->is_changed || j->is_broken)
@@ -198,7 +198,7 @@ void rg_gate_journal_add(struct rg_gate_journal *j, const char *name, int launch
 
 // --- the end ---
 
-// Of B alone, which is held against a baseline, there is no ratio and no time of A.
+// A launch of B alone, compared with a baseline, has no ratio and no time of A.
 static void put_launch(const char *name, const json_t *launch, FILE *file)
 {
     const struct rg_quads quads = quads_of(launch);
@@ -237,7 +237,7 @@ char *rg_gate_journal_csv(const struct rg_gate_journal *j)
     return NULL;
 }
 
-// Without a launch there is no file, and one that a gate before has left is none of this gate's.
+// Without launches, removes the file that an earlier gate may have left.
 static bool write_launches(const struct rg_gate_journal *j)
 {
     char path[sizeof(j->path)], *csv = rg_gate_journal_csv(j);

@@ -1,11 +1,11 @@
-// What a gate keeps of its times in the folder that it writes into, so that the same command goes
-// on where it was interrupted, or killed: it loses no more than the launch that was under way.
+// The journal of a gate's times, in the gate's folder. After an interruption or a kill the same
+// command goes on from it, and loses only the launch that was under way.
 //
-// gate.journal is a sealed document. What follows from times in a course follows again when they
-// come from there, for what a course draws depends on the number of the launch alone. A document of
-// other sides, cells, drivers, margin or another program is no part of this gate, and neither is a
-// damaged one: the gate begins anew, and says so. A driver or another build that was built anew
-// meanwhile has the same name, path and version, so that each row has which code it ran.
+// gate.journal is a sealed document. A course replays the same way from it, since its random draws
+// depend on the launch's number alone. A document of other sides, cells, drivers, margin or another
+// program does not belong to this gate, nor does a damaged one: the gate then begins anew and says
+// so. A driver or build may be rebuilt under the same name, path and version, so each row also
+// records which code ran.
 #ifndef RG_HARNESS_COMPARE_GATE_SIDES_JOURNAL_H
 #define RG_HARNESS_COMPARE_GATE_SIDES_JOURNAL_H
 
@@ -16,31 +16,31 @@
 #define RG_GATE_JOURNAL  "gate.journal"
 #define RG_GATE_LAUNCHES "launches.csv"
 
-// Reads what the folder has, unless it is to be `fresh`; one line says what is gone on with. `key`:
-// all that decides the times, whose reference is taken. NULL, and one logged line, without memory.
+// Reads the folder's journal unless `fresh`, and says with how many launches the gate goes on.
+// `key` holds all that the times depend on; the journal takes its reference. NULL, and one logged
+// line, without memory.
 struct rg_gate_journal *rg_gate_journal_open(const char *folder, json_t *key, bool fresh);
-// How many launches it had of all rows together.
+// The number of launches it had when opened, of all rows together.
 int rg_gate_journal_count(const struct rg_gate_journal *journal);
-// Says which code runs a row now, before its launches are asked for. Times that other code took are
-// no part of this gate, and are dropped; one line says so.
+// Says which code runs a row now; call it before the row's launches. Drops times of other code,
+// with one logged line.
 void rg_gate_journal_expect(struct rg_gate_journal *journal, const char *name, const char *code);
 
-// What a launch told of a row, whose name is unique in all gates of the folder. False: it is not
-// kept.
+// A launch's result for a row, whose name is unique among all gates of the folder. False: it is not
+// in the journal.
 bool rg_gate_journal_find(const struct rg_gate_journal *journal, const char *name, int launch,
                           struct rg_quads *quads);
 void rg_gate_journal_add(struct rg_gate_journal *journal, const char *name, int launch,
                          const struct rg_quads *quads);
-// Writes what was added, as far as it can.
+// Writes what was added, if possible.
 void rg_gate_journal_save(struct rg_gate_journal *journal);
 
-// It as CSV, a line a launch of a row, which the caller frees; "" where nothing was kept. NULL
+// The journal as CSV, one line per launch of a row, which the caller frees; "" if it is empty. NULL
 // without memory.
 char *rg_gate_journal_csv(const struct rg_gate_journal *journal);
 
-// Writes it, and lets it go; NULL: there is none. Where the gate `is_done` it is removed, and what
-// every launch told is left in RG_GATE_LAUNCHES as CSV. False, and one logged line, where that
-// cannot be written.
+// Writes and frees the journal; NULL: nothing. If the gate `is_done`, removes the file and leaves
+// all launches in RG_GATE_LAUNCHES as CSV. False, and one logged line, if that cannot be written.
 bool rg_gate_journal_close(struct rg_gate_journal *journal, bool is_done);
 
 #endif

@@ -74,7 +74,7 @@ int rg_gate_pairs_of_builds(const char *program, const char *names, struct rg_ga
                  program);
         return rg_exit_of_error();
     }
-    // A file is meant. Without a slash it would be looked for along PATH.
+    // The program is a file; without a slash it would be searched for along PATH.
     char path[PATH_MAX];
     const int length =
         snprintf(path, sizeof(path), "%s%s", strchr(program, '/') ? "" : "./", program);
@@ -85,7 +85,7 @@ int rg_gate_pairs_of_builds(const char *program, const char *names, struct rg_ga
     return strcmp(names, "all") ? add_named(path, names, pairs) : add_listed(path, pairs);
 }
 
-// --- what is left ---
+// --- devices that are not gated ---
 
 static bool is_held(const struct rg_gate_pairs *pairs, const char *name)
 {

@@ -54,8 +54,8 @@ bool rg_side_is_missing(const char *name, const struct rg_side_seen *side, struc
     return false;
 }
 
-// A device that is there beside one of the same API that is not does not make up for it: the two
-// are held against each other.
+// A device that is there does not make up for a missing one of the same API, because the two are
+// compared with each other.
 static bool is_there(const struct rg_side_seen *seen, int count, const char *name,
                      struct rg_report *report)
 {

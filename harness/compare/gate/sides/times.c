@@ -11,8 +11,8 @@
 #include "harness/record/named.h"
 #include "harness/record/stats.h"
 
-// A launch takes so many quads, or times of B alone: opening a cell costs as much as several, and
-// what disturbs one of them is not in their median.
+// A launch takes several blocks, or times of B alone. Opening a cell costs as much as several
+// blocks, and a disturbance of one does not move their median.
 enum { QUADS = 3 };
 
 bool rg_times_are_over(void *user)
@@ -54,8 +54,8 @@ static bool launch_pair(struct rg_gate_times *t, int first)
     return false;
 }
 
-// Neither side of a pair is always the one that finds the machine idle. A side that runs alone is
-// opened by the first of its rows, so that one that does not open harms no other.
+// The sides of a pair take turns at being opened first, since the first one finds an idle machine.
+// A side that runs alone is opened by the first of its rows, so that its failure harms no other.
 static bool start(struct rg_gate_times *t)
 {
     for (int side = 0; side < t->side_count; side++)
@@ -67,7 +67,7 @@ static bool start(struct rg_gate_times *t)
     return t->is_launched;
 }
 
-// With a journal, processes are started only where something has to be timed.
+// With a journal, processes are started only once something has to be timed.
 bool rg_times_launch(int number, void *user)
 {
     struct rg_gate_times *t = user;
@@ -80,16 +80,15 @@ bool rg_times_launch(int number, void *user)
 
 // --- one time of a side ---
 
-// A timing lasts so long at least, and a slot has as many as fill it, of which the median counts:
-// where another process has a core, it takes it for some milliseconds at a time, and many short
-// timings lie between, as few long ones do not.
+// Least length of a timing, and of a slot, whose median counts. Another process takes a core for
+// some milliseconds at a time; it misses many short timings, but few long ones.
 #define TIMING_MS 1
 #define SLOT_MS   9
 enum { LEAST_TIMINGS = 3 };
-// As much of the time may go to others.
+// Largest share of processor time that others may take.
 #define MOST_STOLEN 0.05
 
-// Of all processors together since the machine began; zeros where the kernel does not tell.
+// Time of all processors since boot; zeros if the kernel does not report it.
 struct processor_time {
     unsigned long long all, stolen;
 };
@@ -110,14 +109,15 @@ static struct processor_time processor_time(void)
     return time;
 }
 
-// Whether so much went to others since then that what was timed does not count.
+// Whether others took so much processor time since `before` that the timing does not count.
 static bool was_disturbed(const struct processor_time *before)
 {
     const struct processor_time now = processor_time();
     return (double)(now.stolen - before->stolen) > MOST_STOLEN * (double)(now.all - before->all);
 }
 
-// Frames that do not count, for drivers compile in the first; tells about how long one takes.
+// Runs frames that do not count, because drivers compile in the first; measures roughly how long
+// one takes.
 static bool warm_up_one(struct rg_session *session, double *frame_ms)
 {
     double ms;
@@ -126,7 +126,7 @@ static bool warm_up_one(struct rg_session *session, double *frame_ms)
     return ok;
 }
 
-// Settles a slot for frames of such a time.
+// Chooses the numbers of frames and timings for frames of this length.
 static void settle(struct rg_slot *slot, double frame_ms)
 {
     frame_ms = fmax(frame_ms, 1e-6);
@@ -135,7 +135,7 @@ static void settle(struct rg_slot *slot, double frame_ms)
         (int)fmin(fmax(ceil(SLOT_MS / (slot->frames * frame_ms)), LEAST_TIMINGS), RG_SLOT_TIMINGS);
 }
 
-// The time of a frame, by the median of the slot's timings.
+// The time of a frame: the median of the slot's timings.
 static bool time_slot(struct rg_session *session, const struct rg_slot *slot, double *frame_ms)
 {
     double timings_ms[RG_SLOT_TIMINGS];
@@ -150,9 +150,9 @@ static bool time_slot(struct rg_session *session, const struct rg_slot *slot, do
 
 // --- a cell's launch ---
 
-// Frames that are not timed, for drivers compile in the first. By both sides' mean is settled how
-// many are timed, the same on both: as a ratio, so that neither a slow one takes for ever nor a
-// fast one is too short for the clock.
+// Runs frames that are not timed, because drivers compile in the first. Both sides get the same
+// slot, chosen by the geometric mean of their frame times, so that a slow side does not take for
+// ever and a fast one is not too short for the clock.
 static bool warm_up(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES])
 {
     double frame_ms[RG_SIDES];
@@ -182,7 +182,7 @@ static bool time_quad(struct rg_timed_cell *timed, struct rg_session *sessions[R
     return true;
 }
 
-// Of a pair so many quads, and of B alone as many times.
+// QUADS blocks of a pair, or as many times of B alone.
 static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES],
                         bool b_first, struct rg_quads *quads)
 {
