@@ -31,7 +31,7 @@ static void write_setting(FILE *out, const struct rg_param *param, const void *s
         fprintf(out, "set %s=%s\n", param->name, value);
 }
 
-// All that are not at their default. A preset comes first, for it assigns others.
+// Writes all settings that are not at their default. A preset comes first, because it sets others.
 static void write_settings(FILE *out, const struct rg_subject *subject, void *defaults)
 {
     const struct rg_param_table *table = subject->technique->params;
@@ -49,7 +49,7 @@ static void write_settings(FILE *out, const struct rg_subject *subject, void *de
             write_setting(out, &table->rows[i], subject->settings, defaults);
 }
 
-// What was written before the first stage has none.
+// An asset that differs before the first stage has no stage.
 static const char *stage_name(const char *stage)
 {
     return *stage ? stage : "-";
@@ -107,7 +107,7 @@ static bool take_digest(const char *text, uint64_t *digest)
 
 static bool take_size(const char *text, struct rg_subject *subject)
 {
-    enum { DIGITS = 5 }; // so that they fit
+    enum { DIGITS = 5 }; // keeps the numbers within an int
     int end = 0;
     return strspn(text, "0123456789x") == strlen(text) && strcspn(text, "x") <= DIGITS &&
            sscanf(text, "%dx%5d%n", &subject->width, &subject->height, &end) == 2 && !text[end] &&
@@ -129,7 +129,7 @@ static bool take_text(const char *text, char *to, size_t size)
     return *text && (size_t)snprintf(to, size, "%s", text) < size;
 }
 
-// A kind of difference, or how the device fails.
+// A kind of difference, or of failure.
 static bool take_class(const char *text, struct rg_case *c)
 {
     c->difference = rg_difference_find(text);
@@ -137,7 +137,7 @@ static bool take_class(const char *text, struct rg_case *c)
            (rg_outcome_find(text, &c->fall.outcome) && rg_outcome_is_broken(c->fall.outcome));
 }
 
-// Whether lines of a case begin so.
+// Whether a line of a case can begin with this word.
 static bool is_word(const char *word)
 {
     return rg_has_word("technique size frames behind stage asset class fails expected found truth "
@@ -172,11 +172,11 @@ static bool take_line(const char *word, const char *rest, struct rg_case *c)
     return !strcmp(word, "device") && take_text(rest, c->device, sizeof(c->device));
 }
 
-// The words of lines that came, or the keys of settings, each of which comes once; they lie in the
-// file's lines.
+// The first words of lines, or the keys of settings, that were read; each may occur once. They
+// point into the file's lines.
 struct seen {
     int count;
-    const char *words[256]; // more than there are: one that is unknown is the last that is read
+    const char *words[256]; // more than there are valid words; reading ends at an invalid one
 };
 
 static bool comes_once(const char *word, struct seen *seen)
@@ -189,7 +189,7 @@ static bool comes_once(const char *word, struct seen *seen)
     return true;
 }
 
-// A setting, "set KEY=VALUE" or "file KEY=NAME".
+// Reads a setting, "set KEY=VALUE" or "file KEY=NAME".
 static bool read_setting(const char *path, int64_t number, bool is_file, const char *text,
                          struct seen *keys, struct rg_case *c)
 {

@@ -1,4 +1,4 @@
-// A case: a difference between two devices as a short text that one device replays.
+// A case: a difference between two devices, as a short text that one device replays.
 #ifndef RG_HARNESS_COMPARE_SHRINK_CASE_H
 #define RG_HARNESS_COMPARE_SHRINK_CASE_H
 
@@ -9,26 +9,26 @@ enum { RG_CASE_NAME = RG_DEVICE_NAME_SIZE };
 
 struct rg_case {
     struct rg_digest_run run; // its settings are owned
-    int stages_run;           // behind which the asset differs
+    int stages_run;           // after so many stages the asset differs
     char stage[RG_ASSET_NAME], asset[RG_ASSET_NAME];
-    enum rg_difference difference;                  // NONE where the device fails
-    struct rg_fall fall;                            // how, where it does
-    uint64_t expected, found;                       // digests of the asset; found: 0 then
-    char device[RG_CASE_NAME], truth[RG_CASE_NAME]; // that it was found with
+    enum rg_difference difference; // NONE if the device fails
+    struct rg_fall fall;           // how the device fails, if it does
+    uint64_t expected, found;      // digests of the asset; found: 0 if the device fails
+    char device[RG_CASE_NAME], truth[RG_CASE_NAME]; // the devices with which it was found
 };
 
-// Writes it, with every parameter that is not at its default, and `note`, one line; files of the
-// user's own that settings name are copied beside it (files.h). False, and one logged line, on
-// failure; no part of a file is left.
+// Writes a case with every parameter that is not at its default, and `note`, one line. The user's
+// own files that settings name are copied beside it (files.h). False, and one logged line, on
+// failure; no partial file is left.
 bool rg_case_write(const struct rg_case *found, const char *note, const char *path);
 
-// Reads one. False, and one logged line with the file and the line, where it is none; rg_case_free
-// in either case.
+// Reads a case. False, and one logged line with the file and the line, if it is not valid;
+// rg_case_free in either case.
 bool rg_case_read(const char *path, struct rg_case *found);
 void rg_case_free(struct rg_case *found);
 
-// Replays it on a device, prints what it left, or how it failed, and returns an enum rg_exit: pass
-// where it left what the case expects.
+// Replays a case on a device, prints the digest that it left or how it failed, and returns an enum
+// rg_exit: pass if it left the expected digest.
 int rg_case_replay(const struct rg_case *found, struct rg_device *device);
 
 #endif

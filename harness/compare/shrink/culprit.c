@@ -10,14 +10,14 @@
 
 struct pair {
     struct rg_device *device, *truth;
-    struct rg_dispatched now; // what the device leaves; it borrows what lay there before
+    struct rg_dispatched now; // the device's results; its inputs are borrowed
     struct rg_dispatched *due;
     double end_ms;
-    bool falls; // the device fails, which is what is sought
+    bool falls; // the device fails; this failure is sought, not a difference
     bool has_failed;
 };
 
-// Whether two leave the same in each slot that is written.
+// Whether two dispatches leave the same bytes in each slot that is written.
 static bool leaves_same(const struct rg_dispatched *a, const struct rg_dispatched *b)
 {
     for (int i = 0; i < a->kernel->slot_count; i++) {
@@ -29,7 +29,7 @@ static bool leaves_same(const struct rg_dispatched *a, const struct rg_dispatche
     return true;
 }
 
-// Runs the dispatch on both devices; whether they differ.
+// Runs the dispatch on both devices. Whether their results differ, or the device fails as sought.
 static bool differs(struct pair *p)
 {
     memcpy(p->now.before, p->due->before, sizeof(p->now.before));
@@ -47,13 +47,13 @@ static bool differs(struct pair *p)
 
 static void forget(struct pair *p)
 {
-    memset(p->now.before, 0, sizeof(p->now.before)); // the other one's
+    memset(p->now.before, 0, sizeof(p->now.before)); // owned by the other dispatch
     rg_dispatched_free(&p->now);
 }
 
 // --- the fewest items ---
 
-// One axis: a half of the items after the other, as often as one of the two still differs.
+// Halves the items along one axis, keeping either half that still differs, as often as possible.
 static void halve(struct pair *p, int *origin, int *extent)
 {
     bool keeps = true;
@@ -78,12 +78,12 @@ static int64_t items_of(const struct rg_dispatched *d)
     return (int64_t)d->extent.width * d->extent.height * d->extent.depth;
 }
 
-// --- the fewest inputs ---
+// --- the smallest inputs ---
 
-enum { LEAST_BYTES = 64, LARGEST_BYTES = 1 << 30 }; // of a part that is zeroed
+enum { LEAST_BYTES = 64, LARGEST_BYTES = 1 << 30 }; // size of a part that is zeroed
 
-// Zeroes a part, which is put back where the two do not differ then. False where a device fails,
-// which zeroes may make it do.
+// Zeroes a part of an input, and restores it if the difference disappears. False if a device fails,
+// as zeroes may cause.
 static bool zero_part(struct pair *p, unsigned char *bytes, size_t size)
 {
     unsigned char *kept = rg_alloc(size, 1, "a kernel's inputs");
@@ -103,8 +103,8 @@ static bool is_zero(const unsigned char *bytes, size_t size)
     return !size || (!bytes[0] && !memcmp(bytes, bytes + 1, size - 1));
 }
 
-// What no item needs becomes zero: all of a slot, else its halves, and so on. The largest parts
-// come first, so that most is gone where the time does not suffice.
+// Zeroes the inputs that no item needs: a whole slot, else its halves, and so on. The largest parts
+// come first, so that most is done if time runs out.
 static void shrink_inputs(struct pair *p)
 {
     bool ok = true;
@@ -112,16 +112,16 @@ static void shrink_inputs(struct pair *p)
         for (int slot = 0; ok && slot < RG_MAX_SLOTS; slot++) {
             const struct rg_contents *c = &p->due->before[slot];
             unsigned char *bytes = c->bytes;
-            size_t end = part / 2 < c->size ? c->size : 0; // once as a whole
+            size_t end = part / 2 < c->size ? c->size : 0; // the whole slot is tried once
             for (size_t at = 0; ok && at < end && rg_now_ms() < p->end_ms; at += part) {
                 const size_t size = end - at < part ? end - at : part;
                 ok = is_zero(bytes + at, size) || zero_part(p, bytes + at, size);
             }
         }
-    p->has_failed = false; // with these inputs alone
+    p->has_failed = false; // it failed only on these inputs
 }
 
-// Leaves what the truth does of the fewest.
+// Reduces the items and inputs, then leaves the truth's results for them in p->due.
 static void shrink_items(struct pair *p, struct rg_culprit *culprit)
 {
     struct rg_extent *origin = &p->due->origin, *extent = &p->due->extent;
@@ -136,7 +136,7 @@ static void shrink_items(struct pair *p, struct rg_culprit *culprit)
 
 // --- finding ---
 
-// Whether a kernel packs the items of a DRAW program.
+// Whether a kernel packs primitives for a DRAW kernel.
 static bool is_packer(const struct rg_kernel *kernel)
 {
     const struct rg_kernel *const *all;
@@ -148,7 +148,7 @@ static bool is_packer(const struct rg_kernel *kernel)
     return packs;
 }
 
-// Whether a device has the kernels that pack.
+// Whether a device has the packing kernels.
 static bool has_packers(const struct rg_device *device)
 {
     int i = 0;
@@ -218,7 +218,7 @@ bool rg_culprit_find(const struct rg_digest_run *run, const struct rg_blame *bla
     }
     if (blame->first.frame + 1 < run->frames)
         until.frames = (int)blame->first.frame + 1;
-    rg_log_hold(p.falls); // how it does is known
+    rg_log_hold(p.falls); // how it fails is known already
     const bool ok =
         rg_digests_dispatches(&until, p.falls ? truth : device, blame->first.stages_run, &all) &&
         find(&p, blame, &all, culprit);

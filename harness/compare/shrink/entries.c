@@ -1,4 +1,4 @@
-// Files of a user's own, made smaller.
+// Reduces the user's own files.
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,11 +9,11 @@
 #include "harness/compare/shrink/files.h"
 #include "harness/compare/shrink/search.h"
 
-// What a file is made of: lines, or the entries of one array of a JSON object.
+// A file's entries: its lines, or the elements of one array of a JSON object.
 struct entries {
     json_t *root;       // NULL: lines
-    const char *key;    // of the array
-    const char **lines; // where each begins, and where the last ends
+    const char *key;    // name of the array
+    const char **lines; // start of each line, and end of the last
     int count;
     bool *kept;
 };
@@ -38,7 +38,7 @@ static bool write_entries(const struct entries *e, const char *path)
     return (!out || fclose(out) == 0) && ok;
 }
 
-// The best without these entries; whether that keeps the difference.
+// Tries the best run with only the entries that are kept; whether it has the difference still.
 static bool try_without(struct rg_search *s, const struct rg_param *param, const struct entries *e,
                         const char *ending)
 {
@@ -53,7 +53,7 @@ static bool try_without(struct rg_search *s, const struct rg_param *param, const
     return keeps;
 }
 
-// Leaves out halves, then quarters, and at last single ones, from the end.
+// Leaves out halves, then quarters, and at last single entries, starting at the end.
 static void leave_out(struct rg_search *s, const struct rg_param *param, struct entries *e,
                       const char *ending)
 {
@@ -84,7 +84,7 @@ static void shrink_entries(struct rg_search *s, const struct rg_param *param, st
     free(e->kept);
 }
 
-// The first array of an object, such as its lights.
+// Reduces the first array of an object, such as its lights.
 static void shrink_array(struct rg_search *s, const struct rg_param *param, json_t *root)
 {
     const char *key;
@@ -127,7 +127,7 @@ void rg_search_entries(struct rg_search *s, const struct rg_param *param)
     json_t *root = bytes ? json_loadb(bytes + mark, size - mark, 0, NULL) : NULL;
     if (json_is_object(root))
         shrink_array(s, param, root);
-    else if (bytes && strlen(bytes) == size) // a text
+    else if (bytes && strlen(bytes) == size) // it is text
         shrink_lines(s, param, bytes, ending);
     json_decref(root);
     free(bytes);

@@ -11,8 +11,8 @@
 #include "core/base/text/plain.h"
 #include "harness/record/output.h"
 
-// kernel.txt has numbers of Vulkan's, so that run.c need not know ours.
-enum { GROUP_ITEMS = 64 }; // of shaders/grid.glsl
+// kernel.txt uses Vulkan's numbers, so that run.c need not know raingauge's enums.
+enum { GROUP_ITEMS = 64 }; // as in shaders/grid.glsl
 enum { SAMPLED_IMAGE = 1, STORED_IMAGE = 3, UNIFORM_BLOCK = 6, STORAGE_BUFFER = 7 };
 enum { COLOUR_ASPECT = 1, DEPTH_ASPECT = 2 };
 static const int vulkan_formats[RG_FORMAT_COUNT] = {
@@ -39,7 +39,7 @@ static void add(struct folder *f, const char *name, const void *bytes, size_t si
     f->owned[at] = owned;
 }
 
-// --- what it holds ---
+// --- the contents ---
 
 static bool add_code(struct folder *f, struct rg_device *device, enum rg_code_kind kind,
                      const char *name, size_t *size)
@@ -50,8 +50,8 @@ static bool add_code(struct folder *f, struct rg_device *device, enum rg_code_ki
     return code;
 }
 
-// Adds the parts of `bytes` that differ from `before`; NULL: from zero. Where less lies between two
-// than a part's head takes, they are one.
+// Adds the parts of `bytes` that differ from `before`; NULL: from zero. Parts are joined if the gap
+// between them is smaller than a part's header.
 static bool add_parts(struct folder *f, const char *name, const unsigned char *bytes,
                       const unsigned char *before, size_t size)
 {
@@ -78,8 +78,8 @@ static bool add_parts(struct folder *f, const char *name, const unsigned char *b
     return ok;
 }
 
-// The uniform block at binding 0: the first item and the end, of four ints each, then the kernel's
-// parameters, padded as std140 has it.
+// Adds the uniform block of binding 0: the first item and the end, four ints each, then the
+// kernel's parameters, padded as in std140.
 static bool add_block(struct folder *f, size_t *size)
 {
     const struct rg_dispatched *d = &f->culprit->due;
@@ -236,7 +236,7 @@ static bool fill(struct folder *f, const char *note, struct rg_device *device,
     return ok;
 }
 
-// Whether a file is one that a folder of this kind may have.
+// Whether a file name is one that such a folder may contain.
 static bool is_known(const char *name)
 {
     static const char *const all[] = {"kernel.spv", "kernel.comp", "kernel.cl",
@@ -249,7 +249,7 @@ static bool is_known(const char *name)
            point && (!strcmp(point, ".before") || !strcmp(point, ".expected"));
 }
 
-// Removes what an earlier case has left there, and the folder with it where nothing stays.
+// Removes files of an earlier case, and the folder if it is empty then.
 static void remove_stale(const struct folder *f)
 {
     char path[sizeof(f->path) + 256];

@@ -1,4 +1,4 @@
-// A case on one device: whether that leaves what is expected.
+// Replays a case on one device, and compares the result with the expected one.
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 static const char mend[] = "write one anew with `raingauge shrink`";
 
-// The stage behind which so many have run; NULL: there are fewer.
+// The last of the first `stages_run` stages; NULL: there are fewer.
 static const char *stage_behind(const struct rg_digests *digests, int stages_run)
 {
     for (int row = 0; row < digests->count; row++)
@@ -26,8 +26,8 @@ static bool knows_asset(const struct rg_digests *digests, const char *asset)
     return false;
 }
 
-// Whether what the case is about is there: stages and assets are raingauge's own, so that one of
-// another version says nothing of a device.
+// Whether this version has the case's stage and asset. They are raingauge's own, so a case of
+// another version says nothing about a device.
 static bool is_of_this_version(const struct rg_case *c, const struct rg_digests *digests)
 {
     const char *stage = stage_behind(digests, c->stages_run);
@@ -58,7 +58,7 @@ static int tell(const struct rg_case *c, const struct rg_digests *digests, const
     return is_same ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
-// The line that tells how it failed has been logged.
+// Prints how the device failed; the error's line has been logged already.
 static void tell_fall(const struct rg_case *c, struct rg_device *device)
 {
     const struct rg_fall fall = rg_fall_now(device);

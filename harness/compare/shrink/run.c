@@ -1,6 +1,5 @@
-// Runs the compute shader kernel.spv as kernel.txt says, and compares what it leaves with what is
-// expected. Exit status: 0 it is the same, 1 it differs, 2 something failed, 77 there is no such
-// device.
+// Runs the compute shader kernel.spv as kernel.txt describes, and compares its results with the
+// expected ones. Exit status: 0 equal, 1 different, 2 something failed, 77 no such device.
 // clang-format off
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,8 +14,8 @@
 
 static struct slot { // a line of kernel.txt
     unsigned at, type, format, aspect, texel, width, height, layers, levels, size;
-    char before[64], expected[64]; // files; "-": it is not written
-    unsigned char *bytes;          // of the buffer, which holds what an image does, too
+    char before[64], expected[64]; // files; "-": the slot is not written
+    unsigned char *bytes;          // of the buffer, which also holds an image's texels
     VkBuffer buffer;
     VkImage image;
     VkImageView view;
@@ -35,8 +34,8 @@ static void *read_code(const char *path, size_t *size) { // the whole file
     return bytes;
 }
 
-static void read_parts(const char *path, unsigned char *bytes, size_t size) { // the parts that it has; all else stays
-    unsigned part[2]; // where it begins, and how many bytes follow
+static void read_parts(const char *path, unsigned char *bytes, size_t size) { // only the parts in the file; other bytes stay
+    unsigned part[2]; // offset and size in bytes
     FILE *file = fopen(path, "rb");
     for (size_t head; file && (head = fread(part, 1, sizeof(part), file));)
         if (head != sizeof(part) || part[0] > size || part[1] > size - part[0] || fread(bytes + part[0], 1, part[1], file) != part[1])
@@ -92,7 +91,7 @@ static void make_slot(struct slot *s) {
     VkMemoryRequirements needs;
     NEW(Buffer, BUFFER, &s->buffer, .size = s->size, .usage = 0x33); // copies both ways, a uniform block, storage
     vkGetBufferMemoryRequirements(device, s->buffer, &needs);
-    VkDeviceMemory held = allocate(needs, 0x6); // that the host sees, and coherent
+    VkDeviceMemory held = allocate(needs, 0x6); // visible to the host, and coherent
     TRY(vkBindBufferMemory(device, s->buffer, held, 0));
     TRY(vkMapMemory(device, held, 0, VK_WHOLE_SIZE, 0, (void **)&s->bytes));
     read_parts(s->before, memset(s->bytes, 0, s->size), s->size);
@@ -105,7 +104,7 @@ static void make_slot(struct slot *s) {
         .subresourceRange = {s->aspect, 0, stored ? 1 : s->levels, 0, s->layers});
 }
 
-// Lets what follows, and the host, see what went before; a fresh image gets the layout that all may be done in.
+// Makes earlier writes visible to later commands and the host; a fresh image gets the general layout, which all uses allow.
 static void wait_for_all(const struct slot *fresh) {
     VkImageSubresourceRange range = {fresh->aspect, 0, fresh->levels, 0, fresh->layers};
     vkCmdPipelineBarrier(commands, 0x10000, 0x14000, 0, 1, // all commands; and the host

@@ -10,19 +10,19 @@
 #include "harness/devices/workers/device.h"
 #include "harness/record/named.h"
 
-// Opens the best on both devices, and closes what was there before.
+// Opens the best run on both devices, and closes the one that was open before.
 static void hold_best(struct rg_search *s)
 {
     struct rg_device *devices[2] = {s->asked->device, s->asked->truth};
-    for (int i = s->fall.outcome ? 1 : 0; i < 2; i++) { // a device that fails holds nothing
+    for (int i = s->fall.outcome ? 1 : 0; i < 2; i++) { // nothing is open on a device that fails
         struct rg_session *next = rg_session_open(devices[i], &s->best.subject);
         rg_session_close(s->held[i]);
         s->held[i] = next;
     }
 }
 
-// Whether the device fails at a run which the truth does, and how: the blame then is of what the
-// truth leaves behind that stage.
+// Whether the device fails in a run that the truth completes, and how. The blame then describes the
+// truth's results at that stage.
 static bool falls(struct rg_search *s, const struct rg_digest_run *run, struct rg_fall *fall,
                   struct rg_blame *blame)
 {
@@ -42,7 +42,7 @@ static bool falls(struct rg_search *s, const struct rg_digest_run *run, struct r
     return blame->found;
 }
 
-// The same for the frames that are asked for: for one, then twice as many, up to all.
+// Tries ever more frames, from one by doubling, until the device fails.
 static bool find_fall(struct rg_search *s)
 {
     struct rg_digest_run part = s->best;
@@ -57,7 +57,7 @@ static bool find_fall(struct rg_search *s)
     return s->blame.found;
 }
 
-// What differs first. Lines are held until it is known that they are no difference.
+// Finds the first difference. Lines are held, since a failure may turn out to be the difference.
 static bool find_difference(struct rg_search *s)
 {
     struct rg_device *device = s->asked->device, *truth = s->asked->truth;
@@ -97,8 +97,8 @@ void rg_search_end(struct rg_search *s)
     rg_session_close(s->held[1]);
 }
 
-// Whether the first difference of two runs is the one that is sought, and light enough: asked
-// before what kind it is, which takes more runs.
+// Whether the first difference of two runs is the one that is sought, and its weight small enough.
+// This is checked before its kind, which takes more runs.
 static bool is_sought(const struct rg_search *s, const struct rg_digests *now,
                       const struct rg_digests *due, int64_t most_weight)
 {
@@ -109,7 +109,7 @@ static bool is_sought(const struct rg_search *s, const struct rg_digests *now,
            !strcmp(now->rows[row].asset, s->blame.first.asset);
 }
 
-// The same where the device fails: it does so in the same way.
+// The same if the device fails: whether it fails in the same way.
 static bool falls_alike(struct rg_search *s, const struct rg_digest_run *run, int64_t most_weight,
                         struct rg_blame *blame)
 {
@@ -127,7 +127,7 @@ static bool is_alike(struct rg_search *s, const struct rg_digest_run *run, int64
     const bool is_near = ok && is_sought(s, &now, &due, most_weight);
     if (is_near)
         ok = rg_blame_row(run, device, truth, &now, &due, blame);
-    // Settings that do not go together are refused, which is no failure of a device.
+    // Settings that exclude each other are refused; this is no failure of a device.
     const struct rg_failure failure = rg_failure_take();
     if (!ok && failure.fault != RG_FAULT_INPUT && failure.fault != RG_FAULT_NONE) {
         s->is_over = true;

@@ -49,7 +49,7 @@ static void shrink_size(struct rg_search *s)
 {
     if (try_size(s, LEAST_PX, LEAST_PX))
         return;
-    for (int axis = 0; axis < 2; axis++) // halves each side as often as that keeps it
+    for (int axis = 0; axis < 2; axis++) // halves each side while the difference remains
         while (try_size(s, axis ? s->best.subject.width : s->best.subject.width / 2,
                         axis ? s->best.subject.height / 2 : s->best.subject.height))
             ;
@@ -72,8 +72,8 @@ static bool try_number(struct rg_search *s, const struct rg_param *param, double
     return rg_search_value(s, param, text, most);
 }
 
-// The least of an integer that keeps the difference and weighs less: its least value, or what is
-// found by halving the way to one that does not.
+// Searches the smallest integer that keeps the difference and weighs less: its minimum, or else by
+// bisection between that and its value.
 static void shrink_count(struct rg_search *s, const struct rg_param *param)
 {
     double low = param->min;
@@ -88,7 +88,8 @@ static void shrink_count(struct rg_search *s, const struct rg_param *param)
     }
 }
 
-// A real number that weighs less at its least value, or half as far from it, again and again.
+// Reduces a real number to its minimum, or halves its distance from it repeatedly, while the run
+// weighs less.
 static void shrink_amount(struct rg_search *s, const struct rg_param *param)
 {
     if (value_of(s, param) <= param->min || try_number(s, param, param->min, weight(s) - 1))
@@ -99,7 +100,7 @@ static void shrink_amount(struct rg_search *s, const struct rg_param *param)
             return;
 }
 
-// Half as far from the default, as often as that keeps the difference.
+// Halves the distance from the default while the difference remains.
 static void approach(struct rg_search *s, const struct rg_param *param)
 {
     for (int i = 0; i < FLOAT_HALVES; i++) {
@@ -116,7 +117,7 @@ static bool is_seed(const struct rg_param *param)
     return strstr(param->name, "seed") != NULL;
 }
 
-// The choice that weighs least.
+// Tries each choice; the one that weighs least remains.
 static void shrink_choice(struct rg_search *s, const struct rg_param *param)
 {
     char choice[64];
@@ -126,7 +127,7 @@ static void shrink_choice(struct rg_search *s, const struct rg_param *param)
     }
 }
 
-// A model or map that weighs less: none, or for a file of one's own fewer entries.
+// Tries a model or map that weighs less: none, or fewer entries in the user's own file.
 static void shrink_file(struct rg_search *s, const struct rg_param *param)
 {
     char value[RG_PATH_SIZE];
@@ -139,7 +140,7 @@ static void shrink_file(struct rg_search *s, const struct rg_param *param)
 
 // --- all parameters ---
 
-// What the user has set and does not matter goes back to its default; numbers as far as they may.
+// Sets parameters back to their defaults where the difference remains; numbers as far as possible.
 static void restore_defaults(struct rg_search *s)
 {
     const struct rg_param_table *table = s->best.subject.technique->params;
@@ -189,7 +190,7 @@ int rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *foun
     *found = (struct rg_case){0};
     const bool ok = rg_search_begin(&s, request);
     if (ok) {
-        rg_log_hold(true); // settings that are refused
+        rg_log_hold(true); // of settings that are refused
         search(&s);
         rg_log_hold(false);
     }

@@ -1,4 +1,4 @@
-// Reduces a difference between two devices to the least that still has it.
+// Reduces a difference between two devices to the smallest run that still has it.
 #ifndef RG_HARNESS_COMPARE_SHRINK_SHRINK_H
 #define RG_HARNESS_COMPARE_SHRINK_SHRINK_H
 
@@ -7,16 +7,16 @@
 struct rg_shrink_request {
     struct rg_digest_run run;
     struct rg_device *device, *truth;
-    int seconds;        // after which nothing more is tried
-    const char *folder; // where files that have been made smaller are put
+    int seconds;        // limit, after which nothing more is tried
+    const char *folder; // for files that were reduced
 };
 
-// Tries fewer frames and pixels, defaults of parameters, and what weighs less (struct rg_digest):
-// counts, choices, files with fewer entries and real numbers; as long as the same stage differs in
-// the same asset and class. `found` gets the least, whose settings the caller frees, and `blame`
-// what it comes to; `tried`, how many were. Returns an exit status, after one logged line where it
-// is not RG_EXIT_PASS: RG_EXIT_FAIL where nothing differs, that of the error where a device fails
-// at once; one that fails later ends the search, which is one line too.
+// Tries fewer frames and pixels, default parameters, and smaller weights (struct rg_digest):
+// counts, choices, files with fewer entries and real numbers. The stage, asset and class of the
+// difference must stay the same. `found` gets the smallest run, whose settings the caller frees,
+// `blame` its difference, `tried` the number of attempts. Returns an exit status, after one logged
+// line if it is not RG_EXIT_PASS: RG_EXIT_FAIL if nothing differs, the error's if a device fails at
+// once. A device that fails later ends the search, with one logged line.
 int rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *found,
                    struct rg_blame *blame, int *tried);
 
