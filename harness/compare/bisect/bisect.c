@@ -9,7 +9,7 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 
-// Tells why the command judges nothing, where nobody has told it.
+// Logs why the command's result is no verdict, unless that was logged.
 static bool stop(struct rg_bisect *b, const struct rg_judged *judged)
 {
     const char *const *names = b->candidates->names;
@@ -25,7 +25,7 @@ static bool stop(struct rg_bisect *b, const struct rg_judged *judged)
     return false;
 }
 
-// Judges a candidate. False where the command can judge none.
+// Judges a candidate. False if the command can judge none.
 static bool judge(struct rg_bisect *b, int64_t at)
 {
     const char *const *names = b->candidates->names;
@@ -40,7 +40,7 @@ static bool judge(struct rg_bisect *b, int64_t at)
     return true;
 }
 
-// Judges an end, which is to be `wanted`. An enum rg_exit.
+// Judges an end of the list, which has to be `wanted`. Returns an enum rg_exit.
 static int judge_end(struct rg_bisect *b, int64_t at, enum rg_judgement wanted)
 {
     const char *word = rg_judgement_name(wanted), *name = b->candidates->names[at];

@@ -15,13 +15,13 @@ int rg_git_status(enum rg_judgement verdict)
                                        : RG_EXIT_SIGNALLED;
 }
 
-// git alone knows where it keeps that: work trees and GIT_DIR have places of their own.
+// Only git knows this file's place, because of work trees and GIT_DIR.
 static bool git_is_bisecting(void)
 {
     static const char *const args[] = {
         "/bin/sh", "-c", "test -e \"$(git rev-parse --git-path BISECT_START)\"", NULL};
     pid_t child;
-    int status = -1; // where it cannot be waited for
+    int status = -1; // if the process cannot be waited for
     if (rg_program_start(args, (const int[]){-1, -1, -1}, 3, &child))
         return false;
     rg_program_wait(child, &status);

@@ -1,15 +1,15 @@
-// What `git bisect run` makes of an exit status: 1 to 127 are bad, but 125 is skip, and it ends
-// above that (git-bisect(1)).
+// Exit statuses for `git bisect run`: 1 to 127 mean bad, except 125, which means skip; higher ones
+// end the bisect (git-bisect(1)).
 #ifndef RG_HARNESS_COMPARE_BISECT_GIT_H
 #define RG_HARNESS_COMPARE_BISECT_GIT_H
 
 #include "harness/compare/bisect/verdict.h"
 
-// The exit status that tells git a verdict; stop ends its search.
+// The exit status for a verdict; stop ends git's bisect.
 int rg_git_status(enum rg_judgement verdict);
 
-// The exit status of bad usage: the usual one, but where git bisects the repository of the current
-// folder, that of stop, for git would find a misspelt option bad all the way down.
+// The exit status for bad usage. While git bisects the repository of the current folder it is that
+// of stop; otherwise git would take a misspelt option for a bad commit at every step.
 int rg_git_status_of_usage(void);
 
 #endif

@@ -8,7 +8,7 @@
 #include "core/base/log.h"
 #include "core/base/text/plain.h"
 
-enum { MOST_BYTES = 1 << 16 }; // half of what the system takes for a variable
+enum { MOST_BYTES = 1 << 16 }; // half of the system's limit for a variable
 
 bool rg_candidates_add(const char *name, struct rg_candidates *candidates)
 {
@@ -39,7 +39,7 @@ bool rg_candidates_read(const char *path, struct rg_candidates *candidates)
                   rg_error("%s: names no candidate; write one a line, in order", path));
 }
 
-// --- what is between the ends ---
+// --- between the ends ---
 
 static int compare_names(const void *a, const void *b)
 {
@@ -70,7 +70,7 @@ static int64_t place_of(const char *name, const struct rg_candidates *candidates
     return -1;
 }
 
-// Puts the ends around what is there.
+// Puts the ends before and after the candidates.
 static bool put_around(const char *good, const char *bad, struct rg_candidates *candidates)
 {
     if (!rg_candidates_add(good, candidates) || !rg_candidates_add(bad, candidates))

@@ -10,18 +10,18 @@
 struct rg_candidates {
     int64_t count, room;
     const char **names;    // from the good end to the bad one; not owned
-    struct rg_lines lines; // what those of a file lie in
+    struct rg_lines lines; // memory of names from a file
 };
 
-// Adds the lines of a text file that say something (harness/compare/gate/text/lines.h), without the
-// blanks around them. `candidates` is zeroed before; the caller calls rg_candidates_free in any
-// case, of all functions here.
+// Adds the lines of a text file that are neither blank nor comments
+// (harness/compare/gate/text/lines.h), without blanks around them. `candidates` is zeroed before;
+// after any function here the caller calls rg_candidates_free.
 bool rg_candidates_read(const char *path, struct rg_candidates *candidates);
 bool rg_candidates_add(const char *name, struct rg_candidates *candidates);
 
-// Keeps what lies from `good` to `bad`, in this direction: a list may have the newest first. Where
-// it has neither they stand around it. False, and one logged line, where it has one of them alone,
-// where they are the same, or where a candidate stands there twice.
+// Keeps the candidates from `good` to `bad`; a list may also have the newest first. If it has
+// neither, they are added as its ends. False, and one logged line, if it has only one of them, if
+// both are the same, or if a candidate is listed twice.
 bool rg_candidates_between(const char *good, const char *bad, struct rg_candidates *candidates);
 void rg_candidates_free(struct rg_candidates *candidates);
 

@@ -1,4 +1,4 @@
-// What a bisect tells, for people and for programs.
+// Prints a bisect's verdicts and result, as text and as JSON.
 #include <jansson.h>
 
 #include "core/base/log.h"
@@ -52,7 +52,7 @@ static json_t *judged_json(const struct rg_bisect *b)
     return all;
 }
 
-// The candidates that may be the first bad one; none where that is not known.
+// The candidates that may be the first bad one; empty if that is not known.
 static json_t *suspects_json(const struct rg_bisect *b)
 {
     json_t *all = json_array();

@@ -47,13 +47,13 @@ enum rg_judgement rg_judgement_of(int status, bool crash_is_bad)
     }
 }
 
-// Waits for a process, and asks its group to end where we are asked to. Its exit status as a shell
-// tells it.
+// Waits for a process, and sends SIGTERM to its group if raingauge is interrupted. Returns its exit
+// status as a shell reports it.
 static int wait_for(pid_t child)
 {
     enum { PAUSE_MS = 5 };
     bool is_asked = false;
-    int status = RG_EXIT_SIGNALLED << 8; // the exit status where it cannot be waited for
+    int status = RG_EXIT_SIGNALLED << 8; // if the process cannot be waited for
     while (!rg_program_has_ended(child, &status)) {
         if (rg_interrupted() && !is_asked) {
             is_asked = true;
@@ -64,7 +64,7 @@ static int wait_for(pid_t child)
     return WIFSIGNALED(status) ? RG_EXIT_SIGNALLED + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-// The status of the shell with a line; below 0: it could not be started.
+// Runs a line in a shell and returns its exit status; below 0: the shell could not be started.
 static int run_line(const char *line, bool prints_here)
 {
     const char *const args[] = {"/bin/sh", "-c", line, NULL};
@@ -83,7 +83,7 @@ void rg_judging_budget(const struct rg_judging *judging, int number, char budget
     snprintf(budget, 32, "%.10gs", ldexp(judging->budget_s, number));
 }
 
-// Sets a variable of the command. No value: there is none to set.
+// Sets a variable of the command's environment; NULL: leaves it.
 static bool hand_over(const char *variable, const char *value)
 {
     return !value || !setenv(variable, value, 1) ||

@@ -1,12 +1,12 @@
-// One candidate of a bisect, judged by a command.
+// Judges one candidate of a bisect by a command.
 #ifndef RG_HARNESS_COMPARE_BISECT_VERDICT_H
 #define RG_HARNESS_COMPARE_BISECT_VERDICT_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// Variables hand each candidate to the command: the shell takes one in quotes for one word, so that
-// no name of a candidate is ever read as code.
+// Environment variables that pass a candidate to the command. The shell expands a quoted variable
+// to one word, so a candidate's name is never run as code.
 #define RG_VARIABLE_CANDIDATE "RG_CANDIDATE"
 #define RG_VARIABLE_GOOD      "RG_GOOD"
 #define RG_VARIABLE_BUDGET    "RG_BUDGET"
@@ -15,43 +15,42 @@ enum rg_judgement {
     RG_JUDGED_NONE, // not judged yet
     RG_JUDGED_GOOD,
     RG_JUDGED_BAD,
-    RG_JUDGED_SKIP,  // it cannot be judged
-    RG_JUDGED_AGAIN, // not with so much measured
-    RG_JUDGED_STOP,  // no candidate could be: the command is wrong, or was asked to end
+    RG_JUDGED_SKIP,  // the candidate cannot be judged
+    RG_JUDGED_AGAIN, // more has to be measured
+    RG_JUDGED_STOP,  // the command is wrong or was interrupted; no candidate can be judged
 };
 enum { RG_JUDGED_COUNT = RG_JUDGED_STOP + 1 };
 
-// "good": the words of all forms.
+// "good": the same words in all forms.
 const char *rg_judgement_name(enum rg_judgement verdict);
 
-// What the exit status of a command says: 0 good, 1 bad, 3 again, 4, 77 and 125 skip; a process
-// that a signal ended, or a status above 128, as shells tell of such a process, skip or, where
-// `crash_is_bad`, bad; all else stop.
+// Maps a command's exit status: 0 good, 1 bad, 3 again, 4, 77 and 125 skip. A process that a signal
+// ended, or a status above 128, which shells report for one, is skip or, with `crash_is_bad`, bad.
+// All others are stop.
 enum rg_judgement rg_judgement_of(int status, bool crash_is_bad);
 
 struct rg_judging {
     const char *line; // for the shell
-    double budget_s;  // RG_BUDGET at the first try; each further has twice as much
+    double budget_s;  // RG_BUDGET of the first try, doubled for each further try
     int tries;        // at most
     bool crash_is_bad;
-    bool prints_here; // what the command prints to stdout comes to ours; else to stderr
+    bool prints_here; // the command's stdout goes to ours, else to stderr
 };
 
 struct rg_judged {
-    enum rg_judgement verdict; // never again: what is so after the last try is skipped
-    int status;                // of the last try: 128 and the number of a signal that ended it
+    enum rg_judgement verdict; // never again, which becomes skip after the last try
+    int status;                // of the last try; 128 plus the number of a signal that ended it
     int tries;
     double seconds;
-    int64_t at; // of the candidate, in its list
+    int64_t at; // index of the candidate in its list
 };
 
-// RG_BUDGET of a try, counted from 0.
+// Writes RG_BUDGET of a try, counted from 0.
 void rg_judging_budget(const struct rg_judging *judging, int number, char budget[32]);
 
-// Judges a candidate, which the command gets as RG_CANDIDATE, and the good end as RG_GOOD; NULLs
-// where there are none. Its verdict is stop, too, and one line is logged, where the shell cannot be
-// started. A signal that asks raingauge to end
-// (harness/console/interrupt.h) ends the command first.
+// Judges a candidate. The command gets it as RG_CANDIDATE, and the good end as RG_GOOD; NULL: not
+// set. The verdict is stop, with one logged line, also if the shell cannot be started. A signal to
+// raingauge (harness/console/interrupt.h) ends the command first.
 struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidate,
                           const char *good);
 
