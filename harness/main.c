@@ -1,4 +1,4 @@
-// raingauge: the instrument by which rain on a screen is measured.
+// raingauge: measures how correctly and how fast graphics drivers draw rain.
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
@@ -24,22 +24,22 @@ static void print_usage(void)
     printf("\n`raingauge COMMAND --help` prints a command's options.\n");
 }
 
-// A file that is opened where a standard stream was closed would take what is printed. So each such
-// stream is open, in a mode in which using it fails.
+// Opens standard streams that are closed, in a mode in which their use fails. Otherwise the next
+// opened file would take such a descriptor, and output would be written into it.
 static void open_standard_streams(void)
 {
     static const int modes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
         if (fcntl(fd, F_GETFD) < 0)
-            open("/dev/null", modes[fd]); // it takes the lowest descriptor that is free
+            open("/dev/null", modes[fd]); // takes the lowest free descriptor
 }
 
-// A full disk may be noticed at the last write alone.
+// A full disk may show only at the last write.
 static int finish(int exit)
 {
     if (!fflush(stdout) && !ferror(stdout))
         return exit;
-    rg_stdout_error(); // once: a command may have said so
+    rg_stdout_error(); // logs only once: a command may have reported it
     return rg_exit_worse(exit, RG_EXIT_HARNESS);
 }
 
@@ -53,7 +53,7 @@ static int refuse(const char *name)
     return RG_EXIT_USAGE;
 }
 
-// The program's help, or that of a command that is named.
+// Prints the program's help, or that of the named command.
 static int help(const char *name)
 {
     const struct rg_command *command = name ? rg_command_find(name) : NULL;
@@ -82,8 +82,8 @@ static int run(int argc, char **argv)
     return refuse(argv[1]);
 }
 
-// Drivers' destructors are no part of the work, and some of them crash. Sanitizers look for leaks
-// when a process ends as usual.
+// Skips drivers' destructors, some of which crash after the work is done. Sanitizers need the usual
+// exit to look for leaks.
 static int serve(const char *argument)
 {
     rg_threads_fit();
@@ -96,7 +96,7 @@ static int serve(const char *argument)
 
 int main(int argc, char **argv)
 {
-    rg_interrupt_hold(); // a signal between here and there would be lost to a first process
+    rg_interrupt_hold(); // a signal before rg_interrupt_heed would be lost to a first process
     if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
         return serve(argv[2]);
     open_standard_streams();
@@ -105,9 +105,10 @@ int main(int argc, char **argv)
     rg_threads_fit();
     rg_workers.program = rg_program_self();
     rg_workers.hello = rg_serving_hello();
-    // A write past a file-size limit then fails with EFBIG and is reported, instead of killing us.
+    // A write past a file-size limit then fails with EFBIG and is reported, instead of ending us.
     signal(SIGXFSZ, SIG_IGN);
-    // Who ignores it has no child to wait for, and whoever started us may have passed that on.
+    // While SIGCHLD is ignored, no child can be waited for, and our parent may have left it
+    // ignored.
     signal(SIGCHLD, SIG_DFL);
     if (argc > 1)
         return finish(run(argc, argv));

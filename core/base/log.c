@@ -47,7 +47,7 @@ const char *rg_fault_name(enum rg_fault fault)
     return names[fault];
 }
 
-// Where nobody said why, there was no memory to say it.
+// A failure without a logged error is a lack of memory: none was left for the message.
 struct rg_failure rg_failure_take(void)
 {
     struct rg_failure now = last;

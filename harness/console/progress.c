@@ -88,13 +88,14 @@ void rg_progress_due(struct rg_progress *p, double left_ms)
     p->due_ms = left_ms < 0 ? -1 : rg_now_ms() + left_ms;
 }
 
-// Whether a tenth is behind.
+// Whether a tenth of the time has passed.
 static bool is_well_begun(const struct rg_progress *p, double now_ms, double left_ms)
 {
     return 10 * (now_ms - p->start_ms) >= now_ms - p->start_ms + left_ms;
 }
 
-// By what units took: all but the first of them, and those that were done last.
+// Estimates from the units done: from all but the first ones, and from the latest ones. 0 if one
+// estimate is more than twice the other.
 static double left_by_units_ms(const struct rg_progress *p, double now_ms)
 {
     const struct rg_progress_mark *mark = &p->marks[0];
@@ -122,8 +123,8 @@ void rg_progress_told(void)
     is_told_otherwise = true;
 }
 
-// Once how long all takes, where that is long; then how long the rest does, with every tenth of the
-// time, but no more often than what is long takes.
+// Logs the total time once, if it is long; then the time left with every tenth of the total, but
+// not more often than the time that counts as long.
 static void tell(struct rg_progress *p, double now_ms)
 {
     char text[RG_DURATION_TEXT];
