@@ -29,7 +29,7 @@ struct rg_device *rg_batch_device(const struct rg_batch *batch, int device)
     const struct rg_devices *all = batch->kept->devices;
     const char *name = batch->result->devices[device].name;
     if (device < all->count && !strcmp(all->devices[device]->info.name, name))
-        return all->devices[device]; // one may be given twice
+        return all->devices[device]; // a device may be given twice
     return rg_kept_device(batch->kept, name);
 }
 

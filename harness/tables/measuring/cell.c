@@ -22,7 +22,8 @@ double rg_cell_image_ms(const struct rg_table *table, const struct rg_cell_frame
     return f->open_ms + (rg_cell_check_frames(table) - 1) * f->step_ms + f->frame_ms;
 }
 
-// Looking must not take as long as what it foresees: some steps stand for all that take longer.
+// Simulates steps, but not for long: this must not take as long as the measurement that it
+// predicts.
 static bool simulate(struct rg_session *session, int steps, double *step_ms)
 {
     enum { LONGEST_MS = 4000 };
@@ -39,7 +40,7 @@ static bool simulate(struct rg_session *session, int steps, double *step_ms)
     return ok;
 }
 
-// Opening draws a frame, for drivers compile in it. The second is the first that is timed.
+// Opening draws the first frame, in which drivers compile, so the second one is timed.
 struct rg_session *rg_cell_look(struct rg_device *device, const struct rg_subject *subject,
                                 int steps, struct rg_cell_frames *f)
 {
@@ -58,7 +59,7 @@ struct rg_session *rg_cell_look(struct rg_device *device, const struct rg_subjec
     return NULL;
 }
 
-// Frames of a window of which no more are left: its instance is opened anew.
+// The time for opening the instance again each time it has used up its window of frames.
 static double reopen_ms(const struct rg_table *table, const struct rg_cell_frames *f, double frames)
 {
     if (!table->window_frames)
@@ -66,14 +67,14 @@ static double reopen_ms(const struct rg_table *table, const struct rg_cell_frame
     return floor(frames / table->window_frames) * rg_cell_image_ms(table, f);
 }
 
-// Long frames end the warm-up as soon as its time is over, and short ones once they are alike,
-// which those are that come after the check frames.
+// Long frames end the warm-up when its time is over; short ones end it once they are steady, which
+// they are after the check frames.
 static double warm_up_frames(double ms, const struct rg_measure_options *o)
 {
     return fmin(fmax(o->warm_up_frames, 1), floor(o->warm_up_ms / ms) + 1);
 }
 
-// What is drawn before its image is compared are the first of its frames and the last.
+// Only the first and the last of the check frames are drawn; the others are simulated.
 static double check_ms(const struct rg_table *table, const struct rg_cell_frames *f)
 {
     const int frames = rg_cell_check_frames(table);

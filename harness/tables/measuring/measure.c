@@ -1,6 +1,6 @@
-// A table from its rows to their numbers. As many rows as memory holds are open together and are
-// visited in turn. Where it does not hold all, each group of rows is visited several times, so that
-// what disturbs the machine for a while disturbs no row alone.
+// Measures a table's rows. As many rows as fit into memory are open together and timed in turn. If
+// not all fit, each group of rows is visited several times, so that a temporary disturbance of the
+// machine does not hit one row alone.
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -9,20 +9,20 @@
 #include "harness/tables/measuring/batch.h"
 #include "harness/tables/measuring/measure.h"
 
-// So often is each group of rows visited, where there are several.
+// Visits to each group of rows, if there are several groups.
 enum { VISITS = 3 };
-// More buffers and images than any technique's instance has.
+// Upper limit of the buffers and images of an instance.
 enum { OBJECTS_AN_INSTANCE = 100 };
-// Of a bar, for each cell: so many when it is open, and as many again when it is sampled.
+// Units of the progress bar per cell: for opening it, and again for sampling it.
 enum { CELL_UNITS = 1000 };
-// What is measured is kept on disk so often.
+// How often results are saved to disk.
 #define KEEP_EVERY_MS 30000
 
 // Rows that are open together, and their jobs in the batch.
 struct group {
     int first_row, last_row;
     int first_job, job_count;
-    int64_t units; // of the bar, for its samples
+    int64_t units; // of the progress bar, for the group's samples
 };
 
 struct measuring {
@@ -32,20 +32,20 @@ struct measuring {
     struct rg_journal *journal;
     struct rg_measure_options options;
     struct rg_progress *bar;
-    const struct rg_table_deadline *deadline; // NULL: there is none
+    const struct rg_table_deadline *deadline; // NULL: none
     int rows_opened;
-    double least_ms; // of the rows behind the first, what opening one took
+    double least_ms; // shortest opening of a row, without the first
     struct rg_batch batch;
     struct group groups[RG_TABLE_ROWS];
     int group_count;
-    struct group *now; // the group that is visited
-    double share;      // of its samples, which this visit takes
-    int64_t units;     // of the bar, told for what was sampled in this visit
-    double kept_ms;    // when something was kept last
-    int64_t available; // memory, when the group was begun, in bytes
+    struct group *now; // the visited group
+    double share;      // part of the group's samples that this visit takes
+    int64_t units;     // of the bar, for samples of this visit
+    double kept_ms;    // time of the last save
+    int64_t available; // memory in bytes when the group began
 };
 
-// --- what was measured is told, and kept ---
+// --- saving and reporting ---
 
 static void keep(struct measuring *m)
 {
@@ -57,7 +57,7 @@ static void keep(struct measuring *m)
     m->kept_ms = rg_now_ms();
 }
 
-// What the samples that are left take, of all jobs that were opened, and opening groups again.
+// The time for the remaining samples of all opened jobs, and for opening groups again.
 static double samples_left_ms(const struct measuring *m)
 {
     double ms = 0;
@@ -84,7 +84,7 @@ static void show_share(double share, void *user)
         keep(m);
 }
 
-// --- rows are opened ---
+// --- opening rows ---
 
 int64_t rg_table_units(const struct rg_result *result, const struct rg_journal *journal)
 {
@@ -95,7 +95,7 @@ int64_t rg_table_units(const struct rg_result *result, const struct rg_journal *
     return units;
 }
 
-// What samples of jobs take, and what opening these again for further visits does.
+// The time for the samples of jobs, and for opening them again in further visits.
 static double samples_ms(const struct measuring *m, const struct rg_job *jobs, int count,
                          int visits)
 {
@@ -109,8 +109,9 @@ static double samples_ms(const struct measuring *m, const struct rg_job *jobs, i
 
 // --- a deadline ---
 
-// Whether what is open will be sampled, and `rows` more be opened and sampled, only after the
-// deadline. The first row is no measure of how long others take to open: drivers compile in it.
+// Whether the samples of open rows, and opening and sampling `rows` more, would end after the
+// deadline. The first row does not tell how long others take to open, because drivers compile in
+// it.
 static bool is_late(const struct measuring *m, int rows)
 {
     if (!m->deadline || !m->rows_opened)
@@ -120,7 +121,7 @@ static bool is_late(const struct measuring *m, int rows)
     return rg_now_ms() + open_ms + rows * row_ms >= m->deadline->rows_ms;
 }
 
-// Forgets the jobs from this one on, whose row is dropped.
+// Drops the jobs from this one on, because their row is dropped.
 static void forget_jobs(struct measuring *m, int first_job)
 {
     for (; m->batch.job_count > first_job; m->batch.job_count--)
@@ -138,9 +139,9 @@ static void leave_out(struct measuring *m, int row)
     }
 }
 
-// --- a row is opened ---
+// --- opening a row ---
 
-// False where the deadline comes between two of its cells: it is no row then.
+// False if the deadline passes between two cells; the row is dropped then.
 static bool prepare(struct measuring *m, int row)
 {
     const double start_ms = rg_now_ms();
@@ -164,8 +165,7 @@ static bool prepare(struct measuring *m, int row)
     return true;
 }
 
-// Takes a row that an earlier run measured. False where it has to be measured now; a part of it may
-// be there then.
+// Takes over a row from the journal. False if it still has to be measured, wholly or in part.
 static bool take_row(struct measuring *m, int row)
 {
     if (!rg_journal_take(m->journal, m->result, row))
@@ -174,7 +174,7 @@ static bool take_row(struct measuring *m, int row)
     return rg_result_is_whole(m->result, row);
 }
 
-// Whether each device holds the buffers and images of so many rows.
+// Whether each device's limits allow the buffers and images of so many rows.
 static bool have_room(const struct measuring *m, int rows)
 {
     bool room = true;
@@ -186,7 +186,7 @@ static bool have_room(const struct measuring *m, int rows)
     return room;
 }
 
-// Whether one row more can be open, as large as those that are: half of the memory is theirs.
+// Whether memory allows one more row of the size of the open ones; rows may take half of it.
 static bool has_room(const struct measuring *m, int rows)
 {
     const int64_t taken = m->available - rg_memory_available();
@@ -196,7 +196,7 @@ static bool has_room(const struct measuring *m, int rows)
            have_room(m, rows + 1);
 }
 
-// How many rows, from this one on, are worth nothing without each other.
+// How many rows from this one on count only if all of them are measured.
 static int rows_due(const struct measuring *m, int row)
 {
     int rows = 1;
@@ -205,8 +205,8 @@ static int rows_due(const struct measuring *m, int row)
     return rows;
 }
 
-// Opens rows from `row` on, as many as memory holds, and returns the one that comes next. `*ok`:
-// there was memory for their records.
+// Opens rows from `row` on, as many as memory allows, and returns the next one. *ok becomes false
+// without memory for their records.
 static int open_group(struct measuring *m, struct group *group, int row, bool *ok)
 {
     struct rg_result *result = m->result;
@@ -231,14 +231,14 @@ static int open_group(struct measuring *m, struct group *group, int row, bool *o
         }
         group->last_row = row;
     }
-    // A texture's row has nothing that tells whether it is whole.
+    // A texture's row has no mark of being complete.
     if (rg_interrupted() && result->is_of_textures && group->last_row >= group->first_row)
         rg_result_drop_row(result, group->last_row);
     group->job_count = m->batch.job_count - group->first_job;
     return row;
 }
 
-// --- groups are visited ---
+// --- visiting groups ---
 
 static void close_jobs(struct measuring *m, const struct group *group)
 {
@@ -250,7 +250,7 @@ static void close_jobs(struct measuring *m, const struct group *group)
     }
 }
 
-// Once its jobs are open it is known what its samples take.
+// Adjusts the bar's total, since the open jobs now tell how long their samples take.
 static void expect_samples(struct measuring *m, struct group *group, int visits)
 {
     const double unit_ms = rg_progress_unit_ms(m->bar, rg_now_ms());
@@ -263,7 +263,7 @@ static void expect_samples(struct measuring *m, struct group *group, int visits)
     rg_progress_grow(m->bar, group->units - planned);
 }
 
-// Takes the samples of a group up to a visit's share of all.
+// Takes a group's samples up to this visit's share of all.
 static void visit(struct measuring *m, struct group *group, int visits, int number)
 {
     m->now = group;
@@ -279,7 +279,7 @@ static void visit(struct measuring *m, struct group *group, int visits, int numb
     close_jobs(m, group);
 }
 
-// The first visit to each group opens it; where all rows are in one, no other follows.
+// The first visit to each group opens it; if one group has all rows, it is the only visit.
 static bool visit_all(struct measuring *m)
 {
     const int last = m->result->last_row;

@@ -1,8 +1,8 @@
-// How cells of each length are measured.
+// The options for measuring cells quickly, fully, and with the fewest samples.
 #include "harness/measure/calibration.h"
 #include "harness/tables/measuring/measure.h"
 
-// Of fewer than 6 samples a median has no interval of 95 %.
+// A median of fewer than 6 samples has no 95 % interval.
 static const struct rg_measure_options quick = {.most_samples = 15,
                                                 .least_samples = 6,
                                                 .sample_ms = 15,
@@ -20,7 +20,7 @@ static const struct rg_measure_options full = {.most_samples = 61,
                                                .passes_ms = 400,
                                                .load = rg_calibration_load};
 
-// Frames that are long are warm after the one that is checked and the one that is counted.
+// Long frames are warm after the checked frame and the counted one.
 static const struct rg_measure_options few = {.most_samples = 6,
                                               .least_samples = 6,
                                               .sample_ms = 15,

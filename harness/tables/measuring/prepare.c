@@ -1,5 +1,5 @@
-// What comes before a row's cells are timed: the image that they must show, its distance from the
-// truth, and the jobs themselves.
+// Prepares a row's cells for timing: the image that they must show, its error against the truth,
+// and their jobs.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,15 +11,15 @@
 #include "harness/devices/frames/frame.h"
 #include "harness/tables/measuring/batch.h"
 
-// A row's variant, while its jobs are prepared.
+// A row's variant while its jobs are prepared.
 struct preparation {
     struct rg_kept *kept;
     const struct rg_table *table;
     struct rg_subject subject;
-    struct rg_subject drawn; // by cpu:reference: the same image
+    struct rg_subject drawn; // same image, as cpu:reference draws it
     int check_frames;
-    int count;           // of devices
-    struct rg_job *jobs; // one a device
+    int count;           // number of devices
+    struct rg_job *jobs; // one per device
     struct rg_expected expected;
     struct rg_truth_error truth_error;
 };
@@ -48,7 +48,8 @@ static struct preparation begin(struct rg_batch *batch, struct rg_place at)
 
 // --- the image ---
 
-// What cpu:reference draws of a work that it cannot do; the caller frees *elsewhere.
+// Finds the settings by which cpu:reference draws a work that it cannot do itself; the caller frees
+// *elsewhere.
 static bool find_drawn(struct preparation *p, const struct rg_batch *batch, struct rg_place at,
                        void **elsewhere)
 {
@@ -60,8 +61,8 @@ static bool find_drawn(struct preparation *p, const struct rg_batch *batch, stru
     return *elsewhere != NULL;
 }
 
-// Gets the image of cpu:reference: from its job where the table measures it with these settings,
-// else from a session opened for that.
+// Gets cpu:reference's image: from its job if the table measures it with these settings, else from
+// a session opened for this.
 static bool draw_expected(struct preparation *p)
 {
     struct rg_device *device = rg_kept_device(p->kept, "cpu:reference");
@@ -83,16 +84,16 @@ static void end_error(struct rg_truth_error *error, enum rg_outcome outcome, con
     rg_text_copy(error->detail, sizeof(error->detail), why);
 }
 
-// The background is what a mask of rain is made from. cpu draws what cpu:reference does, and
-// sooner.
+// Draws the background without rain, from which the rain mask is made. cpu draws the same as
+// cpu:reference, and faster.
 static bool draw_dry(struct preparation *p)
 {
     struct rg_device *device = rg_kept_device(p->kept, "cpu");
     return device && rg_frame_draw_dry(device, &p->drawn, p->check_frames, &p->expected.dry);
 }
 
-// Ends all records where the image is that of no rain: a device that draws none would pass as well,
-// and what is timed cannot be seen. False without memory.
+// Ends all records if the image is the same without rain: a device that draws no rain would pass,
+// and the timed work would be invisible. False without memory.
 static bool fail_without_rain(struct preparation *p, bool *shows)
 {
     static const char why[] = "its image is the same without rain: nothing of what it would time "
@@ -106,7 +107,7 @@ static bool fail_without_rain(struct preparation *p, bool *shows)
     return true;
 }
 
-// The row's image, with all that it shows: what was expected, or one of its own.
+// Draws the row's image with everything that the table shows.
 static bool draw_shown(struct preparation *p, const void *settings, struct rg_picture *own)
 {
     const struct rg_subject subject = {p->subject.technique, settings, p->subject.width,
@@ -140,7 +141,7 @@ static bool compare_with_truth(struct preparation *p, const void *shown, const v
     return ok;
 }
 
-// How far the expected image is from the table's truth. Jobs are timed without it, too.
+// Measures how far the expected image is from the table's truth. Jobs are timed even if that fails.
 static void measure_error(struct preparation *p)
 {
     if (!p->table->truth || rg_interrupted())
@@ -158,8 +159,7 @@ static void measure_error(struct preparation *p)
 
 // --- the jobs ---
 
-// Ends the records of jobs that are not open: without the image there is nothing to compare them
-// with.
+// Ends the records of jobs that are not open, because there is no image to compare theirs with.
 static void give_up(struct preparation *p)
 {
     const struct rg_failure failure = rg_failure_take();
@@ -175,7 +175,7 @@ static void prepare_jobs(struct preparation *p, const struct rg_measure_options 
 {
     for (int d = 0; d < p->count && !rg_interrupted(); d++) {
         struct rg_job *job = &p->jobs[d];
-        const bool is_open = job->session != NULL; // it made what is expected
+        const bool is_open = job->session != NULL; // it drew the expected image
         if ((is_open || (rg_job_open(job) && rg_job_check(job, &p->expected))) && rg_job_count(job))
             rg_job_warm_up(job, options);
     }

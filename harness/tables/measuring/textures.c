@@ -1,4 +1,4 @@
-// The sizes of textures, for tables whose rows are about them.
+// Measures the sizes of textures, for tables about them.
 #include <stdio.h>
 #include <string.h>
 
