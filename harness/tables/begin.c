@@ -1,4 +1,4 @@
-// Fills in what a table's records are of, before they are measured.
+// Fills in the descriptive part of a table's records, before they are measured.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,7 +34,7 @@ static void copy_or_none(char *to, size_t size, const char *from)
     rg_text_copy(to, size, from ? from : "");
 }
 
-// The work that is wanted, or all that a device of the result can do.
+// Chooses the requested work, or all works that a device of the result can do.
 static void name_works(struct rg_result *result, const struct rg_table *table, const char *wanted,
                        const struct rg_devices *devices)
 {
@@ -83,7 +83,7 @@ const struct rg_table_work *rg_table_work_at(const struct rg_result *result,
     return work;
 }
 
-// The index of a cell's variant in the table: a result may have some of them alone.
+// The index of a cell's variant in the table; a result may have only some of the variants.
 static int variant_at(const struct rg_result *result, const struct rg_table *table,
                       struct rg_place at)
 {
@@ -131,7 +131,7 @@ void *rg_table_settings(const struct rg_result *result, const struct rg_table *t
     return settings;
 }
 
-// What tells the row from others: its name, and the settings that are the table's keys.
+// Fills in what distinguishes the row: its name, and the settings that are the table's keys.
 static void name_row(struct rg_record *record, const struct rg_table *table, int row)
 {
     if (table->names)

@@ -20,7 +20,7 @@ const char *const rg_result_formats[] = {[RG_RESULT_MD] = "md",
                                          [RG_RESULT_TEX] = "tex",
                                          NULL};
 
-// The document of a result, with the trends beside, which are reckoned from it and not read back.
+// Prints a result's document, with the trends, which are computed from it and never read back.
 static bool print_json(const struct rg_result *result, FILE *out)
 {
     json_t *json = rg_result_json(result);
@@ -52,7 +52,7 @@ bool rg_result_print(const struct rg_result *result, int format, FILE *out)
     return !sheet.incomplete;
 }
 
-// The result in a format, which the caller frees; NULL with one logged line.
+// Prints the result in a format to memory that the caller frees; NULL with one logged line.
 static char *print_text(const struct rg_result *result, int format)
 {
     char *text = NULL;
@@ -87,7 +87,7 @@ bool rg_results_can_be_written(const struct rg_table *const tables[], int count,
 
 static bool spares(const char *folder, const char *name, const char *read)
 {
-    char path[2048]; // what does not fit is refused where it is to be written
+    char path[2048]; // a path that does not fit is refused when it is written
     return snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path) ||
            rg_file_spares(path, read);
 }
@@ -115,7 +115,7 @@ static bool has_number(const struct rg_result *result)
     return any;
 }
 
-// Where nothing was measured, what was measured before is not replaced.
+// Keeps an earlier result if nothing was measured now.
 static bool keeps_what_is_there(const struct rg_result *result, const char *folder)
 {
     char name[FILE_NAME_SIZE], path[2048];
@@ -160,7 +160,7 @@ int rg_result_exit(const struct rg_result *result)
     return rg_exit_of_all(counts);
 }
 
-// Whether all that was printed is where it was to go. False, and one logged line for all tables.
+// Whether all output arrived. False, and one line logged only once for all tables.
 static bool is_printed(bool was_lost)
 {
     return (!fflush(stdout) && !ferror(stdout)) || (!was_lost && rg_stdout_error());
@@ -172,7 +172,7 @@ int rg_result_finish(const struct rg_result *result, int format, const char *fol
     int exit = rg_result_exit(result);
     const bool is_whole = rg_result_first_missing(result) > result->last_row;
     const bool was_lost = ferror(stdout);
-    // Before it is printed: SIGPIPE ends raingauge once nobody reads that.
+    // The file is written before printing, since SIGPIPE ends raingauge when nobody reads stdout.
     if (is_whole && folder && !rg_result_write(result, folder))
         exit = rg_exit_worse(exit, rg_exit_of_error());
     if (rg_result_next(result, &at) && !rg_result_print(result, format, stdout))

@@ -22,11 +22,11 @@ struct budget {
     struct rg_kept kept;
     struct rg_order_devices bits;
     int count;
-    struct rg_standing *standings; // a table each, as what follows
-    struct rg_result *results;     // what is measured
-    struct rg_left_why *whys;      // why the first of what is left out was
+    struct rg_standing *standings; // one per table, like the next two
+    struct rg_result *results;     // the measured results
+    struct rg_left_why *whys;      // why the first omitted part was left out
     double end_ms;                 // by rg_now_ms
-    enum rg_turn told;             // the turn that was told last; RG_TURNS: none
+    enum rg_turn told;             // the turn that was logged last; RG_TURNS: none
 };
 
 static double left_s(const struct budget *b)
@@ -34,7 +34,7 @@ static double left_s(const struct budget *b)
     return (b->end_ms - rg_now_ms()) / 1000;
 }
 
-// cpu comes first, and cpu:reference last, unless it is alone.
+// cpu is the first device; cpu:reference is the last, unless it is the only one.
 static struct rg_order_devices name_bits(const struct rg_devices *devices)
 {
     struct rg_order_devices bits = {0};
@@ -50,11 +50,11 @@ static struct rg_order_devices name_bits(const struct rg_devices *devices)
     return bits;
 }
 
-// --- what a step measures ---
+// --- measuring a step ---
 
-// A table as a share of it has it. `step`, unless NULL, leaves of its variants and works what the
-// step adds. What `quick` points to is freed by the caller; false, and one logged line, without
-// memory.
+// Makes a copy of a table that has only the given share of it; with a `step` (NULL: none), only the
+// variants and works that the step adds. The caller frees *quick, to which the copy points. False,
+// and one logged line, without memory.
 static bool view(const struct rg_table *table, const struct rg_share *share,
                  const struct rg_step *step, struct rg_table *seen, char **quick)
 {
@@ -95,7 +95,7 @@ static void begin_result(const struct budget *b, const struct rg_table *seen,
     result->few_samples = !share->all_samples;
 }
 
-// Whether a step measures a row.
+// Whether a step measures this row.
 static bool wants(const struct budget *b, const struct rg_step *step, int row)
 {
     const struct rg_table *table = b->standings[step->table].table;
@@ -117,11 +117,11 @@ static int rows_of(const struct rg_result *result)
     return rows;
 }
 
-// Measures a step's part. False without memory.
+// Measures a step's part of its table. False without memory.
 static bool measure(struct budget *b, const struct rg_step *step, const struct rg_table *seen,
                     struct rg_result *part)
 {
-    // Levels of a texture take nothing once one is open.
+    // Texture levels take no time once a texture is open.
     const bool has_part = step->turn == RG_TURN_FIRST && !seen->is_of_textures;
     const double part_s = has_part ? rg_order_part_s(b->standings, b->count, left_s(b)) : left_s(b);
     const struct rg_table_deadline deadline = {rg_now_ms() + 1000 * part_s, b->end_ms,
@@ -132,9 +132,10 @@ static bool measure(struct budget *b, const struct rg_step *step, const struct r
     return rg_table_measure(part, seen, &b->kept, NULL, NULL, &deadline);
 }
 
-// --- what is measured grows ---
+// --- joining results ---
 
-// Puts a part beside what there is, or in its place. False, with one logged line, without memory.
+// Adds a measured part to the table's result, or replaces it. False, with one logged line, without
+// memory.
 static bool join(struct budget *b, const struct rg_step *step, const struct rg_table *seen,
                  const struct rg_result *part)
 {
@@ -159,7 +160,7 @@ static bool join(struct budget *b, const struct rg_step *step, const struct rg_t
     return ok;
 }
 
-// What a step has measured, in so many seconds, is taken where it has all that it must have.
+// Accepts a step's part, which took `seconds`, if it is complete where it has to be.
 static bool take(struct budget *b, const struct rg_step *step, const struct rg_result *part,
                  double seconds)
 {
@@ -190,7 +191,7 @@ static void tell_turn(struct budget *b, enum rg_turn turn)
     b->told = turn;
 }
 
-// False where the budget ends: without memory.
+// False if the budget run has to end, for lack of memory.
 static bool do_step(struct budget *b, const struct rg_step *step)
 {
     struct rg_result part = {0};
@@ -208,8 +209,8 @@ static bool do_step(struct budget *b, const struct rg_step *step)
     return ok;
 }
 
-// The first row tells whether anything fits: where its table has several variants, it ended with
-// the first of them that was late.
+// Logs an error if the first row was late, since nothing fits then. A row of several variants ended
+// after the first that was late, so the time of the others is extrapolated.
 static bool first_fits(struct budget *b, const struct rg_step *step, double start_ms)
 {
     const double now_ms = rg_now_ms(), begin_ms = b->options->begin_ms;
@@ -223,8 +224,7 @@ static bool first_fits(struct budget *b, const struct rg_step *step, double star
                     table->id, needed_s, b->options->budget_s, needed_s);
 }
 
-// Measures until the time is over. False, with one logged line, without memory, or where nothing
-// fits.
+// Measures until time is over. False, with one logged line, without memory or if nothing fits.
 static bool run(struct budget *b)
 {
     struct rg_step step;

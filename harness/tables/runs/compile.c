@@ -24,8 +24,8 @@
 
 // --- in this process ---
 
-// Draws two frames of the last row that a table needs, which has most in it, as small as a budget
-// has it.
+// Draws two frames of the last needed row, which has the most in it, as small as a budget would
+// draw it.
 static bool draw(const struct rg_table *table, struct rg_device *device)
 {
     const struct rg_devices devices = {.count = 1, .devices = {device}};
@@ -67,28 +67,28 @@ static int compile_here(const struct rg_table *table, struct rg_device *device)
 
 enum { PAUSE_MS = 5, MAX_AT_ONCE = 64, MAX_TECHNIQUES = 64 };
 
-// A table on a device, in a process of its own.
+// A table on a device, opened in a process of its own.
 struct job {
     const struct rg_table *table;
     struct rg_device *device;
-    pid_t process; // 0: there is none
+    pid_t process; // 0: none
     FILE *printed;
 };
 
 struct jobs {
-    const struct rg_table *tables[MAX_TECHNIQUES]; // one of each
+    const struct rg_table *tables[MAX_TECHNIQUES]; // one per technique
     int table_count;
-    struct rg_device *devices[RG_MAX_DEVICES]; // that have drivers
+    struct rg_device *devices[RG_MAX_DEVICES]; // those that have drivers
     int device_count;
     int begun;
-    struct job running[MAX_AT_ONCE]; // of which those without a process are free
+    struct job running[MAX_AT_ONCE]; // entries without a process are free
     int at_once;
-    bool are_told; // to end
+    bool are_told; // the processes were asked to end
     struct rg_progress progress;
     int exit;
 };
 
-// As many as there are cores, or as their time is granted.
+// The number of processes at a time: the cores, or the share of their time that is granted.
 static int places(void)
 {
     struct rg_machine machine;
@@ -97,7 +97,8 @@ static int places(void)
     return (int)fmax(1, fmin(fmin(machine.cores_allowed, quota), MAX_AT_ONCE));
 }
 
-// Of each technique the first that draws: what its tables draw with is the same for the most part.
+// Chooses the first table of each technique that draws; the technique's other tables mostly use the
+// same kernels.
 static void choose_tables(struct jobs *jobs, const struct rg_table *const tables[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -111,7 +112,7 @@ static void choose_tables(struct jobs *jobs, const struct rg_table *const tables
     }
 }
 
-// The last device comes first: OpenCL's compilers take longest, and what takes long is begun early.
+// Begins with the last device: OpenCL's compilers take longest, so they should start early.
 static void choose_devices(struct jobs *jobs, const struct rg_devices *devices)
 {
     for (int d = devices->count - 1; d >= 0; d--)
@@ -137,7 +138,7 @@ static void tell_failure(struct jobs *jobs, const struct job *job, int exit, con
     jobs->exit = rg_exit_worse(jobs->exit, exit);
 }
 
-// What it prints is told where it fails.
+// Starts a job. Its output is reported only if it fails.
 static void begin(struct jobs *jobs, struct job *job)
 {
     char timeout_s[16], why[240], lack[RG_NAMELESS_WHY];
@@ -145,7 +146,7 @@ static void begin(struct jobs *jobs, struct job *job)
     const char *const args[] = {rg_workers.program, "table",    job->table->id,
                                 "--compile",        "--device", job->device->info.name,
                                 "--timeout",        timeout_s,  NULL};
-    const int file = rg_file_nameless(lack); // without one, what it prints is lost
+    const int file = rg_file_nameless(lack); // without a file its output is lost
     job->printed = file < 0 ? NULL : fdopen(file, "w+");
     const int error = rg_program_start(args, (const int[]){-1, file, file}, 3, &job->process);
     if (!error)
@@ -160,7 +161,7 @@ static void begin(struct jobs *jobs, struct job *job)
 
 static void end(struct jobs *jobs, struct job *job, int status)
 {
-    static const char prefix[] = ": raingauge"; // which is printed anew
+    static const char prefix[] = ": raingauge"; // of its own messages; logging adds it again
     char last[200] = "";
     if (job->printed)
         rg_program_last_line(job->printed, last, sizeof(last));
@@ -175,7 +176,7 @@ static void end(struct jobs *jobs, struct job *job, int status)
     rg_progress_add(&jobs->progress, 1);
 }
 
-// Ctrl-C does not reach them: they are told, once.
+// Ctrl-C does not reach the processes' groups, so they are interrupted once from here.
 static void pass_on_interruption(struct jobs *jobs)
 {
     if (!rg_interrupted() || jobs->are_told)
@@ -186,7 +187,7 @@ static void pass_on_interruption(struct jobs *jobs)
     jobs->are_told = true;
 }
 
-// Whether one of the places goes on.
+// Begins or ends a job in this place; whether the place is still in use.
 static bool look_at(struct jobs *jobs, struct job *job)
 {
     int status = 0;
@@ -213,7 +214,7 @@ static void run(struct jobs *jobs)
     }
 }
 
-// How long it takes is not known: one opens at once where another compiles for half a minute.
+// No time left is shown, since one opening is immediate where another compiles for half a minute.
 static int compile_apart(struct jobs *jobs)
 {
     rg_info("%d openings for drivers to compile, %d at a time", count_of(jobs),

@@ -1,18 +1,18 @@
-// Having drivers compile what tables need before any is measured.
+// Makes drivers compile what tables need before anything is measured.
 //
-// A driver compiles when something is first drawn, keeps what it made for the user (~/.cache), and
-// compiles on one core. On a new machine that takes as long as the tables do, and makes cells look
-// slower than they are; side by side on all cores it takes less.
+// A driver compiles when something is first drawn, on one core, and keeps the result for the user
+// (~/.cache). On a new machine this takes as long as the tables do, and makes cells look slower
+// than they are. In parallel on all cores it takes less.
 #ifndef RG_HARNESS_TABLES_RUNS_COMPILE_H
 #define RG_HARNESS_TABLES_RUNS_COMPILE_H
 
 #include "harness/devices/devices.h"
 #include "harness/tables/papers/published.h"
 
-// Opens a cell of each technique that has tables among these, on each device that has a driver.
-// Each is a process of this program with these arguments, as many at a time as there are cores:
-//     table ID --compile --device NAME --timeout S
-// which opens its one cell itself. One line tells of each that fails. Returns an enum rg_exit.
+// Opens a cell of each technique in these tables on each device that has a driver. Each cell is
+// opened by a process of this program, as many at a time as there are cores:
+//     raingauge table ID --compile --device NAME --timeout S
+// Each failure is logged in one line. Returns an enum rg_exit.
 int rg_tables_compile(const struct rg_table *const tables[], int count,
                       const struct rg_devices *devices);
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-// "1, 4, 8-10": the rows that are not measured.
+// Writes the rows that were not measured: "1, 4, 8-10".
 static void name_rows(const struct rg_result *result, int count, char *text, size_t size)
 {
     size_t used = 0;
@@ -47,7 +47,7 @@ void rg_left_why(struct rg_left_why *why, const struct rg_devices *devices,
                  expected_s, left_s);
 }
 
-// What of a table is not measured; false where it is whole.
+// Prints what was not measured of a table; false if nothing was left out.
 static bool print_left_out(const struct rg_standing *s, const struct rg_result *result,
                            const struct rg_left_why *why, const struct rg_devices *all, FILE *out)
 {

@@ -15,7 +15,7 @@ static void need(bool needed[RG_TABLE_ROWS], int row)
         needed[row - 1] = true;
 }
 
-// Needs the middle of rows, from 1, unless one between the ends is needed anyway.
+// Needs the middle row of first to last (from 1), unless a row between them is needed anyway.
 static void need_middle(bool needed[RG_TABLE_ROWS], int first, int last)
 {
     for (int row = first + 1; row < last; row++)
@@ -24,20 +24,21 @@ static void need_middle(bool needed[RG_TABLE_ROWS], int first, int last)
     need(needed, (first + last) / 2);
 }
 
-// The rows that quick mode has of a table whose later ones take long, or all.
+// The number of rows in quick mode: fewer than all if the table's later rows take long.
 static int quick_rows_of(const struct rg_table *table)
 {
     return table->quick_rows ? table->quick_rows : table->row_count;
 }
 
-// The last row that a claim needs: where each row stands for itself, those of quick mode suffice.
+// The last row that a claim needs. A claim about each row by itself needs only those of quick mode.
 static int last_of(const struct rg_claim *claim, const struct rg_table *table)
 {
     const int rows = quick_rows_of(table);
     return rg_claim_is_of_each_row(claim) && claim->last > rows ? rows : claim->last;
 }
 
-// What claims end without, and of those that are about a curve, not about two rows, its middle.
+// Needs the rows at which claims begin, end or bend, and the middle row of claims about a curve
+// rather than two rows.
 static void need_claims(const struct rg_table *table, bool needed[RG_TABLE_ROWS])
 {
     for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
@@ -103,7 +104,7 @@ bool rg_has_claims(const struct rg_table *table)
     return any;
 }
 
-// Whether a claim about the table is judged by this test.
+// Whether this test judges a claim about the table.
 static bool has_test(const struct rg_table *table, enum rg_claim_test test)
 {
     bool has = false;

@@ -54,7 +54,7 @@ struct rg_standing rg_standing_of(const struct rg_table *table)
     return s;
 }
 
-// --- what cells take ---
+// --- times of cells ---
 
 static bool are_alike(const struct rg_standing *a, const struct rg_standing *b)
 {
@@ -62,8 +62,9 @@ static bool are_alike(const struct rg_standing *a, const struct rg_standing *b)
            a->table->is_of_textures == b->table->is_of_textures;
 }
 
-// What a cell of a table takes on a device: as it took there, or as others of its technique tell,
-// or, which is less, what it took on another device. 0: nothing tells.
+// Estimates a cell's time on a device: from the table's own cells there; else from other tables
+// of the technique; else from the table's cells on another device, which may be too little.
+// 0: unknown.
 static double cell_s(const struct rg_standing *standings, int count, int table, int device)
 {
     const struct rg_standing *of = &standings[table];
@@ -92,8 +93,8 @@ static double expect(const struct rg_standing *standings, int count, const struc
     return s;
 }
 
-// More pixels take as much longer at most, and all samples of quick mode twice as long as the
-// fewest.
+// Larger pictures take longer by at most the ratio of their pixels, and all samples of quick mode
+// take twice as long as the fewest.
 static double times_as_long(const struct rg_share *before, const struct rg_share *after)
 {
     const double side = (double)before->divisor / after->divisor;
@@ -115,7 +116,7 @@ void rg_order_learn(struct rg_standing *standings, int count, const struct rg_st
 
 // --- the next step ---
 
-// Whether a turn has something for a table that others have not, and what of it is there then.
+// Whether a turn adds anything to a table; fills in the step's share and cells.
 static bool grow(const struct rg_standing *s, enum rg_turn turn, struct rg_step *step)
 {
     const int works = s->share.all_works ? s->works : 1;
@@ -166,7 +167,8 @@ double rg_order_part_s(const struct rg_standing *standings, int count, double le
     return left_s / (tables ? tables : 1);
 }
 
-// Whole pictures, unless they take more than a table's part of the time: then half of the size.
+// Chooses full pictures, or half their size if they would take more than the table's part of the
+// time.
 static void choose_size(const struct rg_standing *standings, int count, double left_s,
                         struct rg_step *step)
 {
@@ -180,7 +182,7 @@ static void choose_size(const struct rg_standing *standings, int count, double l
     step->expected_s = now_s * times_as_long(before, &step->share);
 }
 
-// The devices on which a step of a turn can be.
+// The devices for which a turn can have a step.
 static unsigned devices_of(const struct rg_standing *s, enum rg_turn turn,
                            const struct rg_order_devices *devices)
 {
@@ -192,7 +194,7 @@ static unsigned devices_of(const struct rg_standing *s, enum rg_turn turn,
            ~s->share.devices;
 }
 
-// The cheapest of a table's steps that were not tried.
+// Finds the cheapest step of a table that was not tried yet.
 static bool find(const struct rg_standing *standings, int count,
                  const struct rg_order_devices *devices, double left_s, struct rg_step *found)
 {
@@ -214,8 +216,8 @@ static bool find(const struct rg_standing *standings, int count,
     return any;
 }
 
-// How heavy a table looks of which nothing was measured: by its pixels and frames, and where
-// smaller pictures show less, by what it says itself.
+// Guesses the work of a table without any measurement: from its pixels and frames, and more if the
+// table says that smaller pictures show less.
 static double look_of(const struct rg_table *table, int divisor)
 {
     enum { HEAVY = 1000 };

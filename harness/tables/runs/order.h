@@ -1,19 +1,19 @@
-// In which order tables are measured until a time is over: pure functions of what is measured, and
-// of what that took.
+// The order in which tables are measured within a budget: pure functions of the measured parts and
+// the times that they took.
 #ifndef RG_HARNESS_TABLES_RUNS_ORDER_H
 #define RG_HARNESS_TABLES_RUNS_ORDER_H
 
 #include "core/device/device.h"
 #include "harness/tables/papers/published.h"
 
-// What comes first. A turn has a step for each table, or for each device of a table.
+// Priorities, first to last. A turn has one step per table, or per device of a table.
 enum rg_turn {
     RG_TURN_FIRST,    // each table on the first device: its needed rows, as far as its part of the
-                      // time goes
+                      // time allows
     RG_TURN_NEEDED,   // the other needed rows
-    RG_TURN_CLAIMED,  // tables that claims are about, each on one device more
+    RG_TURN_CLAIMED,  // tables with claims, on one more device each
     RG_TURN_DEVICES,  // the other tables
-    RG_TURN_BETTER,   // larger pictures and all samples of quick mode, measured anew
+    RG_TURN_BETTER,   // larger pictures and all samples of quick mode, measured again
     RG_TURN_ROWS,     // all rows of quick mode
     RG_TURN_VARIANTS, // all variants
     RG_TURN_WORKS,    // all works
@@ -22,59 +22,61 @@ enum rg_turn {
 };
 // "all rows"
 const char *rg_turn_about(enum rg_turn turn);
-// Whether a step of it is a device more.
+// Whether its steps add one device each.
 bool rg_turn_is_of_devices(enum rg_turn turn);
-// Whether a step of it is worth nothing unless all of its cells are measured: a result has the same
-// rows on each device.
+// Whether a step counts only if all of its cells are measured, because a result has the same rows
+// on each device.
 bool rg_turn_is_whole(enum rg_turn turn);
 
-// The devices of a command, a bit each.
+// The devices of a command, as bits.
 struct rg_order_devices {
     unsigned all;
-    unsigned first; // one of them, on which each table is measured before any is on another
-    unsigned last;  // some of them, which come when all else is measured
+    unsigned first; // one of them; every table is measured on it before any is on another
+    unsigned last;  // some of them; used when everything else is measured
 };
 
-// What of a table is measured.
+// The part of a table that is measured.
 struct rg_share {
-    unsigned devices;                                    // a bit each; 0: nothing
-    int divisor;                                         // of its width and height
-    bool all_samples, all_rows, all_variants, all_works; // else the fewest, those that are needed,
-                                                         // and the work that was printed
+    unsigned devices; // as bits; 0: nothing
+    int divisor;      // of its width and height
+    // false: the fewest samples, the needed rows and variants, and the printed work
+    bool all_samples, all_rows, all_variants, all_works;
 };
 
-// How far a table is.
+// Progress of a table.
 struct rg_standing {
     const struct rg_table *table;
     bool has_claims;
-    int needed_rows, quick_rows, needed_variants, variants, works; // that it has
+    int needed_rows, quick_rows, needed_variants, variants, works; // of the whole table
     struct rg_share share;
-    int rows; // that are measured
-    // What a cell took on each device, with what was made for it, in seconds; 0: nobody knows.
+    int rows; // measured so far
+    // Seconds per cell on each device, including preparation; 0: unknown.
     double cell_s[RG_MAX_DEVICES];
-    unsigned tried[RG_TURNS]; // devices for which a turn was tried, or all bits
+    unsigned tried[RG_TURNS]; // devices, as bits, for which a turn was tried; all bits for turns
+                              // without devices
 };
-// A table of which nothing is measured.
+// The state before anything of a table is measured.
 struct rg_standing rg_standing_of(const struct rg_table *table);
 
 struct rg_step {
-    int table; // among the standings
+    int table; // index among the standings
     enum rg_turn turn;
-    unsigned devices;      // that are measured
-    struct rg_share share; // what there is once it is done
-    int cells;             // a device, the least that is worth having
-    double expected_s;     // that these take, by what was measured so far; 0: nobody knows
+    unsigned devices;      // those to measure
+    struct rg_share share; // the table's share after the step
+    int cells;             // per device, the fewest that are useful
+    double expected_s;     // for these cells, from earlier times; 0: unknown
 };
 
-// The next step that was not tried: of the first turn that has one, of which the one that is
-// expected to take least, or looks so, so that a large table keeps no small one out. False where
-// all is measured, or was tried. The caller marks it as tried (rg_order_tried).
+// Finds the next step: in the first turn that has an untried one, the step with the least expected
+// or guessed time, so that a large table does not keep small ones out. False if all steps are done
+// or tried. The caller marks it as tried (rg_order_tried).
 bool rg_order_next(const struct rg_standing *standings, int count,
                    const struct rg_order_devices *devices, double left_s, struct rg_step *step);
 void rg_order_tried(struct rg_standing *standings, const struct rg_step *step);
-// What a table's part of the time is, in the first turn: what is left, by those that wait for it.
+// A table's part of the time in the first turn: the time left, divided by the number of waiting
+// tables.
 double rg_order_part_s(const struct rg_standing *standings, int count, double left_s);
-// Learns what cells take: a step took so long for so many cells a device.
+// Updates the times per cell: a step took `seconds` for `cells` cells per device.
 void rg_order_learn(struct rg_standing *standings, int count, const struct rg_step *step, int cells,
                     double seconds);
 

@@ -19,7 +19,7 @@ struct task {
     const struct rg_table *table;
     struct rg_result result;
     struct rg_journal *journal;
-    bool is_lost; // its files, or what it prints, could not be written
+    bool is_lost; // its files or its printed text could not be written
 };
 
 static void tell_resumed(const struct task *task)
@@ -70,13 +70,13 @@ static int run_task(struct task *task, struct rg_kept *kept, struct rg_progress 
     return exit;
 }
 
-// Quick mode chooses rows where nobody names any.
+// Whether quick mode chooses the rows, because the user named none.
 static bool is_short(const struct rg_table *table, const struct rg_regenerate_options *o)
 {
     return !o->full && !o->last_row && table->quick_rows;
 }
 
-// The rows that are asked for, as far as the table has them.
+// The requested rows, as far as the table has them.
 static struct rg_table_part part_of(const struct rg_table *table,
                                     const struct rg_regenerate_options *o)
 {
@@ -101,8 +101,8 @@ static void leave_out_rows(const struct rg_table *table, struct rg_result *resul
         result->left_out[row - result->first_row] = !chosen[row];
 }
 
-// Begins the tables that have some of the rows that are asked for. All journals are read before one
-// is written, since a table may be named twice. `keeps`: there are journals.
+// Begins the tables that have some of the requested rows. Reads all journals before it writes one,
+// since a table may be named twice. `keeps`: journals are kept.
 static int make_tasks(const struct rg_regenerate_options *o, const struct rg_devices *devices,
                       const struct rg_table *const tables[], int count, bool keeps,
                       struct task *tasks)
@@ -123,9 +123,9 @@ static int make_tasks(const struct rg_regenerate_options *o, const struct rg_dev
     return made;
 }
 
-// Where a driver fell while its device was opened, what is there may have been measured on it, too:
-// the same command would go on with that once the driver is well. False, with one logged line,
-// where it would be replaced.
+// Keeps a journal of an earlier run from being replaced after a driver crashed while its device was
+// opened. The journal may include that device, and the same command can go on from it once the
+// driver works. False, with one logged line, if one would be replaced.
 static bool spare_journals(const struct task *tasks, int count, const struct rg_devices *devices)
 {
     for (int i = 0; i < count && rg_devices_exit(devices) != RG_EXIT_PASS; i++)
@@ -146,8 +146,8 @@ static int64_t units_of(const struct task *tasks, int count)
     return units;
 }
 
-// Journals go once all tables are written and printed: where one is not, the same command begins
-// with what they have, of those before it too.
+// Whether journals have to stay. They go only once all tables are written and printed; otherwise
+// the same command goes on from them.
 static bool keeps_journals(const struct task *tasks, int count)
 {
     bool any_is_lost = false, has_file = false;
@@ -165,7 +165,8 @@ static int print_end(const struct rg_regenerate_options *options)
     return options->print_end ? options->print_end(options->user) : RG_EXIT_PASS;
 }
 
-// What stands behind the tables is of all of them: where it is lost, so is what each was to tell.
+// The text after the tables belongs to all of them, so if it cannot be written, every table keeps
+// its journal.
 static int finish_tasks(struct task *tasks, int count, const struct rg_regenerate_options *options)
 {
     const int exit = print_end(options);
@@ -184,7 +185,7 @@ static void forget_tasks(struct task *tasks, int count)
     }
 }
 
-// What is kept for another run has a line of its own.
+// Ends the command. If journals stay, another line has said so already.
 static void end_tasks(struct task *tasks, int count, const struct rg_closing *closing, int devices)
 {
     const bool are_kept = keeps_journals(tasks, count);
@@ -195,7 +196,7 @@ static void end_tasks(struct task *tasks, int count, const struct rg_closing *cl
     forget_tasks(tasks, count);
 }
 
-// When a table fails, the others are still measured and written.
+// A failed table does not keep the others from being measured and written.
 static int run_tasks(struct task *tasks, int count, const struct rg_devices *devices,
                      const struct rg_regenerate_options *o)
 {
@@ -206,7 +207,7 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     rg_interrupt_watch();
     rg_progress_start(&progress, units_of(tasks, count));
     for (int i = 0; i < count && !rg_interrupted(); i++) {
-        rg_progress_unlike(&progress, i + 1 < count); // others may take a hundred times as long
+        rg_progress_unlike(&progress, i + 1 < count); // the next may take a hundred times as long
         exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, &progress, o, &closing));
     }
     rg_progress_end(&progress);

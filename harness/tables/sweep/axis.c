@@ -26,7 +26,7 @@ static bool read_number(const char *text, double *number)
     return end != text && !*end && isfinite(*number);
 }
 
-// "10..40" behind a value: its first number, and what follows it in the same steps.
+// Adds the values of a range "10..40" after another value: the first number, then equal steps.
 static bool add_range(struct rg_axis *axis, const char *text, const char *from, const char *dots,
                       const char *to, size_t to_length)
 {
@@ -38,7 +38,7 @@ static bool add_range(struct rg_axis *axis, const char *text, const char *from, 
         !read_number(second, &a) || !read_number(last, &b))
         return rg_error("--axis %s: a range goes on from a number before it, as in 5,10..40", text);
     const double step = a - before, steps = step != 0 ? floor((b - a) / step + 1e-9) : -1;
-    if (!(steps >= 0)) // nor is it a number where the step has no end
+    if (!(steps >= 0)) // also if infinite numbers made it NAN
         return rg_error("--axis %s: %s does not come after %s and %s", text, last,
                         axis->values[axis->count - 1], second);
     for (double i = 0; i <= steps; i++) {
@@ -50,8 +50,7 @@ static bool add_range(struct rg_axis *axis, const char *text, const char *from, 
     return true;
 }
 
-// Where the dots of a range are in a value: behind a number; NULL where it is none, as a path with
-// two dots is.
+// The dots of a range, which follow a number; NULL if there is none, as in a path with two dots.
 static const char *range_in(const char *value, size_t length)
 {
     const char *dots = strstr(value, "..");

@@ -13,7 +13,7 @@ static const struct rg_param *param_of(const struct rg_technique *technique,
     return rg_params_find(technique->params, axis->name);
 }
 
-// A text names the rows; numbers and choices have columns.
+// Text parameters name the rows; numbers and choices have columns.
 static bool has_column(const struct rg_technique *technique, const struct rg_axis *axis)
 {
     const struct rg_param *param = param_of(technique, axis);
@@ -28,8 +28,7 @@ static bool add_columns(struct rg_grid *grid, const struct rg_technique *techniq
         for (int k = 0; k < i; k++)
             if (!strcmp(grid->axes[k].name, axis->name))
                 return rg_error("--axis %s: stands twice; name all its values at once", axis->name);
-        // What stands behind a preset changes it, and what stands before it would be as if it were
-        // not there.
+        // A preset has to be the first axis, because it overwrites parameters that are set before.
         if (i && technique->params->preset && !strcmp(axis->name, technique->params->preset))
             return rg_error("--axis %s: stands for other parameters; name it before --axis %s",
                             axis->name, grid->axes[0].name);
@@ -51,7 +50,7 @@ static double value_of(const struct rg_param *param, const void *settings)
                                          : *(const int *)(const void *)at;
 }
 
-// Which value of an axis a row has: the last axis goes fastest.
+// The index of a row's value on an axis; the last axis varies fastest.
 static int index_at(const struct rg_grid *grid, int axis, int row)
 {
     for (int i = grid->axis_count - 1; i > axis; i--)
@@ -90,7 +89,7 @@ static bool make_row(struct rg_grid *grid, const struct rg_technique *technique,
     return ok;
 }
 
-// The note names the axes, so that what is kept of a sweep is told from what is of others.
+// The note names the axes, which distinguishes the journals of different sweeps.
 static void write_note(struct rg_grid *grid)
 {
     FILE *out = fmemopen(grid->note, sizeof(grid->note) - 1, "w");
@@ -102,7 +101,7 @@ static void write_note(struct rg_grid *grid)
     }
     if (out) {
         fprintf(out, ", in their order.");
-        fclose(out); // what does not fit is cut
+        fclose(out); // text that does not fit is cut
     }
 }
 
@@ -130,7 +129,7 @@ bool rg_grid_make(struct rg_grid *grid, const struct rg_technique *technique)
     return ok;
 }
 
-// The axis that differs in two settings; NULL where none does.
+// The first axis whose value differs between two settings; NULL: none.
 static const struct rg_axis *differing_axis(const struct rg_grid *grid,
                                             const struct rg_technique *technique,
                                             const void *settings, const void *others)
@@ -145,7 +144,7 @@ static const struct rg_axis *differing_axis(const struct rg_grid *grid,
     return NULL;
 }
 
-// Sets are over a row's own settings, and one may stand for others, as a preset does.
+// The options' sets apply over a row's settings, and may include a preset that changes others.
 static bool keeps_row(const struct rg_grid *grid, const struct rg_technique *technique,
                       const void *settings, const char *const *sets, int count)
 {

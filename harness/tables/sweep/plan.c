@@ -11,7 +11,7 @@
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/measuring/measure.h"
 
-// --- a row, opened for a moment ---
+// --- a row that is opened for a moment ---
 
 struct probe {
     struct rg_cell_frames frames;
@@ -47,9 +47,9 @@ static bool probe_row(const struct rg_table *table, const char *set, int row,
     return ok;
 }
 
-// --- what follows from two rows ---
+// --- estimates from two rows ---
 
-// A value of a row between the first and the last, which go from one to the other by equal factors.
+// Interpolates between the first and the last row, geometrically if both values are positive.
 static double between(double first, double last, int row, int rows)
 {
     const double share = rows > 1 ? row / (rows - 1.0) : 0;
@@ -88,8 +88,8 @@ static bool probe_device(const struct rg_table *table, const char *set, struct r
     return !last || probe_row(table, set, last, device, &probes[1]);
 }
 
-// A device that fails is measured like the others, which tells how it does. False where the input
-// is at fault, or no device is left.
+// Leaves out a device that fails; measuring it will report the failure. False if the input is at
+// fault, or if no device is left.
 static bool leave_out(struct rg_plan *plan, int device)
 {
     plan->device_s[device] = NAN;
@@ -120,7 +120,7 @@ bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, s
     return true;
 }
 
-// --- telling ---
+// --- printing ---
 
 static void print_duration(double s, FILE *out)
 {

@@ -1,4 +1,4 @@
-// What a table will take, before it is measured.
+// Estimates the time and memory that a table takes, before it is measured.
 #ifndef RG_HARNESS_TABLES_SWEEP_PLAN_H
 #define RG_HARNESS_TABLES_SWEEP_PLAN_H
 
@@ -8,23 +8,22 @@
 #include "harness/tables/table.h"
 
 struct rg_plan {
-    int rows, devices, failed;       // of the devices, those that could not be looked at
-    double device_s[RG_MAX_DEVICES]; // that its cells take; NAN: it failed
-    double check_s;                  // that cpu:reference takes for the images that they must show
-    double row_bytes;                // of this process's memory, what the largest row takes
-    double all_bytes;                // what all rows take together
+    int rows, devices, failed;       // failed: of the devices, those that could not be opened
+    double device_s[RG_MAX_DEVICES]; // for its cells; NAN: it failed
+    double check_s;                  // for the expected images, drawn by cpu:reference
+    double row_bytes;                // of this process's memory, for the largest row
+    double all_bytes;                // for all rows together
 };
 
-// Opens the first and the last row on each device until frames are like those that are timed
-// (rg_cell_look), and reckons what lies between from them: times and memory as they go from row to
-// row by the same factor. One logged line for a device on which one cannot be opened; false where
-// the input is at fault, where no device is left, or where cpu:reference, which checks the images,
-// fails.
+// Opens the first and the last row on each device until frames resemble the timed ones
+// (rg_cell_look), and interpolates times and memory of the other rows. Logs a line for a device on
+// which a row cannot be opened. False if the input is at fault, if no device is left, or if
+// cpu:reference, which checks the images, fails.
 bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, struct rg_kept *kept,
                   struct rg_plan *plan);
 
-// "8 rows on cpu, gl: 16 cells, about 40 s (cpu 14 s, gl 20 s, images to check by 6 s), ...", one
-// line.
+// Prints one line: "8 rows on cpu, gl: 16 cells, about 40 s (cpu 14 s, gl 20 s, images to check by
+// 6 s), ...".
 void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices, FILE *out);
 
 #endif
