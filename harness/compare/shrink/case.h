@@ -9,7 +9,7 @@ enum { RG_CASE_NAME = RG_DEVICE_NAME_SIZE };
 
 struct rg_case {
     struct rg_digest_run run; // its settings are owned
-    int stages_run;           // after so many stages the asset differs
+    int stages_run;           // the asset differs after this many stages
     char stage[RG_ASSET_NAME], asset[RG_ASSET_NAME];
     enum rg_difference difference; // NONE if the device fails
     struct rg_fall fall;           // how the device fails, if it does

@@ -26,8 +26,8 @@ struct rg_search {
 bool rg_search_begin(struct rg_search *search, const struct rg_shrink_request *asked);
 void rg_search_end(struct rg_search *search);
 
-// Makes a run the best if it has the same difference and weighs at most this. Takes ownership of
-// its settings; NULL: they were refused.
+// Makes a run the best if it has the same difference and weighs at most most_weight. It owns the
+// run's settings; NULL: they were refused.
 bool rg_search_try(struct rg_search *search, struct rg_digest_run run, int64_t most_weight);
 // Tries the best run with another value of a parameter, unless it has that value.
 bool rg_search_value(struct rg_search *search, const struct rg_param *param, const char *value,

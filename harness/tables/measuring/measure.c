@@ -196,7 +196,8 @@ static bool has_room(const struct measuring *m, int rows)
            have_room(m, rows + 1);
 }
 
-// How many rows from this one on count only if all of them are measured.
+// How many rows have to fit before the deadline together with this one: all later ones if the
+// deadline wants whole results, else only this one.
 static int rows_due(const struct measuring *m, int row)
 {
     int rows = 1;

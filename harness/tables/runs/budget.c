@@ -34,7 +34,7 @@ static double left_s(const struct budget *b)
     return (b->end_ms - rg_now_ms()) / 1000;
 }
 
-// cpu is the first device; cpu:reference is the last, unless it is the only one.
+// cpu is measured first, and cpu:reference last, unless it is the only device.
 static struct rg_order_devices name_bits(const struct rg_devices *devices)
 {
     struct rg_order_devices bits = {0};

@@ -214,7 +214,7 @@ static void run(struct jobs *jobs)
     }
 }
 
-// No time left is shown, since one opening is immediate where another compiles for half a minute.
+// The bar shows no time left, since one opening takes no time and another half a minute.
 static int compile_apart(struct jobs *jobs)
 {
     rg_info("%d openings for drivers to compile, %d at a time", count_of(jobs),

@@ -32,7 +32,7 @@ bool rg_turn_is_whole(enum rg_turn turn);
 struct rg_order_devices {
     unsigned all;
     unsigned first; // one of them; every table is measured on it before any is on another
-    unsigned last;  // some of them; used when everything else is measured
+    unsigned last;  // some of them, used only after everything else is measured
 };
 
 // The part of a table that is measured.

@@ -18,7 +18,7 @@ struct make {
     struct rg_timed_cell *cells; // one per row; rows that are not OK are not timed
 };
 
-// --- what is the same in every run ---
+// --- everything but times ---
 
 static bool set_devices(struct rg_baseline *made, const struct rg_devices *devices)
 {

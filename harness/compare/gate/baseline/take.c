@@ -11,7 +11,7 @@ static struct rg_subject subject_of(const struct rg_gate_cell *cell)
     return (struct rg_subject){cell->technique, cell->settings, cell->width, cell->height};
 }
 
-// --- what is the same in every run ---
+// --- everything but times ---
 
 static bool take_picture(struct rg_session *session, struct rg_baseline_row *row,
                          struct rg_picture *picture)

@@ -26,9 +26,9 @@ struct rg_gtest_shards {
 bool rg_gtest_shards(struct rg_gtest_shards *shards);
 
 // The gtest name of a report's case, "streaks.small/cpu" for "streaks.small.cpu": the suite ends at
-// the first point, and further points become slashes. If the name has no suite, is
-// longer than RG_GTEST_KEPT bytes, or has characters that a filter or a list would misread, it is
-// cut or gets "_" for them, and a hash of the whole name follows to keep it unique.
+// the first point, and further points become slashes. If the name has no suite, is longer than
+// RG_GTEST_KEPT bytes, or has characters that a filter or a list would misread, it is cut or gets
+// "_" for them, and a hash of the whole name follows to keep it unique.
 enum { RG_GTEST_KEPT = 160, RG_GTEST_NAME = 256 };
 void rg_gtest_name(const char *name, char made[RG_GTEST_NAME]);
 

@@ -77,7 +77,7 @@ struct rg_report {
     void **texts;
 };
 
-// The longest texts, in bytes: longer ones are cut at a whole character, with a remark.
+// The longest texts, in bytes: longer ones are cut at a whole character, and say so.
 enum { RG_REPORT_NAME = 1000, RG_REPORT_LINE = 4000 };
 
 // Adds a copy of a case; NULL means "". Texts are cleaned here, once, so that each form escapes
@@ -100,8 +100,8 @@ int rg_report_count(const struct rg_report *report, enum rg_ending ending);
 // NULL, and one logged line, without memory.
 int *rg_report_worst_first(const struct rg_report *report);
 
-// "14 cases, 1 crash, 13 pass": every case that passes, differs or has a ratio was compared. "; 1
-// of them compared nothing" follows if that is true of expected failures.
+// "14 cases, 1 crash, 13 pass". Every case that passes, differs or has a ratio was compared; after
+// the number of expected failures the text says how many of them were not.
 enum { RG_REPORT_SUMMARY = 512 };
 void rg_report_summary(const struct rg_report *report, char text[RG_REPORT_SUMMARY]);
 
@@ -113,7 +113,7 @@ typedef bool (*rg_report_writer)(const struct rg_report *report, FILE *out);
 bool rg_report_write(const struct rg_report *report, rg_report_writer form, const char *path);
 
 // JUnit's XML as GitLab and Jenkins read it, below RG_JUNIT_LIMIT bytes: the longest details are
-// cut first, as far as necessary, with a remark. The schema is tests/harness/gate/report/junit.xsd.
+// cut first, as far as necessary, and say so. The schema is tests/harness/gate/report/junit.xsd.
 enum { RG_JUNIT_LIMIT = 30 * 1000 * 1000 };
 bool rg_report_junit(const struct rg_report *report, FILE *out);
 

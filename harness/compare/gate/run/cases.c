@@ -270,8 +270,8 @@ static void put_pictures(struct rg_gate_case *c, const char *folder, struct rg_r
     told->attachment_count = c->paths ? RG_GATE_PICTURES : 0;
 }
 
-// Whether the failure is not that of the case's own driver: it was the other side's, the truth's,
-// or raingauge's own through its input.
+// Whether something else than the case's driver failed: the other side, the truth, or raingauge
+// itself because of its input.
 static bool is_foreign(const struct rg_gate_case *c)
 {
     const char *device = c->agreement.device, *own = rg_gate_case_device(c);

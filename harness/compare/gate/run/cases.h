@@ -13,8 +13,8 @@
 // Owns nothing.
 struct rg_gate_request {
     const struct rg_gate_cells *cells;
-    // B's other side: the pairs, one after the other, or the devices of a baseline, whose cells are
-    // those above (rg_baseline_fits).
+    // B is compared with the A of each pair, one pair after the other, or with a baseline, whose
+    // cells are those above (rg_baseline_fits).
     const struct rg_gate_pairs *pairs;
     const struct rg_baseline *baseline; // NULL: the gate compares pairs
     const char *devices;                // of the baseline, with commas; NULL: all

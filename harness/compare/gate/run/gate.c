@@ -269,7 +269,7 @@ static bool open_journal(struct run *r)
     return r->journal;
 }
 
-// --- what is the same in every run ---
+// --- comparing ---
 
 // Makes the case's sides, and no others, run; a failure ends the case.
 static bool launch_for(struct run *r, struct rg_gate_case *c)

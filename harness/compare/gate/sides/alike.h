@@ -18,8 +18,8 @@ struct rg_agreement {
     const char *device;      // the side that failed alone; NULL: it concerns both
     char message[RG_AGREEMENT_TEXT]; // why, in one line; if they agree, a remark or ""
     char details[RG_AGREEMENT_TEXT]; // the first stage whose bits differ; ""
-    // Folder and name for pictures that differ (harness/compare/gate/pictures/); NULL: not written.
-    // has_pictures: they have been written.
+    // Folder and name for pictures that differ (harness/compare/gate/pictures/); NULL: none are
+    // written. has_pictures: some have been.
     const char *folder, *name;
     bool has_pictures;
     // If pictures differ: the name of the device whose picture counts as true, not owned, outlives

@@ -18,7 +18,7 @@ struct rg_gate_journal {
     char *folder, path[2048];
     json_t *document; // format, key, "codes": the code that ran each row, by name, and "rows": an
                       // object of arrays of launches, by name
-    int had;          // launches that the file had when it was opened
+    int had;          // number of launches in the file when it was opened
     bool is_changed, is_broken; // is_broken: it could not be written, which was logged
 };
 

@@ -50,7 +50,7 @@ struct rg_gate_times {
     // journal.
     struct rg_gate_journal *journal;
     int launch;               // number in the course
-    bool is_launched, failed; // the sides are launched, or failed to
+    bool is_launched, failed; // whether the sides have been launched, and whether one failed to
 };
 
 // The functions of a struct rg_quad_source; `user` is a struct rg_gate_times. A launch is disturbed

@@ -191,7 +191,7 @@ static bool add_limits(const char *place, struct rg_regex *regex)
 
 struct rg_regex *rg_regex_of(const char *place, const char *text)
 {
-    enum { GROWTH = 5 }; // a + after another repetition adds (?:)
+    enum { GROWTH = 5 }; // a + that repeats a repetition also adds "(?:" and ")"
     const size_t length = strlen(text);
     if (length > MOST_BYTES)
         return rg_error_null("%s: a regular expression of %zu bytes; at most %d", place, length,
