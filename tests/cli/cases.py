@@ -256,7 +256,7 @@ COMMANDS = [
     Case("verify flow --set drops=100001 --device cpu", 2, r"parameter 'drops': 100001 is out of range; 0 to 100000"),
     Case("verify flow --set nonsense=1 --device cpu", 2, r"parameter 'nonsense': flow has none"),
     Case("verify flow --device nonsense", 2, UNKNOWN_DEVICE),
-    # One cause that each cell meets is told once.
+    # A cause that affects each cell is reported once.
     Case("verify flow --quick --frame 2 --device cpu --set model={tmp}/none.obj " + SMALL, 2, r"none\.obj: No such file or directory; check the name"),
     Case("verify flow --quick --full", 2, r"--quick and --full: choose one"),
     Case("verify flow --frame -1", 2, r"--frame -1: must be 0 to 10000000"),

@@ -13,13 +13,13 @@ import zlib
 import forms
 from cases import FRAMES, RAIN
 
-# Each frame of a box that spins fast is another picture; a side is odd.
+# The box spins fast enough that each frame is another picture; the width is odd.
 FIRST, COUNT, WIDTH, HEIGHT, FPS = 3, 6, 75, 64, 25
 SPIN = ("render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --set model=none "
         "--set spin_yaw_deg_s=900 --size %dx%d " % (WIDTH, HEIGHT))
 CLIP = SPIN + "--frames %d-%d --fps %d " % (FIRST, FIRST + COUNT - 1, FPS)
-# How far coding may take a frame from its picture: the mean difference of Y, Cb or Cr, in codes. It takes them 0.5 away,
-# and another picture is 2 away.
+# Largest mean difference of Y, Cb or Cr between a frame and its picture, in codes. Coding changes them by 0.5; another
+# picture differs by 2.
 BOUND = 0.8
 
 
@@ -180,7 +180,7 @@ def check_same_bytes(runner):
         for name in "ab":
             texts.append(runner.run((CLIP + "-o %s/%s.webm" % (tmp, name)).split()).stdout)
             now = int(time.time())
-            wait_until(lambda: int(time.time()) > now)  # of which vpxenc would make the track's number
+            wait_until(lambda: int(time.time()) > now)  # vpxenc would derive the track's number from the time
         same = read(tmp + "/a.webm") == read(tmp + "/b.webm")
     said = re.match(r".*/a\.webm: flow, frames 3-8, 25 a second, 75x64, on cpu ", texts[0])
     return [] if same and said else ["the same: %s, printed: %s" % (same, texts[0])]
@@ -259,7 +259,7 @@ def children(process):
     for path in glob.glob("/proc/[0-9]*/stat"):
         try:
             fields = read(path).rsplit(b")", 1)[1].split()
-        except OSError:  # it has ended
+        except OSError:  # the process has ended
             continue
         if int(fields[1]) == process:
             found.append(int(path.split("/")[2]))

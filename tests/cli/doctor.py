@@ -44,7 +44,7 @@ def check_passport(runner):
     variables = {"GOMP_SPINCOUNT": None, "LP_NUM_THREADS": "3", "RG_KERNEL_DIR": "/nonexistent"}
     passport, again = (examine(runner, ["--device", "cpu"], variables)[0]["passport"] for _ in range(2))
     problems = [] if passport == again else ["two passports of one machine differ"]
-    # raingauge sets GOMP_SPINCOUNT where it is not set.
+    # raingauge sets GOMP_SPINCOUNT unless the user has.
     if passport["environment"] != dict(variables, GOMP_SPINCOUNT="8000"):
         problems.append("environment: %s" % passport["environment"])
     if passport["raingauge"]["kernel_dir"] != "/nonexistent":

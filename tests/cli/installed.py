@@ -49,7 +49,7 @@ def draw(runner, installed):
             file.write(TETRAHEDRON)
         pictures, problems = [], []
         for program in (runner.raingauge, installed):
-            for name in ("a.png", "a.tif"):  # a TIFF is OpenImageIO's, in the module
+            for name in ("a.png", "a.tif"):  # TIFF needs the module with OpenImageIO
                 path = os.path.join(folder, name)
                 done = subprocess.run([program] + (RENDER + "--set model=%s -o %s" % (model, path)).split(), cwd=folder,
                                       env=runner.variables({}), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8")

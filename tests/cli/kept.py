@@ -124,7 +124,7 @@ def check_damaged(runner):
                 done = runner.run(["table", "--from", tmp, *more])
                 if done.returncode != 2 or done.stdout or not re.fullmatch("raingauge: .*record\\.json: %s.*; restore it, or .*\n" % says, done.stderr):
                     problems.append("%s: status %d, %s" % (what, done.returncode, done.stderr))
-        # A record that is written anew by another program, or has what others are made of changed, is the same.
+        # A record rewritten by another program, or with changed derived values, counts as the same.
         record = json.loads(text)
         for cell in record["cells"]:
             cell["measured"].update(fps=1, ms=1.0, passes_share={})
@@ -185,7 +185,7 @@ def check_scripts(runner):
     return problems
 
 
-# Of every technique a table whose first row takes little, and what is measured of it.
+# A table of each technique whose first row takes little time, and the parts of it that are measured.
 COUNTED = {
     ("chin-grid", "creus-5.2", "feng-2", "raster-1", "stuppacher-2", "ye-1"): (),
     ("creus-5.4",): ("--work", "paper", "--variant", "no_geometry"),
@@ -292,7 +292,7 @@ def check_claims(runner):
     return problems + reason_problems(wide) + page_problems(runner, rows) + json_problems(runner, rows, wide)
 
 
-# How the page of one screen says a verdict.
+# The words for verdicts on the page that fits one screen.
 MARKS = {"reproduced": "yes", "not reproduced": "no", "undecided": "open", "other work": "other", "": ""}
 
 
@@ -308,7 +308,7 @@ def page_problems(runner, rows):
     return problems
 
 
-# Which bounds a test has.
+# The bounds that each test has.
 BOUNDS = {"ratio": ["least"], "apart": ["least"], "faster": ["least"], "rate": ["least"], "flattens": ["least"], "alike": ["most"],
           "exponent": ["least", "most"]}
 
@@ -384,7 +384,7 @@ def check_dirty_tree(runner):
         tools, tree = tmp + "/tools", tmp + "/tree"
         os.makedirs(tools)
         os.makedirs(tree)
-        for tool in ("git", "make", "sh"):  # nothing that could install or build
+        for tool in ("git", "make", "sh"):  # tools that cannot install or build anything
             os.symlink(shutil.which(tool), os.path.join(tools, tool))
         shutil.copy(os.path.join(ROOT, "Makefile"), tree)
         subprocess.run(git + ["init", "-q"], cwd=tree, check=True)

@@ -111,7 +111,8 @@ SUITES = {
 
 
 def main():
-    # What a shell starts in the background ignores SIGINT, what nohup starts SIGHUP, and so would the commands that are interrupted.
+    # A background command of a shell ignores SIGINT, and one of nohup SIGHUP; the commands that tests interrupt would
+    # inherit this.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
     runner = Runner(*sys.argv[2:8])

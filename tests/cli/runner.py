@@ -11,7 +11,8 @@ import subprocess
 import tempfile
 import threading
 
-# Variables that change what raingauge or a driver does; tests set what they mean to. Which fault it has is `make mutants`' own.
+# Variables that change what raingauge or a driver does; each test sets those that it needs. RG_MUTANT, which selects a
+# fault, belongs to `make mutants`.
 CHANGES = re.compile(r"^(RG_(?!MUTANT$)|LP_|OMP_|GOMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_|GTEST_)")
 NO_DRIVERS = {
     "VK_DRIVER_FILES": "/nonexistent",
@@ -19,10 +20,10 @@ NO_DRIVERS = {
     "__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent",
 }
 
-# A day to which an expectation may hold.
+# A date until which an expectation may hold.
 LATER = (datetime.date.today() + datetime.timedelta(90)).isoformat()
 
-# With what table and sweep end.
+# The last line of table and sweep.
 CLOSING = re.compile(r"^raingauge: (?:\d+ of )?\d+ cells? measured on \d+ devices?(?:; [^;\n]*)?\n", re.M)
 
 PR_CAPBSET_DROP, CAP_DAC_OVERRIDE = 24, 1
@@ -39,14 +40,14 @@ class Runner:
         self.raingauge, self.kernels, self.crasher, self.misbehaver, self.earlier, self.slower = map(
             os.path.abspath, (raingauge, kernels, crasher, misbehaver, earlier, slower))
         self.count = self.failed = 0
-        self.state = tempfile.TemporaryDirectory()  # what commands keep between runs
+        self.state = tempfile.TemporaryDirectory()  # files that commands keep between runs
 
     def variables(self, env):
         """This process's, without those that change what raingauge does, and with these, of which None is left out.
         Threads do not spin, since other tests run on the same cores."""
         variables = {k: v for k, v in os.environ.items() if not CHANGES.match(k)}
         variables["GOMP_SPINCOUNT"] = "0"
-        variables["RG_LONG_S"] = "1e9"  # a busy machine adds no line
+        variables["RG_LONG_S"] = "1e9"  # keeps a busy machine from adding a line
         variables["XDG_STATE_HOME"] = self.state.name
         variables.update(env)
         return {name: value for name, value in variables.items() if value is not None}
@@ -88,10 +89,10 @@ class Runner:
             try:
                 while part := os.read(ours, 65536):
                     parts.append(part)
-            except OSError:  # the terminal's end
+            except OSError:  # the terminal was closed
                 pass
 
-        reader = threading.Thread(target=read)  # a terminal holds some kilobytes, and its writer waits
+        reader = threading.Thread(target=read)  # a terminal buffers only some kilobytes, so its writer would wait
         reader.start()
         result = self.run(args, env, stdout=its)
         os.close(its)

@@ -9,7 +9,7 @@ GATE = "gate cpu cpu:reference --pictures --cells %s/cells.txt "
 TABLE = "table stuppacher-2 --rows 1-1 --quick --device cpu --work paper -o %s"
 REFUSED = r"is or goes through a link that another user has put into a folder for all"
 
-# The mode of the folder, the owners of it and of the link; whether the link is followed.
+# The folder's mode, the owners of the folder and of the link, and whether the link is followed.
 RULES = [
     ("another's link in a folder for all", 0o1777, 0, OTHER, False),
     ("one's own link there", 0o1777, OTHER, 0, True),
@@ -46,7 +46,7 @@ def check_rules(runner):
                 with open(target, "w") as file:
                     file.write("before")
                 via = os.path.join(here, "a.png")
-                if is_there:  # by way of one that is one's own
+                if is_there:  # through a second link, which is one's own
                     link(target, os.path.join(here, "b.png"), link_owner)
                     os.symlink(os.path.join("shared", "b.png"), os.path.join(folder, "c.png"))
                     via = os.path.join(folder, "c.png")

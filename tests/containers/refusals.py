@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 
 SMALL = "--size 32x32 --frame 2 --set resolution_px=64 --set environment=sky --set environment_px=16 "
-# Whether each reads foreign files in a cage (flow does, for its model), writes files, and needs a driver.
+# Each command reads foreign files in a cage (flow does, for its model), writes files, or needs a driver.
 COMMANDS = {
     "list": "list devices",
     "render": "render flow " + SMALL + "-o OUT/a.png",
@@ -18,7 +18,7 @@ COMMANDS = {
     "gate": "gate cpu gl --pictures --cells IN/cells.txt",
     "table": "table stuppacher-2 --rows 1-1 --quick --device cpu --work paper -o OUT/table",
 }
-READ = ("render", "clip", "files", "diff", "verify")  # files, in a cage
+READ = ("render", "clip", "files", "diff", "verify")  # these read files in a cage
 WRITTEN = ("render", "clip", "table")
 
 EPERM, ENOSYS, EINVAL, EAGAIN = errno.EPERM, errno.ENOSYS, errno.EINVAL, errno.EAGAIN
@@ -38,7 +38,7 @@ def call(calls, error):
     return lambda refusing: [refusing, str(error), calls]
 
 
-# What comes of each, by command: a status and what the first lines say. A command that is not named does what it does elsewhere.
+# The expected result by command: a status and a pattern for the first lines. Commands without an entry behave as usual.
 CAGE = {name: (77, r"no cage \(seccomp, prctl, capset\).*RG_CAGE=off") for name in READ}
 NO_PROCESS = {name: (71, r"could not be started|no process could be started") for name in COMMANDS}
 NO_SOCKET = {name: (71, r"socketpair") for name in COMMANDS if name != "files"}
@@ -85,9 +85,9 @@ REFUSALS = {
     "state that takes no files": (shell("export XDG_STATE_HOME=/proc/s"), {}),
     "a folder that takes no files": (shell("cd /proc"), {}),
 }
-# Whose fault it is not.
+# Words that would blame somebody else.
 BLAMES = re.compile(r"its driver (crashed|ended|did not)|is damaged|[Aa]ssimp crashed|install|the Debian package|Cannot allocate memory")
-# What may differ: times, names that the kernel tells, and folders.
+# Parts of the output that may differ: times, names from the kernel, and folders.
 TOLD = re.compile(r"unnamed CPU|AMD[^\n]*?(?=  )|\d+(\.\d+)?(e[-+]\d+)? m?s\b")
 
 
@@ -145,7 +145,7 @@ def run(runner, refusing, refusals, commands):
 
 
 def run_some(runner, refusing):
-    # One of each kind, for commands that take below a second.
+    # One refusal of each kind, for commands that take less than a second.
     run(runner, refusing, ["none of these three", "an emulator", "an emulator, RG_CAGE=off", "no waitid", "no socketpair", "no processes for now",
                            "no /proc, no memfd_create", "kernel.shmmax", "ulimit -f 0", "ulimit -f 1", "ulimit -n 6", "ulimit -v 100000",
                            "TMPDIR and cache that run no programs"], ["list", "render", "files"])

@@ -9,7 +9,8 @@ import time
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 FLOW = "flow --set model=none --set environment=sky "
-# What works for longer than it is left alone, with what it starts: workers, vpxenc, a shell with a gate, a reader of meshes.
+# Commands that run for longer than a test waits, with their child processes: workers, vpxenc, a shell with a gate, a
+# reader of meshes.
 COMMANDS = {
     "render": "render flow --size 1024x1024 --frame 100000 -o OUT/a.png",
     "pictures": "render flow --frames 0-100000 --size 64x64 -o OUT/%d.png",
@@ -30,7 +31,8 @@ COMMANDS = {
     "doctor": "doctor",
 }
 NAMESPACE = ["unshare", "-pf", "--mount-proc"]
-# No command above ends by itself so soon; that it takes below two seconds is printed, for a busy machine takes longer.
+# No command above ends by itself within this time. An end that takes two seconds or more is only printed, because a
+# busy machine takes longer.
 PATIENCE_S, AT_ONCE = 60, 4
 
 
@@ -93,7 +95,7 @@ def end(folder, name, number, is_first=False, after_s=0.6, prepare=heed):
     """What is wrong after a signal, so long after the start, and how long the end took; None where it had ended by then."""
     runner = folder.runner
     with tempfile.TemporaryDirectory() as out, tempfile.TemporaryDirectory() as tried:
-        # An atlas is made anew, which takes minutes.
+        # The atlas is made again, which takes minutes.
         env = runner.variables({"XDG_STATE_HOME": out, "TMPDIR": tried, "XDG_CACHE_HOME": out if name == "atlas" else os.environ.get("XDG_CACHE_HOME")})
         process = subprocess.Popen(NAMESPACE * is_first + [runner.raingauge] + folder.args(COMMANDS[name], out), env=env, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, encoding="utf-8", preexec_fn=prepare)
@@ -123,7 +125,7 @@ def end(folder, name, number, is_first=False, after_s=0.6, prepare=heed):
 def end_all(folder, trials):
     """What is wrong with several, of which the slowest is told."""
     problems, slowest_s, tried = [], 0, 0
-    with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:  # which mostly sleep
+    with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:  # the threads mostly sleep
         ends = list(pool.map(lambda trial: end(folder, *trial), trials))
     for found, took_s in ends:
         problems += found

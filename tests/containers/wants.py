@@ -20,7 +20,7 @@ COMMANDS = {
     "read": "diff IN/a.tif IN/a.png --json",
 }
 LACKING = 71
-# Words that a want may never bring.
+# Words that must not appear when raingauge itself lacks something.
 BLAMES = re.compile(r"its driver|is damaged|damaged;|install|unsupported|[Aa]ssimp crashed|the Debian package")
 CALLS, SAMPLE = 200, 12
 
@@ -35,7 +35,7 @@ def plain(refusing):
 
 
 FULL = "mount -t tmpfs -o size=4k none OUT; head -c 4096 /dev/zero >OUT/full 2>/dev/null"
-# By name: what stands before the command, and the library's variables.
+# By name: the prefix of the command, and the variables of the preloaded library.
 WANTS = {
     "addresses, 60 MB": (shell("ulimit -v 60000"), {}),
     "addresses, 80 MB": (shell("ulimit -v 80000"), {}),
@@ -70,7 +70,7 @@ WANTS = {
     "no threads": (plain, lib("thread")),
     "no memory in a worker": (plain, lib("malloc", "worker")),
 }
-# What differs from run to run.
+# Fields that differ between two runs.
 TIMES = {"passport", "passport_text", "measured", "seconds", "created", "checksum", "seal", "date", "time_ms", "shapes", "host", "id", "notes"}
 
 
@@ -79,7 +79,7 @@ def settled(value):
     if isinstance(value, dict):
         return {name: settled(inner) for name, inner in value.items() if name not in TIMES}
     if isinstance(value, str):
-        return re.sub(r", \d+ threads?$", "", value)  # a warning says where there are fewer
+        return re.sub(r", \d+ threads?$", "", value)  # a warning names the number of threads if some are missing
     return [settled(inner) for inner in value] if isinstance(value, list) else value
 
 
@@ -93,7 +93,7 @@ def told(text):
 class Trial:
     def __init__(self, runner, refusing, wanting, folder):
         self.runner, self.refusing, self.wanting, self.folder = runner, refusing, os.path.abspath(wanting), folder
-        self.well, self.lacking = {}, 0  # what each command does without a want; how many had one
+        self.well, self.lacking = {}, 0  # each command's result when nothing is lacking; number of commands that lacked something
         for name in ("a.tif", "a.png"):
             runner.run(("render raster --device cpu " + SMALL + "-o " + os.path.join(folder, name)).split())
         with open(os.path.join(folder, "cells.txt"), "w") as file:

@@ -35,7 +35,7 @@ CASES = {
     "c = float(i / 4) / float(k)": "c = RG_QUOTIENT(float(i / 4), float(k))",
     "c = other(i / k, 3) / 255.0f": "c = RG_QUOTIENT(other(i / k, 3), 255.0f)",
     "if (a / b > 1.0f) return a / c": "if (RG_QUOTIENT(a, b) > 1.0f) return RG_QUOTIENT(a, c)",
-    # not of floats, or of literals alone
+    # not quotients of floats, or only of literals
     "k = i / 4": "k = i / 4",
     "k = i * k / count_of(it)": "k = i * k / count_of(it)",
     "k = int(u / 3u) + i / it.count": "k = int(u / 3u) + i / it.count",

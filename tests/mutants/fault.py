@@ -2,18 +2,18 @@
 import dataclasses
 import re
 
-OPERATOR = re.compile(r"(\+=|-=|<<|[-+*/%&|])\s")  # that a place may begin with, its left side before it
+OPERATOR = re.compile(r"(\+=|-=|<<|[-+*/%&|])\s")  # a place may begin with an operator; its left side is before it
 
 @dataclasses.dataclass(frozen=True)
 class Fault:
     file: str
-    # The text around the place, which stands once in the file; the place itself is between « and », or all of it.
-    # An expression, or statements, which end with a semicolon or a brace.
+    # The text around the place, which must occur once in the file; « and » enclose the place, else it is the whole
+    # text. A place is an expression, or statements that end with a semicolon or a brace.
     at: str
     new: str
     about: str
     lives: str = ""  # why no test can notice it
-    tests: tuple = ()  # that are tried before those of its area
+    tests: tuple = ()  # tried before the tests of its area
 
     @property
     def old(self):

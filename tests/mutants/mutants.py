@@ -23,7 +23,7 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
 LEAST_SHARE = 0.95
-LEAST_LIMIT_S, TIMES_AS_LONG = 240, 4  # what a test may take, by what it took without a fault; one that takes longer has noticed
+LEAST_LIMIT_S, TIMES_AS_LONG = 240, 4  # a test's time limit, from its time without a fault; exceeding it counts as noticing
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(HERE))
@@ -136,7 +136,7 @@ def notices(test, number, cache, limit_s=None):
             code = run.wait(timeout=limit_s)
         except subprocess.TimeoutExpired:
             code = -1
-        finally:  # also where this tool is ended
+        finally:  # also if this tool is interrupted
             try:
                 os.killpg(run.pid, signal.SIGKILL)
             except ProcessLookupError:

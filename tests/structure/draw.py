@@ -2,9 +2,9 @@
 import os
 from html import escape
 
-# Side by side from the left; shaders stand among kernels.
+# Columns from left to right; shaders are drawn among the kernels.
 COLUMNS = ["harness", "core", "backends", "kernels"]
-# In pixels: the heights of a box and a floor, and widths.
+# Pixels: the heights of a box and a floor, then widths.
 BOX, FLOOR, LETTER, PAD, GAP = 26, 76, 7.3, 10, 16
 
 HEAD = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {across} {down}" font-family="monospace"

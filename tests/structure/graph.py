@@ -49,7 +49,7 @@ def absent(tree):
         with open(os.path.join(tree.root, path), encoding="utf-8") as file:
             text = re.sub(r"#[^\n]*", "", file.read())
         names = [name for inner in re.findall(r"\bfiles\(([^()]*)\)", text) for name in re.findall(r"'([^']+)'", inner)]
-        names = [name for name in names if not re.match(r"\.\w", name)]  # an ending, behind a variable
+        names = [name for name in names if not re.match(r"\.\w", name)]  # the ending of a name that begins with a variable
         lines += [f"{path}: {name}: is not there" for name in names if not os.path.exists(os.path.join(tree.root, folder, name))]
     return lines
 

@@ -6,7 +6,7 @@ core/techniques that is not listed. B stands for any backend: a folder of backen
 import os
 import re
 
-# From the top: a file includes files of its own room and of floors below it. Rooms on one floor know nothing of
+# From top to bottom: a file includes only files of its own room and of floors below. Rooms on one floor know nothing of
 # each other.
 FLOORS = [
     "tests",
@@ -34,26 +34,26 @@ FLOORS = [
     "kernels/dialect",
 ]
 
-# These include nothing else, each for a reason.
+# These rooms may include nothing else, each for a reason.
 FENCES = {
-    # An oracle proves kernels, so it shares nothing with them, nor with anything else but assertions.
+    # An oracle proves kernels, so it shares nothing with them, and uses nothing else but assertions.
     "tests/oracle": "tests/tools",
     "tests/kernels": "kernels/T kernels/scenery kernels/dialect",
     # A technique knows its own kernels, and never another technique.
     "core/techniques/T": "core/techniques/scenery core/techniques core/scene core/image core/device core/base "
                          "kernels/T kernels/dialect",
-    # A scene can be drawn by any technique.
+    # Any technique can draw a scene, so a scene knows none.
     "core/scene": "core/image core/device core/base kernels/scenery kernels/dialect",
     "core/image": "core/base",
-    # A backend runs any kernel, and so knows none.
+    # A backend runs any kernel, so it knows none.
     "backends/B": "backends core/base kernels/dialect",
     "core/base": "",
 }
 
 
-# Names that one folder of the harness alone may use: what stands above it goes through its functions.
+# Names that only one folder of the harness may use; rooms above it call its functions instead.
 SEAMS = {
-    # An instance lives in another process: commands know sessions.
+    # An instance lives in another process, so commands use sessions.
     "harness/devices/frames": "rg_instance rg_instance_open rg_instance_close rg_frame_read rg_frame_picture "
                               "rg_frame_read_picture",
 }

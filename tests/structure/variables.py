@@ -13,7 +13,7 @@ PRODUCT = ("core", "backends", "harness")
 READ = re.compile(r'\bgetenv\("(\w+)"\)')
 HELD = re.compile(r'^    \{"(\w+)", (?:true|false)\},$', re.M)
 NAMED = re.compile(r"`([A-Z_]{3,}[A-Z0-9_]*)(?:=\w+)?`")
-# Where a driver keeps code changes none of it; raingauge itself sets this one.
+# The place of a driver's code cache does not change its code; raingauge itself sets this variable.
 NOT_HELD = {"MESA_SHADER_CACHE_DIR"}
 
 

@@ -30,7 +30,7 @@ def main():
     structs = dict(re.findall(r"\bRG_STRUCT\((\w+)\)\s*\{([^}]*)\}", text))
     told = dict(re.findall(r"(?m)^#define RG_WORDS_(\w+)\s*, \"(\w+)\"", read("kernels/build/describe.h")))
     held = set(re.findall(r"\b(?:IN|OUT|INOUT|ATOMIC)\(\s*\d+\s*,\s*(\w+)\s*,", text)) - {"T"}
-    held -= {"rg_prim"}  # no asset, and each program's own
+    held -= {"rg_prim"}  # a builtin of each program, not an asset
     problems = ["%s: kernels hold it in a buffer; say its words" % kind for kind in sorted(held - set(told))]
     problems += ["%s: no buffer holds it; take its row out" % kind for kind in sorted(set(told) - held)]
     problems += ["%s: is told as %s, and is %s" % (kind, letters, words_of(kind, structs)) for kind, letters in sorted(told.items())

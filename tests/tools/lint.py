@@ -17,8 +17,8 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ROOMS, SKIP = ("backends", "core", "harness"), 77
 VERSIONS = {"cppcheck": "Cppcheck 2.10", "gcc": " 12.", "clang-tidy": "version 14."}
-# gcc 12 loses sight of memory that is reached by its first member, as devices and images are, of arrays that a loop fills, and of
-# conditions on another file's functions: what it says of these was wrong each time. clang-tidy looks for the same.
+# gcc 12 gives only false warnings about memory reached through its first member (devices, images), arrays filled in a
+# loop, and conditions in another file's functions. clang-tidy looks for the same errors.
 ANALYZER = ["-O1", "-fanalyzer", "-Wno-maybe-uninitialized", "-Wno-analyzer-malloc-leak", "-Wno-analyzer-null-argument", "-Wno-analyzer-null-dereference",
             "-Wno-analyzer-use-of-uninitialized-value", "-c", "-o", os.devnull]
 CPPCHECK = ["--enable=warning,performance,portability", "--inline-suppr", "--std=c11", "--library=posix", "-I.", "-D__GNUC__", "--quiet", "--suppressions-list=tests/tools/cppcheck.txt",

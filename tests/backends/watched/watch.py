@@ -12,17 +12,17 @@ import sys
 
 FOUND = 66
 TOOLS = {
-    # libgomp's own accesses are not its business: annotate.c tells what they come to.
+    # libgomp's own accesses are ignored; annotate.c tells the tool about its synchronization.
     "races": ([], {"OMP_NUM_THREADS": "4", "OMP_DYNAMIC": "false",
                    "TSAN_OPTIONS": f"exitcode={FOUND}:ignore_noninstrumented_modules=1:atexit_sleep_ms=0"},
               "WARNING: ThreadSanitizer: data race"),
     "values": (["valgrind", "-q", f"--error-exitcode={FOUND}", "--num-callers=20",
-                # At the default of 60 its translator runs out of room over the kernels' loops.
+                # With the default of 60 guest instructions valgrind runs out of space for the kernels' loops.
                 "--vex-guest-max-insns=20"],
-               # Without vectors there are more branches, at which alone values are found out.
+               # Only branches reveal uninitialised values, and code without vectors has more branches.
                {"OMP_NUM_THREADS": "1", "RG_CPU_LEVEL": "plain"}, "uninitialised value"),
 }
-# Of libgomp's entries those that put nothing in order: pieces of a loop are handed out, one thread is chosen.
+# Entry points of libgomp that do not synchronize: they hand out pieces of a loop, or choose one thread.
 ORDERLESS = {"GOMP_loop_nonmonotonic_dynamic_start", "GOMP_loop_nonmonotonic_dynamic_next", "GOMP_loop_end_nowait",
              "GOMP_single_start"}
 NO_RANDOM_ADDRESSES = 0x0040000
@@ -60,7 +60,7 @@ def check_entries(program):
 def main():
     tool, program, *arguments = sys.argv[1:]
     if arguments != ["planted"]:
-        if tool == "values":  # what is made once and kept is made without valgrind
+        if tool == "values":  # things that are made once and kept are made without valgrind first
             subprocess.run([program] + arguments, check=True)
         sys.exit(run(tool, program, arguments).returncode)
     if tool == "values":

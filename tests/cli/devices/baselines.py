@@ -20,8 +20,8 @@ PANE = "flow/pane flow 64x48 2 view=pane resolution_px=64\n"
 CPU = ["--device", "cpu"]
 QUICK = ["--launches", "8"]
 
-# By what a baseline's times are changed. A launch of a few triangles takes ten times as long, and two threads that wake each
-# other thirty times, as soon as other tests run beside it, so that the changes are far larger than that.
+# Factors for a baseline's times. While other tests run, a launch of a few triangles takes ten times as long, and two
+# threads that wake each other take thirty times as long, so the factors are far larger.
 CHANGE, YARDSTICK_CHANGE, BUSY = 1e6, 1e3, 1e2
 
 
@@ -111,11 +111,11 @@ def check_timed(runner):
             def scale(document, factor=factor):
                 for row in document["baseline"]:
                     row["launches_ms"] = [ms * factor for ms in row["launches_ms"]]
-            kept = ["-o", files.path("kept")] if name == "slower" else []  # what it keeps on the way changes no verdict
+            kept = ["-o", files.path("kept")] if name == "slower" else []  # its journal changes no verdict
             result = gate(runner, files, change(path, scale, files.path("scaled.json")), "--budget", "1m", *kept)
             cases[name] = result.returncode, json.loads(result.stdout)["gated"][0]
     problems = []
-    status, case = cases["same"]  # how fast the machine is now is not the test's to say
+    status, case = cases["same"]  # this test does not judge how fast the machine is now
     if status not in (0, 1, 3) or case["ending"] not in ("pass", "inconclusive", "regressed", "improved") or not case["ratio"]["value"]:
         problems.append("same: exit status %d, %s" % (status, case))
     if "key is another" in case["message"] or "launches" not in case["details"] or case["baseline_ms"] is None:
@@ -196,7 +196,7 @@ def check_miscompiled(runner):
         problems.append("expected: exit status %d, %s" % (expected.returncode, expected.stdout))
     if only.returncode or set(endings(json.loads(only.stdout))) != {"raster/torus.cpu", "flow/pane.cpu"}:
         problems.append("--device cpu: %s" % only.stdout)
-    # A baseline that is made of a driver that draws wrongly does not make that right.
+    # A baseline made with a driver that draws wrongly does not make its pictures right.
     if wrong.returncode != 1 or "flow/pane.gl: fail: the picture differs" not in wrong.stdout:
         problems.append("wrong: exit status %d, %s" % (wrong.returncode, wrong.stdout))
     if again.returncode != 1 or endings(json.loads(again.stdout))["flow/pane.gl"] != "differs":
@@ -432,7 +432,7 @@ def check_spared(runner):
         known, skips, link = files.path("known.txt", "# none\n"), files.path("skips.txt", "# none\n"), files.path("link")
         os.symlink(path, link)
         read = ["--baseline", path, "--cells", files.cells, "--expectations", known, "--skips", skips, "--pictures"]
-        kept = {"-o": files.path("gate.journal", TORUS)}  # what the gate keeps of its own in that folder
+        kept = {"-o": files.path("gate.journal", TORUS)}  # the gate's own journal in that folder
         for option, report in (("--junit", path), ("--bmf", path), ("--bmf", link), ("--junit", files.cells), ("--bmf", known), ("--junit", skips),
                                ("-o", kept["-o"])):
             with open(report, "rb") as file:

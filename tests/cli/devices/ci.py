@@ -16,7 +16,7 @@ THIRD = TORUS.replace("raster/torus", "raster/third")
 KNOWN = os.path.join(runners.TESTS, os.pardir, "results", "expectations.txt")
 
 
-FOLDER = "gate-results"  # of the examples
+FOLDER = "gate-results"  # used in the examples
 TIMES = FOLDER + "/launches.csv"
 
 
@@ -43,7 +43,7 @@ def check_gitlab(runner):
     """docs/ci/gitlab-ci.yml: what is not decided is a warning, a crash fails, and the report that it names is JUnit's"""
     problems = []
     for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES]), (runner.crasher, "failed", ["error"], []),
-                                    ("/nonexistent", "failed", ["error"], [])):  # what --require misses
+                                    ("/nonexistent", "failed", ["error"], [])):  # a device that --require misses
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
             found, log, kept, junit = runners.gitlab(runner, folder, BUDGET="0.1s")

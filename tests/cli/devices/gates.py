@@ -14,7 +14,7 @@ from wrong import RIGHT, TURNED
 TESTS = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCHEMA = os.path.join(TESTS, "harness", "gate", "report", "junit.xsd")
 TORUS = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
-# Of runner.slower, beside each frame: many times the frame's own work, whatever else the machine does.
+# Extra loops per frame for runner.slower: many times the frame's own work, even on a busy machine.
 EXTRA = "RG_EXTRA_LOOPS=1000000"
 QUICK = TORUS + "flow/pane flow 64x48 2 view=pane resolution_px=64\n"
 
@@ -222,7 +222,7 @@ def check_sides(runner):
     with Files(TORUS) as files:
         known = files.path("known.txt", "fail *\n  device vulkan*\n  outcome crash\n  reason it falls\n  since 2026-11-01\n  until " + LATER + "\n")
         fails, empty = files.path("fails.txt", "raster/torus,Crash\n"), files.path("empty.txt", "")
-        # Two launches compare, and the device's driver falls from the one after so many on.
+        # Two launches compare; the device's driver crashes after a given number of them.
         count = files.path("count")
         env = misbehaving.shim(runner, files.folder.name, "vulkan", "vkQueueSubmit", "abort", 0)
         other = files.path("other.sh", "#!/bin/sh\necho >> %s\ntest $(wc -l < %s) -gt ${RG_TEST_GOOD} && export RG_MISBEHAVE=%s\nexec %s \"$@\"\n" % (

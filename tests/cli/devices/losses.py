@@ -12,11 +12,11 @@ import time
 
 import misbehaving
 
-# Once the first table is measured, all of it is in its journal, for as long as the second takes.
+# After the first table its whole result is in its journal while the second is measured.
 FIRST, SECOND, ROWS = "stuppacher-2", "chin-grid", 2
 TABLES = "table %s %s --quick --device cpu --work paper --rows 1-%d -o " % (FIRST, SECOND, ROWS)
 JOURNAL = FIRST + "-quick.journal"
-LIMIT_S = 60  # for what takes a second
+LIMIT_S = 60  # for work that takes a second
 
 
 def wait_for(condition):
@@ -122,7 +122,7 @@ def check_second(runner):
     problems = []
     with tempfile.TemporaryDirectory() as out:
         first, _ = begin(runner, out)
-        os.kill(first.pid, signal.SIGSTOP)  # it is there for as long as the second takes
+        os.kill(first.pid, signal.SIGSTOP)  # it exists while the second run takes place
         with open(os.path.join(out, JOURNAL)) as file:
             before = file.read()
         second = runner.run((TABLES + out).split())
@@ -147,7 +147,7 @@ def check_held(runner):
     with tempfile.TemporaryDirectory() as state:
         os.mkdir(state + "/raingauge")
         with open(state + "/raingauge/stuppacher-2-quick.journal", "w") as file:
-            file.write("no journal")  # of which whoever reads it says so
+            file.write("no journal")  # reading it would cause a message
         folder = os.open(state + "/raingauge", os.O_RDONLY)
         fcntl.flock(folder, fcntl.LOCK_EX)
         for says in (r"raingauge: .*/raingauge: another raingauge that measures keeps its rows there; this one keeps none: .*\n",
@@ -281,7 +281,7 @@ def check_earlier(runner):
     return problems
 
 
-# Commands that write files, at work for longer than they are left alone.
+# Commands that write files and run for longer than a test waits.
 WRITING = {
     "render": "render flow --frame 100000 -o {}/a.png",
     "pictures": "render flow --frames 0-100000 --size 64x64 -o {}/%d.png",

@@ -9,7 +9,7 @@ import tempfile
 import forms
 
 SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
-# What each command is asked for, on all devices.
+# The command lines, for all devices.
 COMMANDS = {
     "doctor": "doctor --json",
     "diff": "diff raster --frame 1 --json --size 96x96",
@@ -23,12 +23,12 @@ HOW = {
     "fault": ("crash", r"its driver crashed \(Segmentation fault\)"),
     "exit": ("crash", r"its driver ended the process with status 0"),
     "hang": ("timeout", r"its driver did not come back within 10 s"),
-    # From 1 GiB to 1 GiB beyond what the user allows: other workers have the rest of that.
+    # From 1 GiB up to 1 GiB above the user's limit: the other workers use the rest.
     "swell": ("crash", r"it took more than (102[4-9]|10[3-9]\d|1[1-9]\d\d|20[0-3]\d|204[0-8]) MiB of memory and was ended"),
     "lost": ("error", r"DEVICE_LOST|CONTEXT_LOST|OUT_OF_RESOURCES"),
     "none": ("error", r"its driver tells of 0, 0 and 0 work groups"),
 }
-# Where no other worker has any.
+# The same when no other worker uses memory.
 ALONE = dict(HOW, swell=("crash", r"it took more than 2048 MiB of memory and was ended"))
 
 
@@ -55,7 +55,7 @@ def found_well(command, report):
     return good | {"cpu:reference"}
 
 
-# Device, function, how, calls that go well before: each way on each API, in opening or in running.
+# Device, function, kind of fault, number of good calls before it: each kind on each API, while opening or running.
 CASES = [
     ("vulkan", "vkEnumeratePhysicalDevices", "abort", 0),
     ("vulkan", "vkGetPhysicalDeviceProperties2", "none", 0),
@@ -77,7 +77,7 @@ CASES = [
     ("opencl", "clEnqueueNDRangeKernel", "hang", 2),
     ("opencl", "clEnqueueNDRangeKernel", "lost", 2),
 ]
-# Those of listing, in which no device can be lost yet.
+# Faults while devices are listed, when no device can be lost yet.
 LISTING = [
     ("vulkan", "vkEnumeratePhysicalDevices", "abort", 0),
     ("vulkan", "vkEnumeratePhysicalDevices", "hang", 0),

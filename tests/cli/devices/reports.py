@@ -13,7 +13,7 @@ from gates import QUICK, TORUS, Files
 from runner import LATER
 from wrong import RIGHT, TURNED
 
-# Values of a variable that no driver reads, and what reports make of the characters that they cannot hold.
+# Values of a variable that no driver reads, with characters that reports cannot hold and have to replace.
 HOSTILE = ["'quotes\" and ` <failure message=\"x\">&amp;</failure> ]]> <![CDATA[", "[[ATTACHMENT|/etc/passwd]] \x1b[31m\x07\x7f a\nb\tc\rd",
            "100% : , %0A ::error title=x::y ##[error]x | a | **b** |", "[  FAILED  ] x -*?: Ü 漢 \U0001f327 two  blanks ", "x" * 200]
 
@@ -127,7 +127,7 @@ def check_expectations(runner):
             if not is_untrue:
                 continue
             found, endings, told = gate(runner, folder, ["--expectations", KNOWN_NAME])
-            now = ("differs", 1) if text.startswith("skip") else ("expected failure", 0)  # a skip that goes lets its cell run
+            now = ("differs", 1) if text.startswith("skip") else ("expected failure", 0)  # without its skip the cell runs
             if (endings["flow/pane"], found) != now:
                 problems.append("%s: updated: exit status %d, %s\n%s" % (text, found, endings, told))
     return problems
@@ -188,7 +188,7 @@ def check_updates(runner):
             ran, first, second = differing("", ["--fails", fails, "--expectations", link] + form)
             if ran.returncode != 1 or not re.match("fail flow/pane\n  device +gl@.*\n  driver.*\n  outcome +fail\n", first) or second or not os.path.islink(link):
                 problems.append("%s: exit status %d, %s%s%s%s" % (form, ran.returncode, first, second, ran.stdout, ran.stderr))
-        # Somebody writes into the file whenever B starts.
+        # Another process writes into the file whenever B starts.
         other = files.path("other.sh", "#!/bin/sh\necho '# mine' >> %s\nexec %s \"$@\"\n" % (own, runner.raingauge))
         os.chmod(other, 0o700)
         ran, first, _ = differing("RG_PROGRAM=%s;" % other, ["--expectations", own])

@@ -119,7 +119,7 @@ def check_baseline(runner):
         folder, was, path = files.path("out"), files.path("baseline.json"), files.path("out/gate.journal")
         make = ["baseline", "--device", "cpu", "--launches", "8", "--cells", files.cells, "-o", was]
         runner.run(make)
-        sides = ["--baseline", was, "--margin", "0.01"]  # so that no look but the last decides
+        sides = ["--baseline", was, "--margin", "0.01"]  # so that only the last look decides
         left = left_by_a_kill(runner, files, folder, sides)
         if len(left) < 4:
             return ["%d launches were kept" % len(left)]
@@ -139,7 +139,7 @@ def check_baseline(runner):
             with open(path, "w") as file:
                 file.write(whole)
             os.remove(was)
-            runner.run(make)  # with other times
+            runner.run(make)  # a new baseline with other times
     return problems
 
 

@@ -93,7 +93,7 @@ def results(text):
     for line in text.splitlines():
         begins, ends = re.search(r"\[\sRUN\s*\]\s(.*)", line), re.search(r"\[\s*(\S*)\s*\]\s(\S*)", line)
         if running and ends:
-            found.append((running, WORDS[ends[1]]))  # a word that it does not know ends deqp-runner
+            found.append((running, WORDS[ends[1]]))  # deqp-runner stops at a word that it does not know
             running = None
         elif not running and begins:
             running = begins[1]

@@ -10,7 +10,7 @@ import tempfile
 import misbehaving
 
 MOST_LINES = 190  # of the program that runs a kernel alone
-MOST_BYTES = 4096  # that one item needs of its slots
+MOST_BYTES = 4096  # bytes in slots that one item needs
 SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
 STAGE, RIGHT, WRONG = "flow_normals", "44ffe000", "44ff0000"  # 2047 and 2040
 
@@ -169,7 +169,7 @@ def check_alone(runner):
             got = run(args, env)
             if got[0] != status or not re.fullmatch(says, got[1]):
                 problems.append("run %s %s: exit status %d, %s" % (args, env, *got))
-        # A kernel that was edited is of another size.
+        # An edited kernel has another size.
         compiled = subprocess.run("glslc -fshader-stage=compute --target-env=vulkan1.2 -O0 -g kernel.comp -o kernel.spv".split(),
                                   cwd=alone, stderr=subprocess.PIPE, encoding="utf-8")
         if compiled.returncode or read(alone, "kernel.spv") == read(path + ".kernel", "kernel.spv") or run([]) != (0, "it is the same\n"):

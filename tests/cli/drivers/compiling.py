@@ -8,7 +8,8 @@ from misbehaving import side_by_side
 
 KERNEL = "flow_normals"
 SMALL = "--set environment_px=16 --set resolution_px=16 --set model= --size 16x16".split()
-# How the driver fails, by API: as the kernel is compiled, as it is run, and as somebody waits for what ran, and how that is told.
+# How the driver fails: while a kernel is compiled, while it runs, or while raingauge waits for it; and the expected
+# message.
 WAYS = {"compile:abort": r"crashed \(Aborted\) while compiling kernel 'KERNEL'", "compile:exit": "ended the process with status 0 while compiling kernel 'KERNEL'",
         "compile:error": "kernel 'KERNEL': .* failed", "run:fault": r"crashed \(Segmentation fault\) while .*'KERNEL'",
         "run:abort": r"crashed \(Aborted\) while .*'KERNEL'", "wait:abort": r"crashed \(Aborted\) while .*; not known to have ended: .*'KERNEL'",
@@ -37,7 +38,7 @@ def problems_named(runner, case):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
         args = ["render", "flow", "--frame", "1", "--device", failing(runner, folder, *case), "-o", path]
-        args += ["--timeout", "8" if "hang" in case[1] else "100"]  # others wait for a busy machine
+        args += ["--timeout", "8" if "hang" in case[1] else "100"]  # the others get more time, for a busy machine
         result = runner.run(args + SMALL)
         lines = result.stderr.splitlines()
         says = WAYS[case[1]].replace("KERNEL", KERNEL)

@@ -8,7 +8,7 @@ import tempfile
 
 SMALL = "--size 16x16 --frame 1"
 CELL = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
-# What each command is asked for of one device.
+# The command lines for one device.
 COMMANDS = {
     "list": "list devices",
     "render": "render raster %s --device {api} -o {tmp}/a.png" % SMALL,
@@ -68,7 +68,7 @@ NO_DRIVER = "whose library 'libm.so.6' is no driver: it has no function "
 NO_FILE = "which cannot be read: No such file or directory$"
 NO_JSON = "which is no JSON: line 1: "
 NO_EGL = "no EGL display: eglInitialize failed with EGL_NOT_INITIALIZED"
-# API, variables, what the line says: each is a failure.
+# API, variables, and the expected line; each case is a failure.
 FAILING = [
     ("vulkan", {"VK_DRIVER_FILES": "{tmp}/absent.json"}, VULKAN % ("INCOMPATIBLE_DRIVER", "absent.json", NO_LIBRARY)),
     ("vulkan", {"VK_ICD_FILENAMES": "{tmp}/empty.json"}, "VK_ICD_FILENAMES names '.*/empty.json', " + TOO_SHORT),
@@ -110,7 +110,7 @@ FAILING = [
     ("opencl", {"POCL_CACHE_DIR": "/proc/nothing"}, "PoCL cannot write to its cache: /proc/nothing: No such file or directory; set POCL_CACHE_DIR"),
     ("opencl", {"POCL_DEVICES": "nonsense"}, "PoCL has none that POCL_DEVICES=nonsense asks for; unset it$"),
 ]
-# Nobody expects a driver there.
+# No driver is expected in these cases.
 ABSENT = [
     ("vulkan", {"VK_DRIVER_FILES": "/nonexistent"}, "VK_DRIVER_FILES=/nonexistent names no driver: unset it, or name one$"),
     ("vulkan", {"VK_DRIVER_FILES": "{tmp}/none"}, "VK_DRIVER_FILES=.*/none names no driver: unset it, or name one$"),
@@ -120,7 +120,7 @@ ABSENT = [
     ("opencl", {"OCL_ICD_VENDORS": "{tmp}/none"}, "OCL_ICD_VENDORS=.*/none names no driver: unset it, or name one$"),
     ("opencl", {"POCL_DEVICES": ""}, "CL_DEVICE_NOT_FOUND on Portable Computing Language; the drivers that are installed serve no other device$"),
 ]
-# One that fails stands beside one that does not.
+# One driver fails, and another of the same API works.
 BESIDE = [
     ("vulkan", {"XDG_DATA_DIRS": "{tmp}/beside:/usr/share"}, "a driver is left out: '.*/broken.json', " + NO_JSON),
     ("vulkan", {"XDG_DATA_DIRS": "{tmp}/beside2:/usr/share"}, "a driver is left out: '.*/absent.json', whose library cannot be loaded: /nonexistent.so: "),

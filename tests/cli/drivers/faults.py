@@ -40,8 +40,8 @@ COMMANDS = {
 WAYS = ("error", "abort", "exit", "hang", "lost", "swell")
 PREFIX = {"vulkan": "vk", "gl": ("gl", "egl"), "opencl": "cl"}
 GIVES_BACK = re.compile("vkDestroy|vkFree|glDelete|clRelease|eglDestroyContext|eglTerminate")
-HANG_S = 3  # after which one that hangs is given up
-PAIRS_OF_A_SAMPLE = 6  # of an API and a command, for each of which the command is run well first
+HANG_S = 3  # time after which a hanging driver is given up
+PAIRS_OF_A_SAMPLE = 6  # pairs of an API and a command; each first runs once without a fault
 
 Fault = collections.namedtuple("Fault", "api function how command")
 
@@ -75,7 +75,7 @@ class Faults:
             return sorted({name for name in file.read().split() if name.startswith(PREFIX[api])})
 
     def means_something(self, function, how, command):
-        silent = {"error", "lost"} if command == "list" else {"error"}  # which has no device that could be lost
+        silent = {"error", "lost"} if command == "list" else {"error"}  # list holds no device that could be lost
         return not (how in ("error", "lost") and GIVES_BACK.match(function)) and not (how in silent and self.kinds[function] == "VK_NOTHING")
 
     def all(self, pairs, at_once):

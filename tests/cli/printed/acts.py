@@ -70,7 +70,7 @@ class Place:
         return found
 
 
-# --- hostile files: each yields command lines, the statuses that they may end with, and what the one line on stderr says ---
+# --- hostile files: each yields command lines, the allowed exit statuses, and a pattern of the one line on stderr ---
 
 def of_baselines(place, runner):
     cells, kept = place.file("in/cells.txt", CELL), place.path("in/baseline.json")

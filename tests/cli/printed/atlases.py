@@ -54,7 +54,7 @@ def check_compared(runner):
     """atlas --compare lays pictures of the database beside ours: those of chance are like none, one of an even sky is like its own"""
     with tempfile.TemporaryDirectory() as tmp:
         os.mkdir(tmp + "/cam")
-        for k in range(4):  # pixels of chance, by a generator of their own
+        for k in range(4):  # random pixels, from a generator of their own
             codes = [[(7919 * (row * 8 + column + 1) * (k + 3) ** 2) % 65521 for column in range(8)] for row in range(262)]
             write_codes("%s/cam/cv0_v10_h%d_osc%d.png" % (tmp, 20 * k + 10, k), 8, codes)
         chord = [max(1 - ((column - 3.5) / 2.97) ** 2, 0) ** 0.5 for column in range(8)]

@@ -82,7 +82,7 @@ def doubles(more):
 
 LONG = w.codes(times=16843009)  # the same quotients by the largest code
 
-# Label, endings, two files, status, and what differs besides, if anything does.
+# Label, endings, two files, status, and the expected difference other than texels, if any.
 PAIRS = [
     ("a curve that is linear", "png png", ONE, w.png(before=[gama(100000)]), 1, None),
     ("another power", "png png", w.png(before=[gama(50000)]), w.png(before=[gama(55000)]), 1, None),
@@ -187,13 +187,13 @@ PAIRS = [
                                                for n in (0, 1)), 1, "channel channel3"),
 ]
 
-# OpenImageIO takes a third of a second to load: these are tried at every change, the others by `make thorough`.
+# Loading OpenImageIO takes a third of a second, so these are tried at every change, the others by `make thorough`.
 QUICK = {"a channel of depth", "whole numbers beside it", "whole numbers between floats", "the second part", "a cropped window with depth",
          "texels outside the display window", "the display window's origin", "exposures that multiply to one", "an exposure",
          "by columns from below", "the same codes of 16 bits", "the last bits of doubles", "doubles that are floats", "the second page",
          "mirrored, and so stored", "straight and associated alpha"}
 
-# Label, ending, file, and what its refusal says.
+# Label, ending, file, and a part of the error that refuses it.
 REFUSED = [
     ("luminance and chroma", "exr", w.exr(w.Part([(name, w.HALF, lambda x, y: 0.5) for name in ("Y", "RY", "BY")])), "luminance and chroma"),
     ("a subsampled channel", "exr", w.exr(w.Part(w.colours(), sampling=2)), "channel B is subsampled"),
@@ -205,7 +205,7 @@ REFUSED = [
     ("a chunk that is damaged", "png", w.png(before=[gama(100000)]).replace(b"gAMA\0\1\x86\xa0", b"gAMA\0\1\x86\xa1"), "CRC error"),
 ]
 
-# Label, ending, file: what both files have, and is not applied, is one warning.
+# Label, ending, file, and the warning: both files have something that is not applied.
 WARNED = [
     ("a profile", "png", w.png(before=[profile(b"one")]), "ICC profile"),
     ("a curve of television", "png", w.png(before=[(b"cICP", b"\x09\x10\0\1")]), "colours (cICP)"),

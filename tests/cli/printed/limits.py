@@ -9,7 +9,7 @@ import tempfile
 from cases import RENDER
 from runner import NO_DRIVERS
 
-# What would take hours, so that a refusal comes before the work: on a disk of 64 KiB.
+# Commands that would take hours on a disk of 64 KiB, and have to be refused before they begin.
 TOO_LARGE = [
     ("render raster --frame 10000000 --size 1024x1024 -o a.png", "a.png: the disk has 64 KiB left, and at least 102 KiB"),
     ("render raster --frame 10000000 --size 512x512 -o a.exr", "a.exr: the disk has 64 KiB left, and at least 77 KiB"),
@@ -38,15 +38,16 @@ def check_full_disk(runner):
     return problems
 
 
-# What takes tens of MB or more: the larger of raingauge and its worker takes at most so much beside what is said.
+# Commands that take tens of MB or more. The larger of raingauge and its worker may exceed the announced memory by at
+# most BESIDE_BYTES and FACTOR.
 SAID = ["raster --size 2048x2048", "cartoon --size 2048x1024", "flow --size 512x512 --set resolution_px=1024",
         "drops --size 1024x1024"]
 
 BESIDE_BYTES, FACTOR = 40e6, 1.25
 
 
-# Starts a command and tells the most memory of it. The kernel counts for a process what it had before it became another program, which
-# is what its starter has: little, for this one imports nothing.
+# Starts a command and prints its peak memory. The kernel also counts what a process had before it executed the command,
+# which is its parent's memory: little, because this parent imports nothing.
 STARTER = """import os, sys
 child = os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, 1, "/dev/null", os.O_WRONLY, 0)])
 _, status, usage = os.wait4(child, 0)
@@ -72,7 +73,7 @@ def check_memory(runner):
         taken, status, log = resident_bytes(runner, args)
         small, refused, line = resident_bytes(runner, args + ["--memory", "%fM" % (picture / 2**20 + 1)])
         number, unit = re.search(r"needs ([\d.]+) ([MG])iB, and 1.0 MiB of --memory are left", line).groups()
-        sent = width * height * 16  # the picture on its way to raingauge, twice in its worker
+        sent = width * height * 16  # the picture while it is sent to raingauge; its worker holds it twice
         said = max(float(number) * {"M": 2**20, "G": 2**30}[unit] + sent, picture)
         if status or log or refused != 2 or not 0.7 * said < taken < FACTOR * said + BESIDE_BYTES:
             problems.append("%s: said %.0f, taken %.0f, status %d: %s" % (args, said, taken, status, log))

@@ -28,7 +28,7 @@ def check_render_json(runner):
     return problems
 
 
-FOREIGN = os.fsdecode(b"cpu@N=\xff\x1b[2J")  # no UTF-8, and what clears a terminal
+FOREIGN = os.fsdecode(b"cpu@N=\xff\x1b[2J")  # not UTF-8, and a sequence that clears a terminal
 
 
 def check_foreign(runner):

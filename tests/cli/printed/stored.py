@@ -86,7 +86,7 @@ def check_stored(runner):
     with tempfile.TemporaryDirectory() as tmp:
         out = tmp + "/out"
         printed = runner.run((TWO_TABLES + "-o " + out).split()).stdout
-        env = runner.crashing_vulkan(tmp)  # whoever lists Vulkan's devices says so on stderr
+        env = runner.crashing_vulkan(tmp)  # any command that lists Vulkan's devices then writes to stderr
         again = runner.run(["table", "--from", out], env)
         if again.returncode or again.stderr:
             problems.append("exit status %d, stderr: %s, printed:\n%s" % (again.returncode, again.stderr, again.stdout))

@@ -56,7 +56,7 @@ def check_growth(runner):
         problems.append("exit status %d, shapes: %s" % (status, report["shapes"]))
     if not shape["slope_low"] <= shape["slope"] <= shape["slope_high"] < 0:
         problems.append("shape: %s" % shape)
-    for cell in cells:  # it rains until the pane is full, and goes on
+    for cell in cells:  # the rain builds up until the pane is full, and then goes on
         drops, most = cell["counted"]["drops_stepped"], cell["row"]["max_drops"]
         if list(cell["counted"]) != ["drops_stepped", "cells_stepped", "merging_steps"] or not 0.9 * most <= drops <= most:
             problems.append("%d drops: %s" % (most, cell["counted"]))
@@ -115,7 +115,7 @@ def check_no_rain(runner):
                 problems.append("%s: %s" % (table, done.closing))
             if done.returncode != 4 or cells != {("cpu", "nothing", False), ("cpu:reference", "nothing", False)} or "without rain" not in done.stdout:
                 problems.append("%s: exit status %d, %s\n%s" % (table, done.returncode, cells, done.stdout))
-            del record["changed"]  # else claims would be about other work
+            del record["changed"]  # otherwise claims would not apply to this work
             with open(tmp + "/claims.json", "w", encoding="utf-8") as file:
                 json.dump(forms.unsealed(record), file)
             claims = runner.run(["table", "--claims", "--wide", "--from", tmp + "/claims.json"]).stdout
@@ -195,7 +195,7 @@ def check_forms(runner):
     problems = ["docs/records.md does not tell of %s" % name for name in forms.undocumented()]
     for args in ("list techniques", "list tables", "list figures", "list devices", "list params raster", "table creus-5.2 --rows 1-1 --device cpu"):
         problems += [line for line in run_json(runner, args)[2] if not line.startswith("stderr: ")]
-    # What is wrong is found.
+    # The check itself must find an error.
     document = run_json(runner, "list techniques")[0]
     document["techniques"][0]["colour"] = "red"
     document["techniques"][1]["about"] = 1
@@ -268,7 +268,7 @@ def check_compile(runner):
     with tempfile.TemporaryDirectory() as tmp:
         def kept():
             return {name: os.path.getmtime(os.path.join(at, name)) for at, _, names in os.walk(tmp + "/cache") for name in names
-                    if name != "index"}  # of when what was used
+                    if name != "index"}  # its time changes whenever the cache is used
 
         args = ["table", "raster-1", "--compile", "--device"]
         env = {"XDG_CACHE_HOME": tmp + "/cache"}

@@ -65,7 +65,7 @@ class Inputs:
         return device + "@" + ";".join("%s=%s" % pair for pair in env.items())
 
 
-# --- the command lines: arguments, and variables ---
+# --- command lines: arguments and variables ---
 
 
 def of_gates(i):

@@ -105,7 +105,7 @@ def reply(width, height, channels, decoded, how, extras=b"", more=0):
     return b"\x01" + head + bytes(480) + struct.pack("<f", 0.5) * (width * height * channels) + extras
 
 
-# The first byte says whose value it is: of one of six techniques, or of an option of one of seven kinds.
+# The first byte chooses whose value follows: one of six techniques' settings, or an option of one of seven kinds.
 OPTIONS = ["rain=heavy clip_planes=2", "count=100 wind_m_s=2.5", "model=teapot", "width=32", "drops_m2_s=1e3 time=night",
            "lights=3 shadows=on lights_file=a.json", "12", "1.5", "json", "1280x720", "2-4", "cpu,gl", "seed=7"]
 

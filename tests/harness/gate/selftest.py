@@ -28,9 +28,10 @@ import tempfile
 import time
 
 MOST_WRONG_SHARE = 1 / 300
-# What is planted is of frames that were timed before: how far off those beside it these may be, and how often it is sized.
+# The planted extra work is a share of frames timed earlier. MOST_OFF: largest relative change of frames since then;
+# SIZINGS: how often the work is sized anew.
 MOST_OFF, SIZINGS = 0.1, 3
-# It ends with the self-test, however that ends.
+# The process ends when its parent, the self-test, has ended in whatever way.
 BUSY = "import os\nwhose = os.getppid()\nwhile os.getppid() == whose: pass"
 
 

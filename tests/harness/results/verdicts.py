@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 KEPT = pathlib.Path(__file__).resolve().parents[3] / "results" / "tables"
-FILES, DEVICES = 10, 20  # a file each command, a device each trial
+FILES, DEVICES = 10, 20  # a file per command, a device per trial
 TRIALS = FILES * DEVICES
 MOST_WRONG = 0.05 * TRIALS
 YES, NO, OPEN = "reproduced", "not reproduced", "undecided"
@@ -38,7 +38,7 @@ class Made:
         names = ["cpu:%d" % i for i in range(DEVICES)]
         self.record["passport"]["devices"] = [dict(device, name=name) for name in names]
         self.record["cells"] = [dict(copy.deepcopy(cell), device=name) for cell in cells for name in names]
-        for cell in self.record["cells"]:  # as many particles as in print
+        for cell in self.record["cells"]:  # with the printed number of particles
             del cell["checksum"]
             if "particles" in cell["published"]:
                 cell["facts"]["particles"] = cell["published"]["particles"]
@@ -53,10 +53,10 @@ class Made:
     def times(self, ms_of, noise, samples, seed):
         """Sets samples about the median `ms_of(row, variant)`."""
         chance = random.Random(seed)
-        middle = math.log(2)  # of exponential scatter
+        middle = math.log(2)  # median of the exponential noise
         for cell in self.record["cells"]:
             ms = ms_of(cell["row_number"], cell["variant"])
-            # Some are five times as far off, on the side on which they are: the median stays.
+            # Some are five times as far from the median, on the same side, so the median stays.
             offs = [noise * (chance.expovariate(1) - middle) * (5 if chance.random() < 0.05 else 1) for _ in range(samples)]
             cell["measured"]["samples_ms"] = [ms * math.exp(off) for off in offs]
 
@@ -125,7 +125,7 @@ def check_falls(raingauge):
 def check_order(raingauge):
     """rows in the order of print are, others are not, and what noise hides is left open; rows that print has equal are in none"""
     made, words = Made(raingauge, "stuppacher-1"), "rates by model"
-    ordered, turned = [10, 13, 13.1, 12.5, 11], [10, 13, 13.1, 12.5, 9]  # Buddha and the dragon are equal in print
+    ordered, turned = [10, 13, 13.1, 12.5, 11], [10, 13, 13.1, 12.5, 9]  # the paper prints equal values for Buddha and the dragon
     return (settled(made.count(words, by_row(ordered), 0.005), YES) + settled(made.count(words, by_row(turned), 0.02), NO) +
             hidden(made.count(words, by_row(ordered), 0.5), [NO]) + hidden(made.count(words, by_row(turned), 1), [YES]) +
             open_truth(made, words, by_row(LEVEL), 0.02))
