@@ -203,7 +203,7 @@ static bool write_own(const struct mend *m, int64_t index, const struct summary 
 }
 
 // A line of Mesa's has one status for all devices. If the test passes on one and fails on another,
-// no status is true, and if one is unknown, the old status may be: both keep the line.
+// no status is true; if a result is unknown, the old status may still be. Both keep the line.
 static bool write_mesa(const struct mend *m, int64_t index, const struct summary *s)
 {
     const struct rg_expectation *row = &m->expected->rows[index];
