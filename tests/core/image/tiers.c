@@ -392,6 +392,29 @@ static void the_exposure_decides_what_clips(void **state)
     assert_false(judge_lamps(0.1f).of[RG_T1].holds);
 }
 
+// Two lights below white that four times the exposure makes white are told apart, though nothing in
+// the pictures is beyond white as it stands.
+static void light_that_the_exposure_clips_is_compared(void **state)
+{
+    (void)state;
+    struct rg_comparison c;
+    struct rg_picture a, b;
+    assert_true(rg_picture_create(&a, WIDTH, HEIGHT, CHANNELS, "a"));
+    assert_true(rg_picture_create(&b, WIDTH, HEIGHT, CHANNELS, "b"));
+    for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++) {
+        a.texels[i] = i % CHANNELS < 3 ? 0.5f : 1;
+        b.texels[i] = i % CHANNELS < 3 ? 0.9f : 1;
+    }
+    assert_true(
+        rg_compare(&a, "a", &b, "b", NULL, &(struct rg_compare_options){.exposure = 4}, &c));
+    assert_equals(c.tiers.max_codes, 0);
+    assert_above(c.tiers.clamped_max, 0.4);
+    assert_holds(&c.tiers, false, false, false);
+    rg_comparison_destroy(&c);
+    rg_picture_destroy(&a);
+    rg_picture_destroy(&b);
+}
+
 static void infinite_lamps_agree_with_themselves_alone(void **state)
 {
     (void)state;
@@ -455,6 +478,7 @@ int main(void)
         cmocka_unit_test(each_bound_beyond_white_decides),
         cmocka_unit_test(a_value_that_clips_on_one_side_is_told_apart),
         cmocka_unit_test(the_exposure_decides_what_clips),
+        cmocka_unit_test(light_that_the_exposure_clips_is_compared),
         cmocka_unit_test(infinite_lamps_agree_with_themselves_alone),
         cmocka_unit_test(seeded_mutants_of_lamps_are_rejected),
     };

@@ -18,7 +18,6 @@ ROWS = [
     Fault(ORDER, "return side * side * «(after->all_samples && !before->all_samples ? 2 : 1)»;", "1", "more samples take no longer", tests=("priority",)),
     Fault(ORDER, "    step->share.divisor = «2»;", "1", "whole pictures keep others out", tests=("priority",)),
     Fault(ORDER, "return left_s / «(tables ? tables : 1)»;", "1", "the first table has all of the time", tests=("priority",)),
-    Fault(ORDER, "[RG_TURN_DEVICES] = {\"the other devices\", true, «true»},", "false", "a device with some of the rows alone takes them from the others", tests=("within a budget",)),
     Fault(BUDGET, "while (ok && !rg_interrupted() && (is_first || «left_s(b) > 0») &&", "true", "a budget has no end", tests=("within a budget",)),
     Fault(BUDGET, "if (!is_first && «step.expected_s >= left_s(b)») {", "false", "what would not end in time is begun", tests=("within a budget",)),
     Fault(BUDGET, ".end_ms = «options->begin_ms» + 1000 * options->budget_s};", "rg_now_ms()", "a budget begins with the first table", tests=("within a budget",)),
