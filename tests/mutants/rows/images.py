@@ -15,7 +15,7 @@ RUN_CAGED, SHUT = "core/base/cage/run_caged.c", "core/base/cage/shut.c"
 ROWS = [
     Fault(RUN_CAGED, "!is_open && «rg_program_has_ended(child, &caged->status)»;", "(rg_program_wait(child, &caged->status), true)", "a caged program that feigns its end is waited for", tests=("cage",)),
     Fault(RUN_CAGED, "if (status != «NOT_LOADED»)", "-2", "a file is damaged where a library is absent", tests=("cage",)),
-    Fault(RUN_CAGED, "!status && «!caged->is_cut» &&", "true", "a reply without end is taken", tests=("cage",)),
+    Fault(RUN_CAGED, "!status && «!caged->is_cut» &&", "true", "a reply without end is taken", lives="a program whose reply is cut is killed, unless it ends in the same moment", tests=("cage",)),
     Fault(RUN_CAGED, "if (status == «RG_CAGE_REFUSED»)", "-2", "a file is damaged where there is no cage", tests=("cage", "containers, refusals")),
     Fault(SHUT, "n += «allow_with(program + n, SYS_tgkill, ARGUMENT(0), &own, 1)»", "0", "a caged program may not signal itself", tests=("cage",)),
     Fault(SHUT, "JUMP(BPF_JEQ, values[i], (unsigned char)(count - i), 0);\n    «program[n++] = RETURN(REFUSE);»", "program[n++] = RETURN(SECCOMP_RET_ALLOW);", "a caged program signals others", tests=("cage",)),
