@@ -437,10 +437,9 @@ static bool same_tile(const struct job *job, int x0, int y0, int width, int heig
         const int64_t at = (int64_t)y * job->width + left;
         const size_t pixels = (size_t)(right - left + 1);
         const struct rg_picture *a = job->pictures[0], *b = job->pictures[1];
-        const size_t texel = job->codes[0] ? 4 : (size_t)a->channels;
         if (job->codes[0] ? memcmp(job->codes[0] + at * 4, job->codes[1] + at * 4, pixels * 4)
                           : memcmp(a->texels + at * a->channels, b->texels + at * b->channels,
-                                   pixels * texel * sizeof(float)))
+                                   pixels * (size_t)a->channels * sizeof(float)))
             return false;
     }
     return true;

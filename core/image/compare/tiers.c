@@ -460,9 +460,10 @@ static void conclude(const struct row_sums *sums, struct rg_tiers *t)
 // By row, whether it or one beside it has something to be clamped; the caller frees it.
 static bool *find_beyond(const struct pictures *p)
 {
-    bool *of_rows = calloc((size_t)p->height, 2 * sizeof(*of_rows)), *beside = of_rows + p->height;
+    bool *of_rows = calloc((size_t)p->height, 2 * sizeof(*of_rows));
     if (!of_rows)
         return NULL;
+    bool *beside = of_rows + p->height;
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < p->height; y++)
         beside[y] = row_has_beyond(p, p->linear_a, y) || row_has_beyond(p, p->linear_b, y);

@@ -1,6 +1,6 @@
 // Declares commands, and runs them with the command line.
-#ifndef RG_HARNESS_CLI_COMMAND_H
-#define RG_HARNESS_CLI_COMMAND_H
+#ifndef RG_HARNESS_COMMANDS_CLI_COMMAND_H
+#define RG_HARNESS_COMMANDS_CLI_COMMAND_H
 
 #include "harness/commands/cli/option.h"
 #include "harness/console/exit.h"

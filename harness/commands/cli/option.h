@@ -3,8 +3,8 @@
 // A command has a struct for the values, and a table of rows, each with its value's offset in that
 // struct. Parsing, --help, the manual page and bash's completion all use these rows. Options of
 // several commands are tables that others include (shared.h).
-#ifndef RG_HARNESS_CLI_OPTION_H
-#define RG_HARNESS_CLI_OPTION_H
+#ifndef RG_HARNESS_COMMANDS_CLI_OPTION_H
+#define RG_HARNESS_COMMANDS_CLI_OPTION_H
 
 #include <stdbool.h>
 #include <stddef.h>

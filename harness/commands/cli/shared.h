@@ -1,7 +1,7 @@
 // Options shared by several commands. Each table is included at a value of the type given here, and
 // means the same in all commands; the default is the including command's.
-#ifndef RG_HARNESS_CLI_SHARED_H
-#define RG_HARNESS_CLI_SHARED_H
+#ifndef RG_HARNESS_COMMANDS_CLI_SHARED_H
+#define RG_HARNESS_COMMANDS_CLI_SHARED_H
 
 #include "harness/commands/cli/option.h"
 #include "harness/devices/devices.h"

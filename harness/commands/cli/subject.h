@@ -1,6 +1,6 @@
 // A command's subject: the technique in its arguments, with the settings of --set.
-#ifndef RG_HARNESS_CLI_SUBJECT_H
-#define RG_HARNESS_CLI_SUBJECT_H
+#ifndef RG_HARNESS_COMMANDS_CLI_SUBJECT_H
+#define RG_HARNESS_COMMANDS_CLI_SUBJECT_H
 
 #include "core/techniques/technique.h"
 #include "harness/commands/cli/option.h"

@@ -11,6 +11,7 @@
 #include "core/base/text/plain.h"
 #include "core/image/compare/heatmap.h"
 #include "core/image/files/io.h"
+#include "harness/console/exit.h"
 
 static const char *yes(const struct rg_verdict *verdict)
 {
@@ -237,7 +238,7 @@ bool rg_pairs_print_json(json_t *devices, json_t *pairs, json_t *failures)
     bool good = all && json_dumpf(all, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
     printf("\n");
     json_decref(all);
-    return good || rg_error("standard output: cannot be written; is it closed, or the disk full?");
+    return good || rg_stdout_error();
 }
 
 bool rg_is_folder_prefix(const char *prefix)

@@ -70,7 +70,8 @@ static bool add_parts(struct folder *f, const char *name, const unsigned char *b
         }
         at = end > at ? end : at + 1;
     }
-    const bool ok = (out && fclose(out) == 0) || rg_error("%s: no memory for its files", f->path);
+    const bool ok =
+        (out && fclose(out) == 0) || rg_harness_error("%s: no memory for its files", f->path);
     if (ok)
         add(f, name, parts, parts_size, parts);
     else

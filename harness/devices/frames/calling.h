@@ -2,8 +2,8 @@
 // worker they are asked by messages, of which this has the fields. Only files of this folder, and
 // those that serve the calls (harness/measure/serving/), may include this: all others go through
 // session.h and digests.h.
-#ifndef RG_HARNESS_FRAMES_CALLING_H
-#define RG_HARNESS_FRAMES_CALLING_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_CALLING_H
+#define RG_HARNESS_DEVICES_FRAMES_CALLING_H
 
 #include "harness/devices/workers/calls.h"
 #include "harness/devices/workers/fields.h"

@@ -1,7 +1,7 @@
 // Digests of the assets after each stage of a run. Equal runs have equal digests, so that two runs
 // show which stage differed first.
-#ifndef RG_HARNESS_FRAMES_DIGESTS_H
-#define RG_HARNESS_FRAMES_DIGESTS_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_DIGESTS_H
+#define RG_HARNESS_DEVICES_FRAMES_DIGESTS_H
 
 #include "core/techniques/stages/dispatched.h"
 #include "harness/devices/frames/subject.h"

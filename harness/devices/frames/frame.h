@@ -1,6 +1,6 @@
 // One frame of a subject as a picture.
-#ifndef RG_HARNESS_FRAMES_FRAME_H
-#define RG_HARNESS_FRAMES_FRAME_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_FRAME_H
+#define RG_HARNESS_DEVICES_FRAMES_FRAME_H
 
 #include "harness/devices/frames/session.h"
 

@@ -1,7 +1,7 @@
 // The messages of sessions between the processes. Structs with a table of fields are sent and
 // received by it (harness/devices/workers/fields.h).
-#ifndef RG_HARNESS_FRAMES_MESSAGES_H
-#define RG_HARNESS_FRAMES_MESSAGES_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_MESSAGES_H
+#define RG_HARNESS_DEVICES_FRAMES_MESSAGES_H
 
 #include "harness/devices/workers/fields.h"
 #include "harness/devices/frames/digests.h"

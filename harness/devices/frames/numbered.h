@@ -1,6 +1,6 @@
 // File names with a place for a number: "rain-%d.png", or "rain-%04d.png" for at least four digits.
-#ifndef RG_HARNESS_FRAMES_NUMBERED_H
-#define RG_HARNESS_FRAMES_NUMBERED_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_NUMBERED_H
+#define RG_HARNESS_DEVICES_FRAMES_NUMBERED_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 // Records digests of a run in this process. Only files of this folder include it; others use
 // digests.h.
-#ifndef RG_HARNESS_FRAMES_RECORDER_H
-#define RG_HARNESS_FRAMES_RECORDER_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_RECORDER_H
+#define RG_HARNESS_DEVICES_FRAMES_RECORDER_H
 
 #include "harness/devices/frames/digests.h"
 

@@ -1,7 +1,7 @@
 // Writes a sequence of frames: one session simulates each frame once, draws the wanted ones, and
 // writes them as a clip or as numbered pictures.
-#ifndef RG_HARNESS_FRAMES_SEQUENCE_H
-#define RG_HARNESS_FRAMES_SEQUENCE_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_SEQUENCE_H
+#define RG_HARNESS_DEVICES_FRAMES_SEQUENCE_H
 
 #include "harness/devices/frames/session.h"
 

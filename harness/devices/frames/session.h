@@ -6,8 +6,8 @@
 //
 // Functions that return false or NULL have logged one line. A session that has failed can only be
 // closed. When a worker ends, all its sessions fail.
-#ifndef RG_HARNESS_FRAMES_SESSION_H
-#define RG_HARNESS_FRAMES_SESSION_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_SESSION_H
+#define RG_HARNESS_DEVICES_FRAMES_SESSION_H
 
 #include "core/device/work.h"
 #include "core/image/picture.h"

@@ -1,6 +1,6 @@
 // The input of opening a session, and the account that a session gives.
-#ifndef RG_HARNESS_FRAMES_SUBJECT_H
-#define RG_HARNESS_FRAMES_SUBJECT_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_SUBJECT_H
+#define RG_HARNESS_DEVICES_FRAMES_SUBJECT_H
 
 #include "core/techniques/technique.h"
 #include "harness/record/passport/program.h"

@@ -1,6 +1,6 @@
 // The services of a worker, by subject. Only files of this folder include it.
-#ifndef RG_HARNESS_DEVICES_SERVING_SERVICES_H
-#define RG_HARNESS_DEVICES_SERVING_SERVICES_H
+#ifndef RG_HARNESS_MEASURE_SERVING_SERVICES_H
+#define RG_HARNESS_MEASURE_SERVING_SERVICES_H
 
 #include "core/device/device.h"
 #include "harness/devices/workers/serve.h"

@@ -1,7 +1,7 @@
 // A worker's main part: it holds one device with sessions on it, and serves the calls of
 // harness/devices/workers/calls.h.
-#ifndef RG_HARNESS_DEVICES_SERVING_SERVING_H
-#define RG_HARNESS_DEVICES_SERVING_SERVING_H
+#ifndef RG_HARNESS_MEASURE_SERVING_SERVING_H
+#define RG_HARNESS_MEASURE_SERVING_SERVING_H
 
 #include "harness/devices/workers/serve.h"
 

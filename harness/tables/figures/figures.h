@@ -1,7 +1,7 @@
 // Papers' figures, to be redrawn: what each shows, and the settings for it. The scenes are ours, so
 // that a figure shows the same subject as the paper's, not the same picture.
-#ifndef RG_HARNESS_FRAMES_FIGURES_FIGURES_H
-#define RG_HARNESS_FRAMES_FIGURES_FIGURES_H
+#ifndef RG_HARNESS_TABLES_FIGURES_FIGURES_H
+#define RG_HARNESS_TABLES_FIGURES_FIGURES_H
 
 #include "harness/devices/frames/session.h"
 

@@ -3,8 +3,8 @@
 // asked for takes its time at the next wait.
 //
 // The program's rg_now_ms is fake.c's, in place of harness/console/clock.h's.
-#ifndef RG_TESTS_HARNESS_MEASURE_FAKE_H
-#define RG_TESTS_HARNESS_MEASURE_FAKE_H
+#ifndef RG_TESTS_HARNESS_MEASURING_FAKE_H
+#define RG_TESTS_HARNESS_MEASURING_FAKE_H
 
 #include <math.h>
 

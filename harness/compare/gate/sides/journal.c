@@ -234,7 +234,7 @@ char *rg_gate_journal_csv(const struct rg_gate_journal *j)
     if (fclose(file) == 0)
         return text;
     free(text);
-    return NULL;
+    return rg_harness_error_null("gate: no memory for the launches; close other programs");
 }
 
 // Without launches, removes the file that an earlier gate may have left.

@@ -164,7 +164,8 @@ static pcre2_code *compile(const char *place, const char *text, const char *tran
     enum { OPTIONS = PCRE2_DOTALL | PCRE2_DOLLAR_ENDONLY | PCRE2_NEVER_UTF | PCRE2_NEVER_UCP };
     pcre2_compile_context *context = pcre2_compile_context_create(NULL);
     if (!context)
-        return rg_error_null("%s: no memory for a regular expression; close other programs", place);
+        return rg_harness_error_null("%s: no memory for a regular expression; close other programs",
+                                     place);
     pcre2_set_parens_nest_limit(context, MOST_NESTED);
     int code;
     PCRE2_SIZE at;
@@ -182,7 +183,8 @@ static bool add_limits(const char *place, struct rg_regex *regex)
 {
     regex->limits = pcre2_match_context_create(NULL);
     if (!regex->limits)
-        return rg_error("%s: no memory for a regular expression; close other programs", place);
+        return rg_harness_error("%s: no memory for a regular expression; close other programs",
+                                place);
     pcre2_set_match_limit(regex->limits, MOST_STEPS);
     pcre2_set_depth_limit(regex->limits, MOST_STEPS);
     pcre2_set_heap_limit(regex->limits, MOST_HEAP_KIB);

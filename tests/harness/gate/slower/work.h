@@ -1,6 +1,6 @@
 // Real work of a known amount.
-#ifndef RG_TESTS_GATE_SLOWER_WORK_H
-#define RG_TESTS_GATE_SLOWER_WORK_H
+#ifndef RG_TESTS_HARNESS_GATE_SLOWER_WORK_H
+#define RG_TESTS_HARNESS_GATE_SLOWER_WORK_H
 
 // So many multiplications, each of which waits for the one before it.
 void rg_test_work(long loops);

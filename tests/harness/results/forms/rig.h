@@ -1,7 +1,7 @@
 // Tables of a few rows, and results of theirs as if they had been measured at chosen frame rates:
 // what tests of sheets and trends have them say.
-#ifndef RG_TESTS_HARNESS_RESULTS_SHEETS_RIG_H
-#define RG_TESTS_HARNESS_RESULTS_SHEETS_RIG_H
+#ifndef RG_TESTS_HARNESS_RESULTS_FORMS_RIG_H
+#define RG_TESTS_HARNESS_RESULTS_FORMS_RIG_H
 
 #include <stdbool.h>
 
