@@ -122,7 +122,7 @@ gate-selftest: whole
 	@echo "== gating what is the same, and what does 5 % more, while another process is busy; an hour or two"
 	@python3 tests/harness/gate/selftest.py $(BUILD) --keep $(BUILD)/selftest
 
-# Not what CI runs: two packages and six minutes of CPU time for what is rarely found. clang-tidy is of the version that formats.
+# `make test` has gcc's analyzer and cppcheck look; clang-tidy takes five more minutes. It is of the version that formats.
 LINTERS = clang-tidy cppcheck
 lint: build
 	@lacks() { ! dpkg-query -W -f '$${Status}' $$1 2>/dev/null | grep -q 'ok installed'; }; \

@@ -65,9 +65,9 @@ static size_t drop_numbers(unsigned char *bytes, size_t size)
     size_t kept = 0;
     for (size_t i = 0; i < size; i++) {
         const bool is_name = i + NAME < size && !memcmp(bytes + i, "GLSL", NAME);
-        for (size_t d = i + NAME; is_name && d < size && isdigit(bytes[d]); d++)
+        for (size_t d = i + NAME; d < size && is_name && isdigit(bytes[d]); d++)
             bytes[d] = 0;
-        if (bytes[i] && (i < HEAD || i >= COUNTED))
+        if ((i < HEAD || i >= COUNTED) && bytes[i])
             bytes[kept++] = bytes[i];
     }
     return kept;

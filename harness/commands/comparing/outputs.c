@@ -39,7 +39,7 @@ static void choose(const struct rg_reports_asked *asked, bool prints_gtest,
         const char **file = &outputs->files[i];
         if (form->where == RG_WHERE_FILE)
             *file = i == RG_AS_JUNIT && *outputs->junit ? outputs->junit : asked->files[i];
-        if (form->where == RG_WHERE_APPENDED && outputs->are_written[i - 1])
+        if (i > 0 && form->where == RG_WHERE_APPENDED && outputs->are_written[i - 1])
             *file = getenv(form->name);
         if (*file && !**file)
             *file = NULL;

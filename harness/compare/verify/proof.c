@@ -163,7 +163,7 @@ static void check_state(struct rg_verify *v, struct row *row, const struct one_c
         tally->unlike++; // other tiers judge only the image
         return;
     }
-    char text[256] = "";
+    char text[440] = "";
     if (!tally->failed)
         describe_first(v, row->device, c, text, sizeof(text));
     blame(tally, c, "%s", text);
