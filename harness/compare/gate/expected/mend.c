@@ -138,11 +138,10 @@ static void write_line(const struct mend *m, const struct rg_expectation *row,
     int field = 0;
     while (field < RG_FIELD_COUNT && !(row->values[field] && row->at[field] == line))
         field++;
-    if (field == RG_FIELD_COUNT)
-        copy(m, line, line + 1);
-    else if (is_idle(row, s, field))
+    const bool is_field = field < RG_FIELD_COUNT;
+    if (is_field && is_idle(row, s, field))
         return;
-    else if (new_value(m, row, s, field, value, sizeof(value)))
+    if (is_field && new_value(m, row, s, field, value, sizeof(value)))
         rg_known_write_field(m->out, field, value, m->end);
     else
         copy(m, line, line + 1);
