@@ -16,7 +16,7 @@ sys.dont_write_bytecode = True  # the folder stays as it is
 import script
 
 # Derived from samples and passes. Numbers beside published ones are derived from the facts of the same names.
-DERIVED = ("fps", "ms", "ms_low", "ms_high", "passes_share")
+DERIVED = ("fps", "ms", "ms_low", "ms_high", "passes_share", "noise", "disturbed")
 
 
 def compact(record):

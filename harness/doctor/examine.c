@@ -6,7 +6,7 @@
 #include "harness/devices/devices.h"
 #include "harness/doctor/doctor.h"
 #include "harness/devices/workers/device.h"
-#include "harness/measure/messages.h"
+#include "harness/measure/serving/messages.h"
 
 int rg_examination_failures(const struct rg_examination *examination)
 {

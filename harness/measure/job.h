@@ -5,6 +5,7 @@
 
 #include "harness/devices/frames/session.h"
 #include "harness/measure/expected.h"
+#include "harness/measure/others.h"
 #include "harness/record/record.h"
 
 struct rg_job {
@@ -33,6 +34,8 @@ struct rg_measure_options {
     // Takes samples up to this share of all, so that the job can be visited again; 0: all.
     double share;
     void (*load)(void); // timed between rounds, to show drift of the machine; NULL: none
+    // Reads what others take of the machine (harness/measure/others.h); NULL: that is not known.
+    rg_watch *watch;
     // Called with the share of the expected time of a call that has passed; NULL: not called.
     void (*progress)(double share, void *user);
     void *user;

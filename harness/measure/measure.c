@@ -4,7 +4,9 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
+#include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
+#include "harness/devices/workers/device.h"
 #include "harness/measure/calibration.h"
 #include "harness/measure/sampling.h"
 #include "kernels/dialect/rng.h"
@@ -86,6 +88,13 @@ struct rounds {
     bool *is_begun;    // by job: it has samples from an earlier visit
     int all;           // total number of rounds, which is the longest job's number of samples
     struct rg_calibration calibration;
+    // A batch: samples between two readings of what others take of the machine.
+    rg_watch *watch;
+    struct rg_processors before; // when it began
+    int *first, *last;           // by job: its samples in the batch
+    pid_t ours[RG_MAX_DEVICES];  // processes of the jobs' devices
+    int our_count;
+    int patience; // batches that may still stay disturbed before none is taken again
 };
 
 // Decides how the measurable jobs are sampled.
@@ -106,6 +115,98 @@ static void begin(struct rounds *r, struct rg_job *jobs, int count,
     }
 }
 
+// --- what others take ---
+
+// Linux tells idle time to 10 ms, so a batch takes this much of the processors' time, or it ends
+// with the last round. A disturbed batch is taken again so many times. A machine that stays busy
+// over some batches is not waited for.
+enum { BATCH_MS = 500, RETAKES = 2, PATIENCE = 3 };
+
+static void find_ours(struct rounds *r)
+{
+    r->our_count = 0;
+    for (int i = 0; i < r->count && r->our_count < RG_MAX_DEVICES; i++) {
+        const struct rg_worker *worker = rg_remote_worker(r->jobs[r->order[i]].device);
+        const pid_t process = worker ? rg_worker_process(worker) : 0;
+        bool is_new = process;
+        for (int k = 0; k < r->our_count; k++)
+            is_new = is_new && r->ours[k] != process;
+        if (is_new)
+            r->ours[r->our_count++] = process;
+    }
+}
+
+static void begin_batch(struct rounds *r)
+{
+    if (!r->watch)
+        return;
+    find_ours(r);
+    for (int i = 0; i < r->count; i++)
+        r->first[r->order[i]] = r->jobs[r->order[i]].record->sample_count;
+    r->before = r->watch(r->ours, r->our_count);
+}
+
+// Notes what others took since the batch began in each of its samples. Returns whether that was too
+// much.
+static bool is_disturbed(struct rounds *r)
+{
+    const struct rg_processors now = r->watch(r->ours, r->our_count);
+    const struct rg_taken taken = rg_taken_between(&r->before, &now);
+    const double share = fmin(taken.stolen + taken.others, 1);
+    for (int i = 0; i < r->count; i++) {
+        struct rg_record *record = r->jobs[r->order[i]].record;
+        record->is_watched = record->is_watched || now.count > 0;
+        for (int k = r->first[r->order[i]]; k < record->sample_count; k++)
+            record->taken[k] = share;
+    }
+    return share > RG_MOST_TAKEN;
+}
+
+// Takes the batch's samples again, in their places. If that is interrupted, the rest stay.
+static void take_again(struct rounds *r)
+{
+    bool any = true;
+    for (int i = 0; i < r->count; i++) {
+        struct rg_record *record = r->jobs[r->order[i]].record;
+        r->last[r->order[i]] = record->sample_count;
+        record->retaken += record->sample_count - r->first[r->order[i]];
+        record->sample_count = r->first[r->order[i]];
+    }
+    find_ours(r);
+    r->before = r->watch(r->ours, r->our_count);
+    while (any && !rg_interrupted()) {
+        any = false;
+        for (int i = 0; i < r->count && !rg_interrupted(); i++) {
+            struct rg_job *job = &r->jobs[r->order[i]];
+            if (job->record->outcome != RG_OK || job->record->sample_count >= r->last[r->order[i]])
+                continue;
+            take_sample(job);
+            any = true;
+        }
+    }
+    for (int i = 0; i < r->count && rg_interrupted(); i++)
+        r->jobs[r->order[i]].record->sample_count = r->last[r->order[i]];
+}
+
+static void end_batch(struct rounds *r)
+{
+    if (!r->watch)
+        return;
+    bool disturbed = is_disturbed(r);
+    const bool may_retake = r->patience > 0;
+    for (int i = 0; disturbed && may_retake && i < RETAKES && !rg_interrupted(); i++) {
+        take_again(r);
+        disturbed = is_disturbed(r);
+    }
+    r->patience = !disturbed ? PATIENCE : may_retake ? r->patience - 1 : 0;
+    begin_batch(r);
+}
+
+static bool is_long(const struct rounds *r)
+{
+    return (rg_now_ms() - r->before.at_ms) * r->before.count >= BATCH_MS;
+}
+
 // False where no job took a sample.
 static bool do_round(struct rounds *r, int round)
 {
@@ -116,6 +217,8 @@ static bool do_round(struct rounds *r, int round)
             continue;
         any = true;
         take_sample(&r->jobs[r->order[i]]);
+        if (r->watch && is_long(r))
+            end_batch(r);
     }
     return any;
 }
@@ -182,11 +285,15 @@ static void measure(struct rounds *r, const struct rg_measure_options *options)
     all_ms += samples_ms;
     r->calibration = (struct rg_calibration){.load = options->load};
     rg_calibration_take(&r->calibration);
+    r->watch = options->watch;
+    r->patience = PATIENCE;
+    begin_batch(r);
     for (int round = 0; round < last && !rg_interrupted(); round++) {
         if (do_round(r, round))
             note_calibration(r);
         tell(options, samples_ms * (round + 1) / last, all_ms);
     }
+    end_batch(r);
     done_ms = samples_ms;
     for (int i = 0; i < r->count && !rg_interrupted(); i++) {
         struct rg_job *job = &r->jobs[r->order[i]];
@@ -199,8 +306,10 @@ static void measure(struct rounds *r, const struct rg_measure_options *options)
 void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_options *options)
 {
     struct rounds rounds = {.order = rg_alloc((size_t)count, sizeof(int), "jobs"),
-                            .is_begun = rg_alloc((size_t)count, sizeof(bool), "jobs")};
-    const bool ok = rounds.order && rounds.is_begun;
+                            .is_begun = rg_alloc((size_t)count, sizeof(bool), "jobs"),
+                            .first = rg_alloc((size_t)count, sizeof(int), "jobs"),
+                            .last = rg_alloc((size_t)count, sizeof(int), "jobs")};
+    const bool ok = rounds.order && rounds.is_begun && rounds.first && rounds.last;
     for (int i = 0; !ok && i < count; i++)
         if (jobs[i].record->outcome == RG_OK)
             rg_record_end_by_error(jobs[i].record);
@@ -208,6 +317,8 @@ void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_opt
         begin(&rounds, jobs, count, options);
         measure(&rounds, options);
     }
+    free(rounds.last);
+    free(rounds.first);
     free(rounds.is_begun);
     free(rounds.order);
 }

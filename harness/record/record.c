@@ -62,8 +62,10 @@ void rg_record_settle(struct rg_record *record)
     settle(&record->calibration_end_ms);
     for (int i = 0; i < record->pass_count; i++)
         settle(&record->passes[i].ms);
-    for (int i = 0; i < record->sample_count; i++)
+    for (int i = 0; i < record->sample_count; i++) {
         settle(&record->samples_ms[i]);
+        settle(&record->taken[i]);
+    }
     if (!record->sample_count)
         return;
     memcpy(sorted, record->samples_ms, (size_t)record->sample_count * sizeof(double));
@@ -74,6 +76,31 @@ bool rg_record_is_whole(const struct rg_record *record)
 {
     return record->outcome != RG_OK ||
            (record->pass_frames > 0 && record->sample_count >= record->wanted_samples);
+}
+
+int rg_record_disturbed(const struct rg_record *record)
+{
+    int count = 0;
+    for (int i = 0; i < record->sample_count; i++)
+        count += record->taken[i] > RG_MOST_TAKEN;
+    return count;
+}
+
+double rg_record_noise(const struct rg_record *record)
+{
+    const double width = record->frame_ms.high / record->frame_ms.low;
+    return width > RG_WIDE_INTERVAL ? sqrt(width) - 1 : 0; // NAN: there is no interval
+}
+
+void rg_record_mark(const struct rg_record *record, char mark[RG_MARK_SIZE])
+{
+    const double noise = rg_record_noise(record);
+    const bool is_busy = rg_record_disturbed(record);
+    *mark = 0;
+    if (noise > 0)
+        snprintf(mark, RG_MARK_SIZE, "+-%.0f%%%s", fmin(100 * noise, 1e6), is_busy ? " busy" : "");
+    else if (is_busy)
+        snprintf(mark, RG_MARK_SIZE, "busy");
 }
 
 double rg_record_fps(const struct rg_record *record)

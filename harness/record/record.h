@@ -20,6 +20,11 @@ enum {
     RG_DETAIL_SIZE = 200,
 };
 
+// The largest share of the processors that others may take from an undisturbed sample.
+#define RG_MOST_TAKEN 0.05
+// An interval's high end by its low one, from which on a number is marked.
+#define RG_WIDE_INTERVAL 1.1
+
 struct rg_pass_time {
     char name[RG_NAME_SIZE];
     double ms; // of a frame, in a separate run that syncs after every pass
@@ -55,6 +60,9 @@ struct rg_record {
     int frames_a_sample, sample_count;
     int wanted_samples;                // target number; with fewer the cell is incomplete
     double samples_ms[RG_MAX_SAMPLES]; // time of a frame, in the order of sampling
+    bool is_watched;                   // what others took is known
+    double taken[RG_MAX_SAMPLES];      // share of the processors that others took in each sample
+    int retaken;                       // samples that were taken again because others took more
     struct rg_interval frame_ms;       // from the samples
     double api_over_wall; // ratio of the API's clock to the wall clock; trusted from 0.8 to 1.05
     // Times of the calibration load when sampling began and ended; 0: unknown.
@@ -96,6 +104,14 @@ void rg_record_settle(struct rg_record *record);
 
 // Whether the record is complete: it ended, or all samples were taken and the passes timed.
 bool rg_record_is_whole(const struct rg_record *record);
+// The number of samples in which others took more than RG_MOST_TAKEN.
+int rg_record_disturbed(const struct rg_record *record);
+// By how much its frame rate is uncertain, as a share of it: half the width of the 95 % interval,
+// by its logarithm. 0 if the interval is no wider than RG_WIDE_INTERVAL times.
+double rg_record_noise(const struct rg_record *record);
+// How its number is marked: "+-22%", "+-22% busy", "busy"; "": not at all.
+enum { RG_MARK_SIZE = 24 };
+void rg_record_mark(const struct rg_record *record, char mark[RG_MARK_SIZE]);
 // Frames a second: 1000 over the median of frame_ms.
 double rg_record_fps(const struct rg_record *record);
 // The mean time of the calibration load during its measurement; 0: unknown.

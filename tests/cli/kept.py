@@ -233,7 +233,7 @@ def check_colours(runner):
     shown = runner.on_terminal(args, {"TERM": "xterm", "NO_COLOR": None}).stdout
     cells = re.findall(r"\x1b\[(\d+)m(.*?)\x1b\[0m", shown)
     problems = [] if cells and re.sub(r"\x1b\[\d+m", "", shown) == plain else ["on a terminal: %r" % shown]
-    due = [("32", cell) for cell in re.findall(r"[\d.]+ +[1-9][\d.]*x|(?<!not )reproduced", re.sub(r"### ours, times paper\n\n(\|.*\n)+", "", plain))]
+    due = [("32", cell) for cell in re.findall(r"[\d.]+(?: \+-\d+%|~)? +[1-9][\d.]*x|(?<!not )reproduced", re.sub(r"### ours, times paper\n\n(\|.*\n)+", "", plain))]
     if sorted(cell for cell in cells if cell[1] not in ("not reproduced", "undecided")) != sorted(due):
         problems.append("painted: %s, due: %s" % (cells, due))
     for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb", "NO_COLOR": None}):

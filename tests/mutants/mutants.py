@@ -128,7 +128,7 @@ def build_copy(copy, modules, wanted):
 def notices(test, number, cache, limit_s=None):
     """What a test says that fails with a fault, or that takes longer than it may; "" where it passes. What it leaves
     running ends with it."""
-    env = dict(os.environ, **test["env"], GOMP_SPINCOUNT="0", RG_LONG_S="1e9", XDG_CACHE_HOME=str(cache), RG_MUTANT=str(number))
+    env = dict(os.environ, **test["env"], GOMP_SPINCOUNT="0", RG_LONG_S="1e9", RG_PROBE_S="0", XDG_CACHE_HOME=str(cache), RG_MUTANT=str(number))
     with tempfile.TemporaryFile() as told:
         run = subprocess.Popen(test["cmd"], cwd=test["workdir"], env=env, stdin=subprocess.DEVNULL, stdout=told,
                                stderr=subprocess.STDOUT, start_new_session=True)

@@ -8,8 +8,6 @@
 #include "harness/commands/cli/command.h"
 #include "harness/commands/cli/shared.h"
 #include "harness/compare/bisect/bisect.h"
-#include "harness/compare/bisect/git.h"
-#include "harness/compare/gate/text/shell.h"
 #include "harness/console/duration.h"
 #include "harness/console/interrupt.h"
 
@@ -19,7 +17,7 @@ struct bisect_options {
     char *list;       // a file
     char *budget;     // "2m"
     int tries, crash;
-    bool dry_run, json;
+    bool json;
 };
 
 #define AT(field) offsetof(struct bisect_options, field)
@@ -57,8 +55,6 @@ static const struct rg_option options[] = {
      .offset = AT(budget), .initial = "2m"},
     {RG_OPTION_CHOICE, "crash", .about = "what a command says that a signal ends",
      .offset = AT(crash), .initial = "skip", .choices = crashes},
-    {RG_OPTION_FLAG, "dry-run", .about = "prints the command of each candidate, and runs none",
-     .offset = AT(dry_run), .excludes = "json"},
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -72,40 +68,16 @@ static int judge_for_git(const struct rg_judging *judging)
     const struct rg_judged judged = rg_judge(judging, NULL, NULL);
     rg_info("%s (exit status %d, %d %s)", rg_judgement_name(judged.verdict), judged.status,
             judged.tries, judged.tries == 1 ? "try" : "tries");
-    return rg_git_status(judged.verdict);
+    return rg_judgement_git(judged.verdict);
 }
 
 // --- a list ---
-
-static void print_variable(const char *name, const char *value)
-{
-    printf("%s=", name);
-    rg_shell_word(stdout, value, strlen(value));
-    printf(" ");
-}
-
-static int print_lines(const struct rg_candidates *candidates, const struct rg_judging *judging)
-{
-    char budget[32];
-    rg_judging_budget(judging, 0, budget);
-    for (int64_t i = 0; i < candidates->count; i++) {
-        print_variable(RG_VARIABLE_CANDIDATE, candidates->names[i]);
-        print_variable(RG_VARIABLE_GOOD, candidates->names[0]);
-        print_variable(RG_VARIABLE_BUDGET, budget);
-        printf("/bin/sh -c ");
-        rg_shell_word(stdout, judging->line, strlen(judging->line));
-        printf("\n");
-    }
-    return RG_EXIT_PASS;
-}
 
 static int search(const struct bisect_options *o, const struct rg_candidates *candidates,
                   const struct rg_judging *judging)
 {
     struct rg_bisect bisect = {.candidates = candidates, .judging = judging, .prints = !o->json};
     int exit = rg_bisect_run(&bisect);
-    if (!o->json)
-        rg_bisect_print_end(&bisect);
     if (o->json && !rg_bisect_print_json(&bisect, stdout))
         exit = rg_exit_worse(exit, rg_exit_of_error());
     else if (fflush(stdout) || ferror(stdout)) {
@@ -120,13 +92,12 @@ static int bisect_list(const struct bisect_options *o, const struct rg_words *ar
                        const struct rg_judging *judging)
 {
     struct rg_candidates candidates = {.count = 0};
-    bool ok = !o->list || rg_candidates_read(o->list, &candidates);
+    bool ok = rg_candidates_add(o->good, &candidates) &&
+              (!o->list || rg_candidates_read(o->list, &candidates));
     for (int i = 0; ok && i < arguments->count; i++)
         ok = rg_candidates_add(arguments->items[i], &candidates);
-    ok = ok && rg_candidates_between(o->good, o->bad, &candidates);
-    const int exit = !ok          ? rg_git_status_of_usage()
-                     : o->dry_run ? print_lines(&candidates, judging)
-                                  : search(o, &candidates, judging);
+    ok = ok && rg_candidates_add(o->bad, &candidates) && rg_candidates_between(&candidates);
+    const int exit = ok ? search(o, &candidates, judging) : rg_bisect_status_of_usage();
     rg_candidates_free(&candidates);
     return exit;
 }
@@ -145,9 +116,8 @@ static bool check(const struct bisect_options *o, const struct rg_words *argumen
         return rg_error("--list %s and '%s': name candidates in one of the two", o->list,
                         arguments->items[0]);
     if (*is_git)
-        return !(o->json || o->dry_run) ||
-               rg_error("bisect: inside `git bisect run` there are no candidates; leave out "
-                        "--json and --dry-run");
+        return !o->json || rg_error("bisect: inside `git bisect run` there are no candidates; "
+                                    "leave out --json");
     return (o->good && o->bad) ||
            rg_error("bisect: --good and --bad name the two ends; --%s is missing",
                     o->good ? "bad" : "good");
@@ -175,7 +145,7 @@ static int bisect(const void *values, const struct rg_words *arguments)
     if (!check(o, arguments, &judging.prints_here) ||
         !rg_duration_read(o->budget, "--budget", &judging.budget_s) ||
         !has_no_blank(o->line, judging.prints_here))
-        return rg_git_status_of_usage();
+        return rg_bisect_status_of_usage();
     return judging.prints_here ? judge_for_git(&judging) : bisect_list(o, arguments, &judging);
 }
 
@@ -187,5 +157,5 @@ const struct rg_command rg_command_bisect = {
     .options = options,
     .options_size = sizeof(struct bisect_options),
     .run = bisect,
-    .refused = rg_git_status_of_usage,
+    .refused = rg_bisect_status_of_usage,
 };

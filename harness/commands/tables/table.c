@@ -16,6 +16,7 @@
 #include "harness/console/duration.h"
 #include "harness/console/exit.h"
 #include "harness/console/started.h"
+#include "harness/measure/others.h"
 #include "harness/record/disk/stored.h"
 #include "harness/record/output.h"
 #include "harness/tables/claims/json.h"
@@ -307,6 +308,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
     if (!have_claims(o, chosen, count) || !rg_inputs_are_spared(chosen, count, o->set, o->output) ||
         (o->output && !rg_results_can_be_written(chosen, count, o->output)))
         return rg_exit_of_error();
+    rg_machine_probe(rg_processors_now);
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;

@@ -15,15 +15,30 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 
+static const struct {
+    const char *name;
+    int git; // exit status inside `git bisect run`
+} verdicts[] = {
+    [RG_JUDGED_NONE] = {"none", RG_EXIT_SIGNALLED},
+    [RG_JUDGED_GOOD] = {"good", RG_EXIT_PASS},
+    [RG_JUDGED_BAD] = {"bad", RG_EXIT_FAIL},
+    [RG_JUDGED_SKIP] = {"skip", RG_EXIT_GIT_SKIP},
+    [RG_JUDGED_AGAIN] = {"again", RG_EXIT_SIGNALLED},
+    [RG_JUDGED_STOP] = {"stop", RG_EXIT_SIGNALLED},
+};
+
 const char *rg_judgement_name(enum rg_judgement verdict)
 {
-    static const char *const names[RG_JUDGED_COUNT] = {
-        [RG_JUDGED_NONE] = "none", [RG_JUDGED_GOOD] = "good",   [RG_JUDGED_BAD] = "bad",
-        [RG_JUDGED_SKIP] = "skip", [RG_JUDGED_AGAIN] = "again", [RG_JUDGED_STOP] = "stop"};
-    return names[verdict];
+    return verdicts[verdict].name;
 }
 
-enum rg_judgement rg_judgement_of(int status, bool crash_is_bad)
+int rg_judgement_git(enum rg_judgement verdict)
+{
+    const bool is_asked = verdict == RG_JUDGED_STOP && rg_interrupted();
+    return verdicts[verdict].git + (is_asked ? rg_interrupt_signal() : 0);
+}
+
+static enum rg_judgement judgement_of(int status, bool crash_is_bad)
 {
     switch (status) {
     case RG_EXIT_PASS:
@@ -78,11 +93,6 @@ static int run_line(const char *line, bool prints_here)
     return -1;
 }
 
-void rg_judging_budget(const struct rg_judging *judging, int number, char budget[32])
-{
-    snprintf(budget, 32, "%.10gs", ldexp(judging->budget_s, number));
-}
-
 // Sets a variable of the command's environment; NULL: leaves it.
 static bool hand_over(const char *variable, const char *value)
 {
@@ -94,7 +104,7 @@ static int try_once(const struct rg_judging *judging, const char *candidate, con
                     int number)
 {
     char budget[32];
-    rg_judging_budget(judging, number, budget);
+    snprintf(budget, sizeof(budget), "%.10gs", ldexp(judging->budget_s, number));
     const bool ok = hand_over(RG_VARIABLE_CANDIDATE, candidate) &&
                     hand_over(RG_VARIABLE_GOOD, good) && hand_over(RG_VARIABLE_BUDGET, budget);
     return ok ? run_line(judging->line, judging->prints_here) : -1;
@@ -108,11 +118,25 @@ struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidat
         judged.status = try_once(judging, candidate, good, judged.tries);
         judged.verdict = judged.status < 0 || rg_interrupted()
                              ? RG_JUDGED_STOP
-                             : rg_judgement_of(judged.status, judging->crash_is_bad);
+                             : judgement_of(judged.status, judging->crash_is_bad);
         judged.tries++;
     }
     if (judged.verdict == RG_JUDGED_AGAIN)
         judged.verdict = RG_JUDGED_SKIP;
     judged.seconds = (rg_now_ms() - start_ms) / 1000;
     return judged;
+}
+
+// Only git knows this file's place, because of work trees and GIT_DIR.
+int rg_bisect_status_of_usage(void)
+{
+    static const char *const args[] = {
+        "/bin/sh", "-c", "test -e \"$(git rev-parse --git-path BISECT_START)\"", NULL};
+    pid_t child;
+    int status = -1; // if the process cannot be waited for
+    if (rg_program_start(args, (const int[]){-1, -1, -1}, 3, &child))
+        return RG_EXIT_USAGE;
+    rg_program_wait(child, &status);
+    const bool git_is_bisecting = WIFEXITED(status) && !WEXITSTATUS(status);
+    return git_is_bisecting ? rg_judgement_git(RG_JUDGED_STOP) : RG_EXIT_USAGE;
 }

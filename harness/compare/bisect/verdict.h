@@ -19,15 +19,9 @@ enum rg_judgement {
     RG_JUDGED_AGAIN, // more has to be measured
     RG_JUDGED_STOP,  // the command is wrong or was interrupted; no candidate can be judged
 };
-enum { RG_JUDGED_COUNT = RG_JUDGED_STOP + 1 };
 
 // "good": the same words in all forms.
 const char *rg_judgement_name(enum rg_judgement verdict);
-
-// Maps a command's exit status: 0 good, 1 bad, 3 again, 4, 77 and 125 skip. A process that a signal
-// ended, or a status above 128, which shells report for one, is skip or, with `crash_is_bad`, bad.
-// All others are stop.
-enum rg_judgement rg_judgement_of(int status, bool crash_is_bad);
 
 struct rg_judging {
     const char *line; // for the shell
@@ -45,13 +39,19 @@ struct rg_judged {
     int64_t at; // index of the candidate in its list
 };
 
-// Writes RG_BUDGET of a try, counted from 0.
-void rg_judging_budget(const struct rg_judging *judging, int number, char budget[32]);
-
-// Judges a candidate. The command gets it as RG_CANDIDATE, and the good end as RG_GOOD; NULL: not
-// set. The verdict is stop, with one logged line, also if the shell cannot be started. A signal to
-// raingauge (harness/console/interrupt.h) ends the command first.
+// Judges a candidate by the command's exit status: 0 good, 1 bad, 3 again, 4, 77 and 125 skip. A
+// process that a signal ended, or a status above 128, which shells report for one, is skip or, with
+// `crash_is_bad`, bad. All others are stop. The command gets it as RG_CANDIDATE, and the good end
+// as RG_GOOD; NULL: not set. The verdict is stop, with one logged line, also if the shell cannot be
+// started. A signal to raingauge (harness/console/interrupt.h) ends the command first.
 struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidate,
                           const char *good);
+
+// The exit status of a verdict inside `git bisect run`, where 1 to 127 mean bad, except 125, which
+// means skip; higher ones end the bisect (git-bisect(1)).
+int rg_judgement_git(enum rg_judgement verdict);
+// The exit status for bad usage. While git bisects the repository of the current folder it is that
+// of stop; otherwise git would take a misspelt option for a bad commit at every step.
+int rg_bisect_status_of_usage(void);
 
 #endif

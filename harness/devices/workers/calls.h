@@ -1,7 +1,7 @@
 // The calls from the harness to workers: one list, with each call's service
 // (harness/measure/serving/) and the worker's activity during it. Tables of fields, used by both
 // sides, describe requests and replies (harness/devices/frames/messages.h,
-// harness/measure/messages.h, harness/devices/workers/device.h).
+// harness/measure/serving/messages.h, harness/devices/workers/device.h).
 #ifndef RG_HARNESS_DEVICES_WORKERS_CALLS_H
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 

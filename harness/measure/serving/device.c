@@ -7,7 +7,7 @@
 #include "core/base/log.h"
 #include "harness/devices/workers/device.h"
 #include "harness/measure/drawing.h"
-#include "harness/measure/messages.h"
+#include "harness/measure/serving/messages.h"
 #include "harness/measure/serving/services.h"
 #include "harness/measure/ceilings.h"
 #include "harness/measure/timer_audit.h"

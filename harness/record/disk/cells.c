@@ -67,7 +67,8 @@ static json_t *head_of(const json_t *document)
 // A cell's measurements, except values derived from samples, passes and facts. The caller owns it.
 static json_t *measured_of(const json_t *cell)
 {
-    static const char *const made[] = {"fps", "ms", "ms_low", "ms_high", "passes_share"};
+    static const char *const made[] = {"fps",          "ms",    "ms_low",   "ms_high",
+                                       "passes_share", "noise", "disturbed"};
     json_t *measured = json_copy(json_object_get(cell, "measured")), *fact;
     const char *name;
     for (size_t i = 0; i < sizeof(made) / sizeof(made[0]); i++)

@@ -22,6 +22,24 @@ static bool read_samples(struct rg_reader *r, const json_t *measured, struct rg_
     return count > 0;
 }
 
+// What others took of each sample; results of before that was watched have none.
+static bool read_taken(struct rg_reader *r, const json_t *measured, struct rg_record *record)
+{
+    const json_t *array = json_object_get(measured, "taken");
+    if (!array)
+        return true;
+    record->is_watched = true;
+    if (json_array_size(array) != (size_t)record->sample_count)
+        return rg_reader_refuse(r, "taken", "has not a number for each sample");
+    for (int i = 0; i < record->sample_count; i++) {
+        const json_t *share = json_array_get(array, (size_t)i);
+        record->taken[i] = json_number_value(share);
+        if (!json_is_number(share) || record->taken[i] < 0 || record->taken[i] > 1)
+            return rg_reader_refuse(r, "taken", "has an element that is no number from 0 to 1");
+    }
+    return rg_field_int(r, measured, "retaken", 0, INT_MAX, &record->retaken);
+}
+
 static bool read_passes(struct rg_reader *r, const json_t *measured, struct rg_record *record)
 {
     struct rg_named passes[RG_MAX_PASS_TIMES];
@@ -69,8 +87,9 @@ static bool read_measured(struct rg_reader *r, const json_t *cell, struct rg_rec
              rg_field_number(r, measured, "first_frame_ms", &record->first_frame_ms) &&
              rg_field_number(r, measured, "api_over_wall", &record->api_over_wall) &&
              rg_field_int(r, measured, "frames_a_sample", 1, INT_MAX, &record->frames_a_sample) &&
-             read_samples(r, measured, record) && read_wanted(r, measured, record) &&
-             read_calibration(r, measured, record) && read_passes(r, measured, record)));
+             read_samples(r, measured, record) && read_taken(r, measured, record) &&
+             read_wanted(r, measured, record) && read_calibration(r, measured, record) &&
+             read_passes(r, measured, record)));
 }
 
 static bool read_outcome(struct rg_reader *r, const json_t *object, enum rg_outcome *outcome,

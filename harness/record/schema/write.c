@@ -3,11 +3,12 @@
 
 #include "harness/record/schema/schema.h"
 
-static json_t *samples_json(const struct rg_record *record)
+// A number for each sample.
+static json_t *samples_json(const struct rg_record *record, const double *numbers)
 {
     json_t *samples = json_array();
     for (int i = 0; i < record->sample_count; i++)
-        json_array_append_new(samples, json_real(record->samples_ms[i]));
+        json_array_append_new(samples, json_real(numbers[i]));
     return samples;
 }
 
@@ -22,14 +23,21 @@ static json_t *passes_json(const struct rg_record *record, double unit)
 
 static json_t *times_json(const struct rg_record *record)
 {
-    json_t *json =
-        json_pack("{sfsfsososfsfsfsisosisoso}", "fps", rg_record_fps(record), "ms",
-                  record->frame_ms.median, "ms_low", rg_number_json(record->frame_ms.low),
-                  "ms_high", rg_number_json(record->frame_ms.high), "create_ms", record->create_ms,
-                  "first_frame_ms", record->first_frame_ms, "api_over_wall", record->api_over_wall,
-                  "frames_a_sample", record->frames_a_sample, "samples_ms", samples_json(record),
-                  "pass_frames", record->pass_frames, "passes_ms", passes_json(record, 1),
-                  "passes_share", passes_json(record, rg_record_passes_ms(record)));
+    json_t *json = json_pack(
+        "{sfsfsososfsfsfsisosisoso}", "fps", rg_record_fps(record), "ms", record->frame_ms.median,
+        "ms_low", rg_number_json(record->frame_ms.low), "ms_high",
+        rg_number_json(record->frame_ms.high), "create_ms", record->create_ms, "first_frame_ms",
+        record->first_frame_ms, "api_over_wall", record->api_over_wall, "frames_a_sample",
+        record->frames_a_sample, "samples_ms", samples_json(record, record->samples_ms),
+        "pass_frames", record->pass_frames, "passes_ms", passes_json(record, 1), "passes_share",
+        passes_json(record, rg_record_passes_ms(record)));
+    if (rg_record_noise(record) > 0)
+        json_object_set_new(json, "noise", json_real(rg_record_noise(record)));
+    if (record->is_watched) {
+        json_object_set_new(json, "taken", samples_json(record, record->taken));
+        json_object_set_new(json, "disturbed", json_integer(rg_record_disturbed(record)));
+        json_object_set_new(json, "retaken", json_integer(record->retaken));
+    }
     if (!rg_record_is_whole(record))
         json_object_set_new(json, "samples_wanted", json_integer(record->wanted_samples));
     if (record->calibration_begin_ms > 0) {

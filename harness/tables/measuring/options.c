@@ -10,7 +10,8 @@ static const struct rg_measure_options quick = {.most_samples = 15,
                                                 .warm_up_ms = 250,
                                                 .warm_up_frames = 4,
                                                 .passes_ms = 400,
-                                                .load = rg_calibration_load};
+                                                .load = rg_calibration_load,
+                                                .watch = rg_processors_now};
 static const struct rg_measure_options full = {.most_samples = 61,
                                                .least_samples = 6,
                                                .sample_ms = 60,
@@ -18,7 +19,8 @@ static const struct rg_measure_options full = {.most_samples = 61,
                                                .warm_up_ms = 500,
                                                .warm_up_frames = 4,
                                                .passes_ms = 400,
-                                               .load = rg_calibration_load};
+                                               .load = rg_calibration_load,
+                                               .watch = rg_processors_now};
 
 // Long frames are warm after the checked frame and the counted one.
 static const struct rg_measure_options few = {.most_samples = 6,
@@ -27,7 +29,8 @@ static const struct rg_measure_options few = {.most_samples = 6,
                                               .warm_up_ms = 100,
                                               .warm_up_frames = 1,
                                               .passes_ms = 0,
-                                              .load = rg_calibration_load};
+                                              .load = rg_calibration_load,
+                                              .watch = rg_processors_now};
 
 const struct rg_measure_options *rg_table_few_samples(void)
 {

@@ -6,10 +6,7 @@
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/runs/needed.h"
 
-static const struct {
-    const char *about;
-    bool of_devices, is_whole;
-} turns[] = {
+const struct rg_turn_row rg_turns[RG_TURNS] = {
     [RG_TURN_FIRST] = {"the first rows of each table", false, false},
     [RG_TURN_NEEDED] = {"the other rows that are needed", false, false},
     [RG_TURN_CLAIMED] = {"the other devices of tables that claims are about", true, true},
@@ -20,21 +17,6 @@ static const struct {
     [RG_TURN_WORKS] = {"all works", false, true},
     [RG_TURN_LAST] = {"cpu:reference", true, true},
 };
-
-const char *rg_turn_about(enum rg_turn turn)
-{
-    return turns[turn].about;
-}
-
-bool rg_turn_is_of_devices(enum rg_turn turn)
-{
-    return turns[turn].of_devices;
-}
-
-bool rg_turn_is_whole(enum rg_turn turn)
-{
-    return turns[turn].is_whole;
-}
 
 struct rg_standing rg_standing_of(const struct rg_table *table)
 {
@@ -63,194 +45,154 @@ static bool are_alike(const struct rg_standing *a, const struct rg_standing *b)
 }
 
 // Estimates a cell's time on a device: from the table's own cells there; else from other tables
-// of the technique; else from the table's cells on another device, which may be too little.
-// 0: unknown.
-static double cell_s(const struct rg_standing *standings, int count, int table, int device)
+// of the technique, scaled by a device on which both were measured; else from the table's cells on
+// another device, which may be too little. 0: unknown.
+static double cell_s(const struct rg_order *order, int table, int device)
 {
-    const struct rg_standing *of = &standings[table];
-    double s = of->cell_s[device], elsewhere_s = 0, alike_s = 0;
-    for (int d = 0; d < RG_MAX_DEVICES; d++) {
-        if (!(of->cell_s[d] > 0))
+    const struct rg_standing *own = &order->tables[table];
+    double elsewhere_s = 0, alike_s = 0, scaled_s = 0;
+    for (int d = RG_MAX_DEVICES - 1; d >= 0; d--)
+        elsewhere_s = own->cell_s[d] > 0 ? own->cell_s[d] : elsewhere_s;
+    for (int i = 0; i < order->count; i++) {
+        const struct rg_standing *other = &order->tables[i];
+        if (!are_alike(own, other) || !(other->cell_s[device] > 0))
             continue;
-        elsewhere_s = elsewhere_s > 0 ? elsewhere_s : of->cell_s[d];
-        for (int i = 0; i < count; i++)
-            if (are_alike(of, &standings[i]) && standings[i].cell_s[d] > 0)
-                alike_s = fmax(alike_s, of->cell_s[d] * standings[i].cell_s[device] /
-                                            standings[i].cell_s[d]);
+        alike_s = other->cell_s[device];
+        for (int d = 0; d < RG_MAX_DEVICES; d++)
+            if (other->cell_s[d] > 0)
+                scaled_s = fmax(scaled_s, own->cell_s[d] * alike_s / other->cell_s[d]);
     }
-    for (int i = 0; i < count && !(elsewhere_s > 0); i++)
-        if (are_alike(of, &standings[i]) && standings[i].cell_s[device] > 0)
-            alike_s = standings[i].cell_s[device];
-    return s > 0 ? s : alike_s > 0 ? alike_s : elsewhere_s;
+    return own->cell_s[device] > 0 ? own->cell_s[device]
+           : scaled_s > 0          ? scaled_s
+           : elsewhere_s > 0       ? elsewhere_s
+                                   : alike_s;
 }
 
-static double expect(const struct rg_standing *standings, int count, const struct rg_step *step)
+static double expect(const struct rg_order *order, const struct rg_step *step, int cells)
 {
     double s = 0;
     for (int d = 0; d < RG_MAX_DEVICES; d++)
         if (step->devices >> d & 1)
-            s += step->cells * cell_s(standings, count, step->table, d);
+            s += cells * cell_s(order, step->table, d);
     return s;
 }
 
-// Larger pictures take longer by at most the ratio of their pixels, and all samples of quick mode
-// take twice as long as the fewest.
-static double times_as_long(const struct rg_share *before, const struct rg_share *after)
+void rg_order_learn(struct rg_order *order, const struct rg_step *step, int cells, double seconds)
 {
-    const double side = (double)before->divisor / after->divisor;
-    return side * side * (after->all_samples && !before->all_samples ? 2 : 1);
-}
-
-void rg_order_learn(struct rg_standing *standings, int count, const struct rg_step *step, int cells,
-                    double seconds)
-{
-    struct rg_step taken = *step;
-    taken.cells = cells;
-    const double expected_s = expect(standings, count, &taken);
+    const double expected_s = expect(order, step, cells);
+    const double even_s = seconds / (cells * __builtin_popcount(step->devices));
     for (int d = 0; d < RG_MAX_DEVICES; d++)
         if (step->devices >> d & 1)
-            standings[step->table].cell_s[d] =
-                expected_s > 0 ? cell_s(standings, count, step->table, d) * seconds / expected_s
-                               : seconds / (cells * __builtin_popcount(step->devices));
+            order->tables[step->table].cell_s[d] =
+                expected_s > 0 ? cell_s(order, step->table, d) * seconds / expected_s : even_s;
 }
 
 // --- the next step ---
 
 // Whether a turn adds anything to a table; fills in the step's share and cells.
-static bool grow(const struct rg_standing *s, enum rg_turn turn, struct rg_step *step)
+static bool grow(const struct rg_standing *s, struct rg_step *step)
 {
+    const enum rg_turn turn = step->turn;
     const int works = s->share.all_works ? s->works : 1;
     const int variants = s->share.all_variants ? s->variants : s->needed_variants;
-    if ((turn == RG_TURN_FIRST) == (s->rows > 0))
-        return false;
     step->share = s->share;
     step->share.devices |= step->devices;
-    step->cells = variants * works * (rg_turn_is_whole(turn) ? s->rows : 1);
-    switch (turn) {
-    case RG_TURN_FIRST:
-        return true;
-    case RG_TURN_NEEDED:
-        return s->rows < s->needed_rows;
-    case RG_TURN_CLAIMED:
-        return s->has_claims;
-    case RG_TURN_BETTER:
-        step->share.all_samples = true;
-        step->share.divisor = 1;
-        return !s->table->is_of_textures;
-    case RG_TURN_ROWS:
-        step->share.all_rows = true;
-        return s->rows < s->quick_rows;
-    case RG_TURN_VARIANTS:
-        step->share.all_variants = true;
-        step->cells = s->rows * works * (s->variants - variants);
-        return s->variants > variants;
-    case RG_TURN_WORKS:
-        step->share.all_works = true;
-        step->cells = s->rows * variants * (s->works - works);
-        return s->works > works;
-    default:
-        return true;
-    }
+    step->share.all_samples |= turn == RG_TURN_BETTER;
+    step->share.all_variants |= turn == RG_TURN_VARIANTS;
+    step->share.all_works |= turn == RG_TURN_WORKS;
+    step->share.divisor = turn == RG_TURN_BETTER ? 1 : s->share.divisor;
+    step->cells = (rg_turns[turn].is_whole ? s->rows : 1) *
+                  (turn == RG_TURN_VARIANTS ? s->variants - variants : variants) *
+                  (turn == RG_TURN_WORKS ? s->works - works : works);
+    const bool adds = turn == RG_TURN_NEEDED    ? s->rows < s->needed_rows
+                      : turn == RG_TURN_CLAIMED ? s->has_claims
+                      : turn == RG_TURN_BETTER  ? !s->table->is_of_textures
+                      : turn == RG_TURN_ROWS    ? s->rows < s->quick_rows
+                                                : step->cells > 0;
+    return adds && (turn == RG_TURN_FIRST) == !s->rows;
 }
 
-static int waiting(const struct rg_standing *standings, int count, enum rg_turn turn)
+static int waiting(const struct rg_order *order, enum rg_turn turn)
 {
     int tables = 0;
-    for (int i = 0; i < count; i++)
-        tables += !standings[i].tried[turn];
+    for (int i = 0; i < order->count; i++)
+        tables += !order->tables[i].tried[turn];
     return tables;
 }
 
-double rg_order_part_s(const struct rg_standing *standings, int count, double left_s)
-{
-    const int tables = waiting(standings, count, RG_TURN_FIRST);
-    return left_s / (tables ? tables : 1);
-}
-
 // Chooses full pictures, or half their size if they would take more than the table's part of the
-// time.
-static void choose_size(const struct rg_standing *standings, int count, double left_s,
-                        struct rg_step *step)
+// time. Larger pictures take longer by at most the ratio of their pixels, and all samples of quick
+// mode take twice as long as the fewest.
+static void choose_size(const struct rg_order *order, double left_s, struct rg_step *step)
 {
-    const struct rg_share *before = &standings[step->table].share;
-    const double now_s = step->expected_s;
-    step->expected_s = now_s * times_as_long(before, &step->share);
-    if (before->divisor < 4 ||
-        step->expected_s * waiting(standings, count, RG_TURN_BETTER) <= left_s)
+    const struct rg_share *before = &order->tables[step->table].share;
+    const double side = before->divisor, samples = before->all_samples ? 1 : 2;
+    const double now_s = samples * step->expected_s;
+    step->expected_s = now_s * side * side;
+    if (side < 4 || step->expected_s * waiting(order, RG_TURN_BETTER) <= left_s)
         return;
     step->share.divisor = 2;
-    step->expected_s = now_s * times_as_long(before, &step->share);
+    step->expected_s = now_s * side * side / 4;
 }
 
-// The devices for which a turn can have a step.
-static unsigned devices_of(const struct rg_standing *s, enum rg_turn turn,
-                           const struct rg_order_devices *devices)
+// The untried devices for which a turn can have a step: in turns of devices, only the one with
+// number `d`; else all together for d = 0.
+static unsigned devices_of(const struct rg_order *order, int table, enum rg_turn turn, int d)
 {
-    if (turn == RG_TURN_FIRST)
-        return devices->first;
-    if (!turns[turn].of_devices)
-        return s->share.devices;
-    return (turn == RG_TURN_LAST ? devices->last : devices->all & ~devices->last) &
-           ~s->share.devices;
-}
-
-// Finds the cheapest step of a table that was not tried yet.
-static bool find(const struct rg_standing *standings, int count,
-                 const struct rg_order_devices *devices, double left_s, struct rg_step *found)
-{
-    const struct rg_standing *s = &standings[found->table];
-    const unsigned left = devices_of(s, found->turn, devices) & ~s->tried[found->turn];
-    bool any = false;
-    for (int d = 0; d < RG_MAX_DEVICES && left; d++) {
-        struct rg_step step = *found;
-        step.devices = turns[step.turn].of_devices ? left & 1u << d : d ? 0 : left;
-        if (!step.devices || !grow(s, step.turn, &step))
-            continue;
-        step.expected_s = expect(standings, count, &step);
-        if (step.turn == RG_TURN_BETTER)
-            choose_size(standings, count, left_s, &step);
-        if (!any || step.expected_s < found->expected_s)
-            *found = step;
-        any = true;
-    }
-    return any;
+    const struct rg_standing *s = &order->tables[table];
+    const unsigned others = turn == RG_TURN_LAST ? order->last : order->all & ~order->last;
+    if (rg_turns[turn].of_devices)
+        return others & ~s->share.devices & ~s->tried[turn] & 1u << d;
+    return d ? 0 : (turn == RG_TURN_FIRST ? order->first : s->share.devices) & ~s->tried[turn];
 }
 
 // Guesses the work of a table without any measurement: from its pixels and frames, and more if the
 // table says that smaller pictures show less.
-static double look_of(const struct rg_table *table, int divisor)
+static double look_of(const struct rg_order *order, const struct rg_step *step)
 {
     enum { HEAVY = 1000 };
-    return (double)table->width * table->height / (divisor * divisor) *
+    const struct rg_table *table = order->tables[step->table].table;
+    return (double)table->width * table->height / (step->share.divisor * step->share.divisor) *
            rg_cell_check_frames(table) * (table->smaller[0] ? HEAVY : 1);
 }
 
-static bool is_cheaper(const struct rg_standing *standings, const struct rg_step *a,
+static bool is_cheaper(const struct rg_order *order, const struct rg_step *a,
                        const struct rg_step *b)
 {
-    return a->expected_s != b->expected_s
-               ? a->expected_s < b->expected_s
-               : look_of(standings[a->table].table, a->share.divisor) <
-                     look_of(standings[b->table].table, b->share.divisor);
+    return a->expected_s != b->expected_s ? a->expected_s < b->expected_s
+                                          : look_of(order, a) < look_of(order, b);
 }
 
-bool rg_order_next(const struct rg_standing *standings, int count,
-                   const struct rg_order_devices *devices, double left_s, struct rg_step *found)
+// Finds a turn's cheapest step of a table.
+static void find(const struct rg_order *order, int table, enum rg_turn turn, double left_s,
+                 struct rg_step *found, bool *any)
+{
+    for (int d = 0; d < RG_MAX_DEVICES; d++) {
+        struct rg_step step = {.table = table, .turn = turn};
+        step.devices = devices_of(order, table, turn, d);
+        if (!step.devices || !grow(&order->tables[table], &step))
+            continue;
+        step.expected_s = expect(order, &step, step.cells);
+        if (turn == RG_TURN_BETTER)
+            choose_size(order, left_s, &step);
+        if (!*any || is_cheaper(order, &step, found))
+            *found = step;
+        *any = true;
+    }
+}
+
+// Texture levels take no time once a texture is open, so their tables need no part of their own.
+bool rg_order_next(struct rg_order *order, double left_s, struct rg_step *found)
 {
     bool any = false;
     for (enum rg_turn turn = 0; turn < RG_TURNS && !any; turn++)
-        for (int i = 0; i < count; i++) {
-            struct rg_step step = {.table = i, .turn = turn};
-            if (!find(standings, count, devices, left_s, &step) ||
-                (any && !is_cheaper(standings, &step, found)))
-                continue;
-            *found = step;
-            any = true;
-        }
-    return any;
-}
-
-void rg_order_tried(struct rg_standing *standings, const struct rg_step *step)
-{
-    standings[step->table].tried[step->turn] |= turns[step->turn].of_devices ? step->devices : ~0u;
+        for (int i = 0; i < order->count; i++)
+            find(order, i, turn, left_s, found, &any);
+    if (!any)
+        return false;
+    struct rg_standing *s = &order->tables[found->table];
+    const bool has_part = found->turn == RG_TURN_FIRST && !s->table->is_of_textures;
+    found->part_s = has_part ? left_s / waiting(order, RG_TURN_FIRST) : left_s;
+    s->tried[found->turn] |= rg_turns[found->turn].of_devices ? found->devices : ~0u;
+    return true;
 }

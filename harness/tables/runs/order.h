@@ -20,27 +20,18 @@ enum rg_turn {
     RG_TURN_LAST,     // on the last devices
     RG_TURNS
 };
-// "all rows"
-const char *rg_turn_about(enum rg_turn turn);
-// Whether its steps add one device each.
-bool rg_turn_is_of_devices(enum rg_turn turn);
-// Whether a step counts only if all of its cells are measured, because a result has the same rows
-// on each device.
-bool rg_turn_is_whole(enum rg_turn turn);
-
-// The devices of a command, as bits.
-struct rg_order_devices {
-    unsigned all;
-    unsigned first; // one of them; every table is measured on it before any is on another
-    unsigned last;  // some of them, used only after everything else is measured
-};
+extern const struct rg_turn_row {
+    const char *about; // "all rows"
+    bool of_devices;   // its steps add one device each
+    bool
+        is_whole; // a step counts only with all of its cells: a result has the same rows everywhere
+} rg_turns[RG_TURNS];
 
 // The part of a table that is measured.
 struct rg_share {
-    unsigned devices; // as bits; 0: nothing
-    int divisor;      // of its width and height
-    // false: the fewest samples, the needed rows and variants, and the printed work
-    bool all_samples, all_rows, all_variants, all_works;
+    unsigned devices;                          // as bits; 0: nothing
+    int divisor;                               // of its width and height
+    bool all_samples, all_variants, all_works; // false: the fewest, the needed, the printed one
 };
 
 // Progress of a table.
@@ -52,32 +43,35 @@ struct rg_standing {
     int rows; // measured so far
     // Seconds per cell on each device, including preparation; 0: unknown.
     double cell_s[RG_MAX_DEVICES];
-    unsigned tried[RG_TURNS]; // devices, as bits, for which a turn was tried; all bits for turns
-                              // without devices
+    unsigned tried[RG_TURNS]; // devices for which a turn was tried; all for turns without devices
 };
 // The state before anything of a table is measured.
 struct rg_standing rg_standing_of(const struct rg_table *table);
 
+// The tables and devices of a command; devices are bits.
+struct rg_order {
+    struct rg_standing *tables;
+    int count;
+    unsigned all;
+    unsigned first; // one of them; every table is measured on it before any is on another
+    unsigned last;  // some of them, used only after everything else is measured
+};
+
 struct rg_step {
-    int table; // index among the standings
+    int table; // index
     enum rg_turn turn;
     unsigned devices;      // those to measure
     struct rg_share share; // the table's share after the step
     int cells;             // per device, the fewest that are useful
     double expected_s;     // for these cells, from earlier times; 0: unknown
+    double part_s;         // of the time left, what the step's rows may take
 };
 
-// Finds the next step: in the first turn that has an untried one, the step with the least expected
-// or guessed time, so that a large table does not keep small ones out. False if all steps are done
-// or tried. The caller marks it as tried (rg_order_tried).
-bool rg_order_next(const struct rg_standing *standings, int count,
-                   const struct rg_order_devices *devices, double left_s, struct rg_step *step);
-void rg_order_tried(struct rg_standing *standings, const struct rg_step *step);
-// A table's part of the time in the first turn: the time left, divided by the number of waiting
-// tables.
-double rg_order_part_s(const struct rg_standing *standings, int count, double left_s);
+// Takes the next step, which counts as tried from then on: in the first turn that has an untried
+// one, the step with the least expected or guessed time, so that a large table does not keep small
+// ones out. False if all steps were tried.
+bool rg_order_next(struct rg_order *order, double left_s, struct rg_step *step);
 // Updates the times per cell: a step took `seconds` for `cells` cells per device.
-void rg_order_learn(struct rg_standing *standings, int count, const struct rg_step *step, int cells,
-                    double seconds);
+void rg_order_learn(struct rg_order *order, const struct rg_step *step, int cells, double seconds);
 
 #endif

@@ -10,6 +10,7 @@
 #include "harness/console/sheet.h"
 #include "harness/tables/claims/claim.h"
 #include "harness/tables/sheet/digits.h"
+#include "harness/tables/sheet/sheet.h"
 #include "harness/tables/sheet/trend.h"
 
 // Limit of the notes' lines.
@@ -181,17 +182,18 @@ static void add_method(struct notes *notes, const struct rg_result *result)
             rg_result_first_missing(result) + 1);
     if (result->is_of_textures)
         return;
-    char samples[32] = "";
+    char samples[32] = "", marks[RG_TITLE_SIZE];
     if (least < most)
         snprintf(samples, sizeof(samples), "%d to ", least);
     char drift[48] = "";
     if (rg_result_drift(result) > 0)
         snprintf(drift, sizeof(drift), " The machine drifted by %.1f %%.",
                  100 * rg_result_drift(result));
-    add(notes, "%s%s%sMedians of %s%d samples by wall clock, %s%s%s.%s",
+    rg_result_marks(result, marks, sizeof(marks));
+    add(notes, "%s%s%sMedians of %s%d samples by wall clock, %s%s%s.%s%s%s",
         *result->hardware ? "In print on " : "", result->hardware, *result->hardware ? ". " : "",
         samples, most, result->full ? "full" : "quick", !result->full && *result->quick ? ": " : "",
-        result->full ? "" : result->quick, drift);
+        result->full ? "" : result->quick, drift, *marks ? " " : "", marks);
 }
 
 // For tables of no paper, of their first work: "The time of a frame of work paper goes with drops

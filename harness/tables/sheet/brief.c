@@ -198,18 +198,24 @@ static void print_times(const struct rg_result *result, struct rg_place at, char
     snprintf(text, size, "%sx", ratio);
 }
 
-static void fill_device(const struct rg_result *result, struct rg_place at,
+// A cell: "451 +-22%  1.1x". The mark is short, "451~ 1.1x" or, where others disturbed it,
+// "451! 1.1x", if the page has no room.
+static void fill_device(const struct rg_result *result, struct rg_place at, bool is_short,
                         char text[RG_SHEET_CELL])
 {
     const struct rg_record *record = rg_result_at(result, at);
-    char rate[32], times[40];
+    char rate[32], times[40], mark[RG_MARK_SIZE];
     if (record->outcome != RG_OK) {
         snprintf(text, RG_SHEET_CELL, "%s", rg_outcome_name(record->outcome));
         return;
     }
     rg_digits_rate(rg_record_fps(record), rate, sizeof(rate));
     print_times(result, at, times, sizeof(times));
-    snprintf(text, RG_SHEET_CELL, *times ? "%s %5s" : "%s%s", rate, times);
+    rg_record_mark(record, mark);
+    if (is_short && *mark)
+        snprintf(mark, sizeof(mark), rg_record_disturbed(record) ? "!" : "~");
+    snprintf(text, RG_SHEET_CELL, *times ? "%s%s%s %5s" : "%s%s%s%s", rate,
+             *mark && !is_short ? " " : "", mark, times);
 }
 
 // The width and height of a texture: "32 x 3606".
@@ -229,7 +235,7 @@ static void fill_texture(const struct rg_record *record, char text[RG_SHEET_CELL
 }
 
 static void add_row(const struct rg_result *result, struct rg_place of, const struct columns *at,
-                    struct rg_sheet *sheet)
+                    bool is_short, struct rg_sheet *sheet)
 {
     const struct rg_record *record = rg_result_at(result, of);
     char(*cells)[RG_SHEET_CELL] = rg_sheet_row(sheet);
@@ -245,7 +251,7 @@ static void add_row(const struct rg_result *result, struct rg_place of, const st
         if (result->is_of_textures)
             fill_texture(rg_result_at(result, of), cells[at->device[of.device]]);
         else
-            fill_device(result, of, cells[at->device[of.device]]);
+            fill_device(result, of, is_short, cells[at->device[of.device]]);
     }
 }
 
@@ -265,23 +271,29 @@ static const char *paint_amiss(const char *cell)
 // The same, and cells that reach print.
 static const char *paint_of_print(const char *cell)
 {
-    const char *times = strchr(cell, ' ');
+    const char *times = strrchr(cell, ' ');
     if (paint_amiss(cell))
         return paint_amiss(cell);
     if (!times || cell[strlen(cell) - 1] != 'x')
         return NULL;
-    return times[strspn(times, " ")] == '0' ? NULL : RG_GREEN;
+    return times[1] == '0' ? NULL : RG_GREEN;
 }
 
+// Makes the sheet with as many optional columns as the page has room for.
 static void make_sheet(const struct rg_result *result, struct rg_place of, int optional,
-                       struct rg_sheet *sheet)
+                       bool is_short, struct rg_sheet *sheet)
 {
+    const struct rg_place first = of;
     struct columns at;
     *sheet = (struct rg_sheet){.title = result->table, .level = 3, .width_step = 1};
     add_columns(result, of, optional, sheet, &at);
     for (of.row = result->first_row; of.row <= result->last_row; of.row++)
         if (rg_result_has(result, of.row))
-            add_row(result, of, &at, sheet);
+            add_row(result, of, &at, is_short, sheet);
+    if (rg_sheet_width(sheet) > RG_PAGE_WIDTH && optional > 0 && !sheet->incomplete) {
+        rg_sheet_free(sheet);
+        make_sheet(result, first, optional - 1, is_short, sheet);
+    }
 }
 
 // The kind of a table's cells: "paper, no_geometry: two textures a light (section 4.4.2)".
@@ -301,11 +313,10 @@ static bool print_table(const struct rg_result *result, struct rg_place of, FILE
 {
     struct rg_sheet sheet;
     char title[RG_TITLE_SIZE + 3 * RG_NAME_SIZE];
-    int optional = OPTIONAL;
-    make_sheet(result, of, optional, &sheet);
-    while (rg_sheet_width(&sheet) > RG_PAGE_WIDTH && optional > 0 && !sheet.incomplete) {
+    make_sheet(result, of, OPTIONAL, false, &sheet);
+    if (rg_sheet_width(&sheet) > RG_PAGE_WIDTH && !sheet.incomplete) {
         rg_sheet_free(&sheet);
-        make_sheet(result, of, --optional, &sheet);
+        make_sheet(result, of, OPTIONAL, true, &sheet);
     }
     name_table(result, of, title, sizeof(title));
     sheet.title = title;

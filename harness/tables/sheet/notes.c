@@ -185,6 +185,34 @@ static void note_facts(const struct rg_result *result, const char *const *shown,
 
 // --- the method ---
 
+void rg_result_marks(const struct rg_result *result, char *text, size_t size)
+{
+    int cells = 0, wide = 0, busy = 0;
+    double noise = 0, taken = 0;
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
+        const struct rg_record *record = rg_result_at(result, at);
+        if (record->outcome != RG_OK)
+            continue;
+        cells++;
+        wide += rg_record_noise(record) > 0;
+        busy += rg_record_disturbed(record) > 0;
+        noise = fmax(noise, rg_record_noise(record));
+        for (int i = 0; i < record->sample_count; i++)
+            taken = fmax(taken, record->taken[i]);
+    }
+    size_t used = 0;
+    *text = 0;
+    if (wide)
+        used = (size_t)snprintf(text, size,
+                                "%d of %d cells have intervals wider than %g times (+-, ~; up to "
+                                "%.0f %%).%s",
+                                wide, cells, RG_WIDE_INTERVAL, 100 * noise, busy ? " " : "");
+    if (busy && used < size)
+        snprintf(text + used, size - used,
+                 "In %d of %d others took over %.0f %% of the processors (busy, !; up to %.0f %%).",
+                 busy, cells, 100 * RG_MOST_TAKEN, 100 * taken);
+}
+
 // Notes how the numbers were measured.
 static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
 {
@@ -200,6 +228,10 @@ static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
         rg_sheet_note(sheet,
                       "%sTimes are wall clock between full syncs, medians of %s samples (%s).",
                       published, samples, result->full ? "full" : "quick");
+        char marks[RG_TITLE_SIZE];
+        rg_result_marks(result, marks, sizeof(marks));
+        if (*marks)
+            rg_sheet_note(sheet, "Marks: %s", marks);
         if (rg_result_drift(result) > 0)
             rg_sheet_note(sheet,
                           "The machine's speed drifted by %.1f %% over the run, as a load "

@@ -24,7 +24,7 @@ struct columns {
     int told[RG_MAX_VALUES];      // the measured value for the printed one of the same index
     int counted[RG_MAX_COUNTED];
     int tallied[TALLIED];
-    int work, variant, device, fps, ms, ms_range, ratio, times, first, api, error, passes;
+    int work, variant, device, fps, mark, ms, ms_range, ratio, times, first, api, error, passes;
 };
 
 bool rg_is_frame_rate(const struct rg_named *published)
@@ -79,6 +79,7 @@ static bool is_told(const struct rg_result *result, const char *name)
 
 static void add_times(struct rg_sheet *sheet, struct columns *at, bool is_published)
 {
+    at->mark = rg_sheet_column(sheet, "noise");
     at->ms = rg_sheet_column(sheet, "ms");
     at->ms_range = rg_sheet_column(sheet, "ms, 95 %%");
     if (is_published)
@@ -178,6 +179,7 @@ static void fill_times(const struct columns *at, char (*cells)[RG_SHEET_CELL],
                        const struct rg_record *record, const struct rg_record *reference)
 {
     snprintf(cells[at->fps], RG_SHEET_CELL, "%.1f", rg_record_fps(record));
+    rg_record_mark(record, cells[at->mark]);
     snprintf(cells[at->ms], RG_SHEET_CELL, "%.3f", record->frame_ms.median);
     if (isfinite(record->frame_ms.low))
         snprintf(cells[at->ms_range], RG_SHEET_CELL, "%.3f to %.3f", record->frame_ms.low,

@@ -12,6 +12,9 @@ void rg_result_sheet(const struct rg_result *result, struct rg_sheet *sheet);
 void rg_result_notes(const struct rg_result *result, const char *const *shown,
                      struct rg_sheet *sheet);
 
+// Says how many cells are marked, and why; "" if none is.
+void rg_result_marks(const struct rg_result *result, char *text, size_t size);
+
 // Whether a printed value of a record is the frame rate that is compared.
 bool rg_is_frame_rate(const struct rg_named *published);
 

@@ -59,7 +59,7 @@ class Faults:
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "cells.txt"), "w") as file:
                 file.write(CELL)
-            env.update(GOMP_SPINCOUNT="0", RG_LONG_S="1e9", XDG_STATE_HOME=folder, LD_PRELOAD=self.library, **more)
+            env.update(GOMP_SPINCOUNT="0", RG_LONG_S="1e9", RG_PROBE_S="0", XDG_STATE_HOME=folder, LD_PRELOAD=self.library, **more)
             hangs = ":hang:" in env.get("RG_FAULT", "")
             args = COMMANDS[command].format(api=api, tmp=folder).split() + ["--timeout", str(HANG_S) if hangs else "100", "--memory", "1GiB"]
             result = subprocess.run([self.raingauge] + args, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,

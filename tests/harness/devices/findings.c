@@ -19,7 +19,7 @@
 #include "harness/devices/frames/messages.h"
 #include "harness/devices/frames/session.h"
 #include "harness/measure/drawing.h"
-#include "harness/measure/messages.h"
+#include "harness/measure/serving/messages.h"
 #include "tests/tools/expect.h"
 
 // What is written over a struct that is put into a reply.

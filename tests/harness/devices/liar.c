@@ -21,7 +21,7 @@
 #include "harness/devices/frames/messages.h"
 #include "harness/devices/frames/session.h"
 #include "harness/measure/ceilings.h"
-#include "harness/measure/messages.h"
+#include "harness/measure/serving/messages.h"
 #include "harness/measure/timer_audit.h"
 
 static uint64_t state;

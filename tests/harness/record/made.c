@@ -24,8 +24,12 @@ static void tell_measured(struct rg_record *record, struct rg_place at)
     record->frames_a_sample = 3;
     record->calibration_begin_ms = at.row ? 2 : 2.123456789123;
     record->calibration_end_ms = at.row ? 2.5 : 1.0 / 3;
-    for (int i = 0; i < 7; i++)
+    record->is_watched = at.device == 0;
+    record->retaken = 3 * record->is_watched;
+    for (int i = 0; i < 7; i++) {
+        record->taken[i] = record->is_watched ? i / 70.0 : 0;
         record->samples_ms[record->sample_count++] = 20.123456789123 + 0.7 * i * (at.variant + 1);
+    }
     record->pass_frames = 2;
     record->pass_count = 2;
     rg_text_copy(record->passes[0].name, RG_NAME_SIZE, "flow_move");

@@ -49,8 +49,9 @@ static void assert_refused(const json_t *document, const char *names)
 static bool is_made_anew(const char *key)
 {
     // The last is a fact, beside what is published of it.
-    static const char *const keys[] = {"interrupted", "shapes",  "fps",          "ms",
-                                       "ms_low",      "ms_high", "passes_share", "particles"};
+    static const char *const keys[] = {"interrupted", "shapes",   "fps",          "ms",
+                                       "ms_low",      "ms_high",  "passes_share", "noise",
+                                       "disturbed",   "particles"};
     bool is = false;
     for (size_t i = 0; i < sizeof(keys) / sizeof(keys[0]); i++)
         is = is || !strcmp(key, keys[i]);
@@ -127,8 +128,8 @@ static void test_each_field(void **state)
 static void test_made_anew(void **state)
 {
     (void)state;
-    static const char *const names[] = {"fps",     "ms",           "ms_low",
-                                        "ms_high", "passes_share", "particles"};
+    static const char *const names[] = {"fps",          "ms",    "ms_low",    "ms_high",
+                                        "passes_share", "noise", "disturbed", "particles"};
     json_t *document = make_document();
     json_t *measured = json_object_get(cell_of(document, 0), "measured");
     json_object_set_new(measured, "fps", json_integer(1));

@@ -42,7 +42,7 @@ static void fill(struct rg_result *result, struct rg_place at)
     rg_record_settle(record);
 }
 
-static void make(struct rg_result *result)
+static void make_of(struct rg_result *result, int devices)
 {
     static const char *const names[] = {"cpu", "cpu:reference", "gl", "vulkan", "opencl"};
     *result = (struct rg_result){.width = 1280, .height = 720, .last_row = ROWS - 1};
@@ -54,7 +54,7 @@ static void make(struct rg_result *result)
     snprintf(result->works[1].name, RG_NAME_SIZE, "ours");
     snprintf(result->works[1].saves, RG_TITLE_SIZE, "less is drawn");
     result->work_count = 2;
-    for (; result->device_count < 5; result->device_count++)
+    for (; result->device_count < devices; result->device_count++)
         snprintf(result->devices[result->device_count].name,
                  sizeof(result->devices[result->device_count].name), "%s",
                  names[result->device_count]);
@@ -65,6 +65,11 @@ static void make(struct rg_result *result)
         assert_true(rg_result_add_row(result, row));
     for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
         fill(result, at);
+}
+
+static void make(struct rg_result *result)
+{
+    make_of(result, 5);
 }
 
 // What is printed, until the next is.
@@ -101,6 +106,27 @@ static void cells_are_beside_print(void **state)
     expect(text, "|  320  2.0x | 80.0  2.0x | 19.7  2.0x |  160  2.0x | 6.40  2.0x |");
     assert_null(strstr(text, "\033"));
     rg_result_free(&result);
+}
+
+// Noise and others stand at the number: as text where the page has room, else as one character.
+static void uncertain_numbers_are_marked(void **state)
+{
+    (void)state;
+    for (int devices = 2; devices <= 5; devices += 3) {
+        struct rg_result result;
+        make_of(&result, devices);
+        assert_null(strstr(print(&result), "(+-, ~;"));
+        for (int d = 0; d < devices; d++)
+            rg_result_at(&result, (struct rg_place){.device = d})->frame_ms.high *= 1.44;
+        rg_result_at(&result, (struct rg_place){.row = 1})->taken[2] = 0.48;
+        const char *text = print(&result);
+        expect(text, devices == 2 ? "| 160 +-20%  2.0x | 40.0 +-20% 0.50x |"
+                                  : "|  160~  2.0x | 40.0~ 0.50x |");
+        expect(text, devices == 2 ? "| 80.0 busy  2.0x |" : "| 80.0!  2.0x |");
+        expect(text, "up to 20 %");
+        expect(text, "up to 48 %");
+        rg_result_free(&result);
+    }
 }
 
 static void curves_are_those_of_print(void **state)
@@ -229,6 +255,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cells_are_beside_print),
+        cmocka_unit_test(uncertain_numbers_are_marked),
         cmocka_unit_test(curves_are_those_of_print),
         cmocka_unit_test(lines_are_short),
         cmocka_unit_test(claims_and_five_lines_stand_below),

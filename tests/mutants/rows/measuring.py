@@ -1,7 +1,7 @@
 """Timing: waits, warm-ups, samples, their order and intervals; the audit of timers and the ceilings."""
 from fault import Fault
 
-TESTS = ("scripted", "loads", "stats", "measure", "timer_audit")
+TESTS = ("scripted", "loads", "others", "stats", "measure", "timer_audit")
 
 JOB, MEASURE, PASSES = "harness/measure/job.c", "harness/measure/measure.c", "harness/measure/passes.c"
 AUDIT, CEILINGS, STATS = "harness/measure/timer_audit.c", "harness/measure/ceilings.c", "harness/record/stats.c"
@@ -9,8 +9,21 @@ SESSION = "harness/devices/frames/local.c"
 
 PROGRESS = "harness/console/progress.c"
 SAMPLING = "harness/measure/sampling.c"
+OTHERS, RECORD = "harness/measure/others.c", "harness/record/record.c"
 
 ROWS = [
+    Fault(OTHERS, "now->idle_ms += («ticks[IDLE] + ticks[IOWAIT]») * tick_ms;", "ticks[IDLE]", "a processor that waits for a disk is busy"),
+    Fault(OTHERS, "? («double)NAN» : process_ms(clock);", "double)0", "a process of ours that has gone counts as another's"),
+    Fault(OTHERS, "stolen_ms «- own_ms» - after->grain_ms;", "", "what raingauge does itself counts as others'"),
+    Fault(OTHERS, "- own_ms «- after->grain_ms»;", "", "what Linux rounds away counts as others'"),
+    Fault(OTHERS, "if (probe_ms > 0 && «taken.stolen + taken.others > RG_MOST_TAKEN»)", "false", "a busy machine is not told"),
+    Fault(MEASURE, "may_retake && i < «RETAKES» && !rg_interrupted()", "0", "disturbed samples are kept"),
+    Fault(MEASURE, "may_retake ? «r->patience - 1» : 0;", "PATIENCE", "a machine that stays busy is waited for"),
+    Fault(MEASURE, "        record->sample_count = «r->first[r->order[i]]»;", "record->sample_count", "samples that are taken again are not"),
+    Fault(MEASURE, "k < record->sample_count; k++)\n            record->taken[k] = «share»;", "0", "what others took is not noted"),
+    Fault(MEASURE, "const double share = fmin(«taken.stolen + taken.others», 1);", "taken.stolen", "other programs disturb nothing"),
+    Fault(RECORD, "count += record->taken[i] «> RG_MOST_TAKEN»;", ">= RG_MOST_TAKEN", "a share that is allowed is marked"),
+    Fault(RECORD, "return «width > RG_WIDE_INTERVAL» ? sqrt(width) - 1 : 0;", "width > 1.5", "a wide interval is not marked"),
     Fault("harness/doctor/examine.c", "if («!rg_drawn_is_well(&e->drawing.formats[i], e->info.tier)»)", "false", "a device that draws wrongly is well", tests=("command line, doctor",)),
     Fault("harness/measure/drawing.c", "return «drawn->differing <= (tier == RG_T0 ? 0 : RG_DRAWING_PIXELS / 1000)»;", "drawn->differing < RG_DRAWING_PIXELS", "a device that blends nothing draws well", tests=("command line, doctor",)),
     Fault(PROGRESS, "return high_ms <= «2» * low_ms &&", "1000", "a time is told of units that are not alike", tests=("progress",)),

@@ -3,29 +3,28 @@ from fault import Fault
 
 TESTS = ("priority", "within a budget", "time left", "foreseen")
 
-ORDER, CELL, BUDGET, LEFT = ("harness/tables/runs/order.c", "harness/tables/measuring/cell.c", "harness/tables/runs/budget.c",
-                             "harness/tables/runs/left.c")
+ORDER, CELL, BUDGET = "harness/tables/runs/order.c", "harness/tables/measuring/cell.c", "harness/tables/runs/budget.c"
 COMPILE, PROGRESS, MEASURE = "harness/tables/runs/compile.c", "harness/console/progress.c", "harness/tables/measuring/measure.c"
 
 ROWS = [
     Fault(ORDER, "for (enum rg_turn turn = «0»; turn < RG_TURNS && !any; turn++)", "RG_TURN_NEEDED", "nothing comes first", tests=("priority",)),
-    Fault(ORDER, "(any && «!is_cheaper(standings, &step, found)»))", "false", "the last table is the first", tests=("priority",)),
-    Fault(ORDER, "if («(turn == RG_TURN_FIRST) == (s->rows > 0)»)", "false", "tables of which nothing is there are refined", tests=("priority",)),
-    Fault(ORDER, "case RG_TURN_CLAIMED:\n        return «s->has_claims»;", "true", "claims need nothing first", tests=("priority",)),
-    Fault(ORDER, "devices_of(s, found->turn, devices) & «~s->tried[found->turn]»;", "~0u", "what was tried is tried for ever", tests=("priority",)),
-    Fault(ORDER, "return s > 0 ? s : alike_s > 0 ? «alike_s» : elsewhere_s;", "0", "others of a technique tell nothing", tests=("priority",)),
-    Fault(ORDER, "alike_s > 0 ? alike_s : «elsewhere_s»;", "0", "what a cell took elsewhere tells nothing", tests=("priority",)),
-    Fault(ORDER, "return side * side * «(after->all_samples && !before->all_samples ? 2 : 1)»;", "1", "more samples take no longer", tests=("priority",)),
+    Fault(ORDER, "if (!*any || «is_cheaper(order, &step, found)»)", "true", "the last table is the first", tests=("priority",)),
+    Fault(ORDER, "return adds && «(turn == RG_TURN_FIRST) == !s->rows»;", "true", "tables of which nothing is there are refined", tests=("priority",)),
+    Fault(ORDER, "turn == RG_TURN_CLAIMED ? «s->has_claims»\n", "true", "claims need nothing first", tests=("priority",)),
+    Fault(ORDER, "others & ~s->share.devices & «~s->tried[turn]» & 1u << d;", "~0u", "what was tried is tried for ever", tests=("priority",)),
+    Fault(ORDER, ": scaled_s > 0          ? «scaled_s»\n", "0", "others of a technique tell nothing", tests=("priority",)),
+    Fault(ORDER, ": elsewhere_s > 0       ? «elsewhere_s»\n", "0", "what a cell took elsewhere tells nothing", tests=("priority",)),
+    Fault(ORDER, "samples = «before->all_samples ? 1 : 2»;", "1", "more samples take no longer", tests=("priority",)),
     Fault(ORDER, "    step->share.divisor = «2»;", "1", "whole pictures keep others out", tests=("priority",)),
-    Fault(ORDER, "return left_s / «(tables ? tables : 1)»;", "1", "the first table has all of the time", tests=("priority",)),
+    Fault(ORDER, "has_part ? left_s / «waiting(order, RG_TURN_FIRST)» : left_s;", "1", "the first table has all of the time", tests=("priority",)),
     Fault(BUDGET, "while (ok && !rg_interrupted() && (is_first || «left_s(b) > 0») &&", "true", "a budget has no end", tests=("within a budget",)),
     Fault(BUDGET, "if (!is_first && «step.expected_s >= left_s(b)») {", "false", "what would not end in time is begun", tests=("within a budget",)),
     Fault(BUDGET, ".end_ms = «options->begin_ms» + 1000 * options->budget_s};", "rg_now_ms()", "a budget begins with the first table", tests=("within a budget",)),
     Fault(BUDGET, "if («now_ms <= b->end_ms» || rg_interrupted())", "true", "a budget that is too small is taken", tests=("within a budget",)),
     Fault(BUDGET, "(start_ms - begin_ms + «parts * (now_ms - start_ms)») / 1000);", "0", "the number that is told is too small", tests=("within a budget",)),
-    Fault(BUDGET, "return adds ? rows[row] && «!is_there» : is_there;", "true", "rows that are there are measured again", lives="it takes time, and gives no other rows"),
+    Fault(BUDGET, "adds ? «is_there» || !rows[row] : !is_there;", "false", "rows that are there are measured again", lives="it takes time, and gives no other rows"),
     Fault(BUDGET, "        rg_result_take(&joined, «old»);", "part", "what was measured before is lost", tests=("within a budget",)),
-    Fault(BUDGET, "(rg_turn_is_whole(step->turn) && «rows < s->rows»)) {", "false", "a part of a device takes the place of all others", tests=("within a budget",)),
+    Fault(BUDGET, "(rg_turns[step->turn].is_whole && «rows < s->rows»)) {", "false", "a part of a device takes the place of all others", tests=("within a budget",)),
     Fault(MEASURE, "if («!m->deadline || !m->rows_opened»)", "true", "rows are begun behind the end", tests=("within a budget",)),
     Fault(MEASURE, "rg_now_ms() + «open_ms» + rows * row_ms", "0", "the samples of what is open take nothing", tests=("within a budget",)),
     Fault("harness/tables/claims/evidence.c", "if («claim->test == RG_CLAIM_RATE && e->result->size_divisor > 1») {", "false", "a rate of small pictures is judged", tests=("verdicts",)),

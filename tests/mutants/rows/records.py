@@ -77,7 +77,7 @@ ROWS = [
     Fault(RESULT, "if («record->outcome != RG_OK» || !samples)", "false", "samples of cells that failed count"),
     Fault(RECORD, "return «1000» / record->frame_ms.median;", "1", "frame rates are in frames a millisecond"),
     Fault(RECORD, "*low = most ? 1000 / *most : rg_record_published_fps(record);", "*low = rg_record_published_fps(record);", "a printed range has no low end"),
-    Fault(RECORD, "for (int i = 0; i < record->sample_count; i++)\n        «settle(&record->samples_ms[i]);»", ";", "samples print otherwise once they are read back"),
+    Fault(RECORD, "for (int i = 0; i < record->sample_count; i++) {\n        «settle(&record->samples_ms[i]);»", ";", "samples print otherwise once they are read back"),
     Fault(KEY, "set(parts, \"clocks\", \"%s\", «text_of(machine, \"clocks\")»);", "\"\"", "times under other clocks are held against each other", tests=("key",)),
     Fault(KEY, "if («*cpu != ' '» || (length", "true", "a CPU that one kernel pads with blanks is another", tests=("key",)),
     Fault(KEY, "if («rg_variable_is_of_speed(name)» && used", "true", "another path to the same driver is another key", tests=("key",)),

@@ -7,7 +7,7 @@ W = "harness/devices/workers/"
 WORKER, CHANNEL, SERVE, MESSAGE, FIELDS, ENVIRONMENT, DEVICE = (
     W + name + ".c" for name in ("worker", "channel", "serve", "message", "fields", "environment", "device"))
 NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/devices/frames/remote.c", "core/base/log.c")
-DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/devices/frames/messages.c", "harness/measure/messages.c"
+DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/devices/frames/messages.c", "harness/measure/serving/messages.c"
 D = "harness/devices/drivers/"
 CACHES, CHOICE, APART, SIDE, PREFIX = (D + name + ".c" for name in ("caches", "choice", "apart", "side", "prefix"))
 PLAN, DOCTOR, EXAMINE = "harness/tables/sweep/plan.c", "harness/commands/doctor.c", "harness/doctor/examine.c"

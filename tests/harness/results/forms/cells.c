@@ -38,6 +38,14 @@ static void test_sheet(void **state)
     assert_true(sheet_has_note(&sheet, "Shape on cpu, no_geometry: "));
     assert_false(sheet_has_note(&sheet, "Shape on cpu, full"));
     sheet_expect_text(&sheet, 0, "error, FLIP", "0.0000");
+    sheet_expect_text(&sheet, 0, "noise", "");
+    rg_sheet_free(&sheet);
+    sheet_record_at(&rig, 0, 0)->frame_ms.high *= 1.44;
+    sheet_record_at(&rig, 1, 0)->taken[3] = 0.06;
+    rg_result_sheet(&rig.result, &sheet);
+    sheet_expect_text(&sheet, 0, "noise", "+-20%");
+    sheet_expect_text(&sheet, 2, "noise", "busy");
+    assert_true(sheet_has_note(&sheet, "Marks: 1 of 5 cells have intervals wider than 1.1 times"));
     rg_sheet_free(&sheet);
     rg_result_free(&rig.result);
 }

@@ -15,8 +15,6 @@
 #include "tests/tools/expect.h"
 
 enum { CPU = 1, GL = 2, REFERENCE = 4 };
-static const struct rg_order_devices devices = {
-    .all = CPU | GL | REFERENCE, .first = CPU, .last = REFERENCE};
 #define LEFT_S 1e6
 
 // Three tables of five rows, of which two techniques have two and one; claims are about the last.
@@ -25,7 +23,7 @@ static const struct rg_table tables[TABLES] = {{.id = "a", .technique = "one"},
                                                {.id = "b", .technique = "other"},
                                                {.id = "c", .technique = "one"}};
 
-static void begin(struct rg_standing standings[TABLES])
+static struct rg_order begin(struct rg_standing standings[TABLES])
 {
     for (int i = 0; i < TABLES; i++)
         standings[i] = (struct rg_standing){.table = &tables[i],
@@ -36,31 +34,30 @@ static void begin(struct rg_standing standings[TABLES])
                                             .variants = 2,
                                             .works = 3,
                                             .share = {.divisor = 4}};
+    return (struct rg_order){standings, TABLES, CPU | GL | REFERENCE, CPU, REFERENCE};
 }
 
 // The next step, which is taken as done: it took so long for each of its cells, on cpu, and twice
 // as long on others.
-static struct rg_step next(struct rg_standing standings[TABLES], double cell_s)
+static struct rg_step next(struct rg_order *order, double cell_s)
 {
     struct rg_step step;
-    assert_true(rg_order_next(standings, TABLES, &devices, LEFT_S, &step));
-    struct rg_standing *s = &standings[step.table];
+    assert_true(rg_order_next(order, LEFT_S, &step));
+    struct rg_standing *s = &order->tables[step.table];
     const int rows = step.turn == RG_TURN_FIRST    ? 2
                      : step.turn == RG_TURN_NEEDED ? 1
                      : step.turn == RG_TURN_ROWS   ? 2
                                                    : 0;
     const double times = step.devices == CPU ? 1 : 2;
-    rg_order_learn(standings, TABLES, &step, step.cells, step.cells * times * cell_s);
-    rg_order_tried(standings, &step);
+    rg_order_learn(order, &step, step.cells, step.cells * times * cell_s);
     s->share = step.share;
     s->rows += rows;
     return step;
 }
 
-static void expect(struct rg_standing standings[TABLES], enum rg_turn turn, int table, unsigned on,
-                   double cell_s)
+static void expect(struct rg_order *order, enum rg_turn turn, int table, unsigned on, double cell_s)
 {
-    const struct rg_step step = next(standings, cell_s);
+    const struct rg_step step = next(order, cell_s);
     if (step.turn != turn || step.table != table || step.devices != on)
         fail_msg("turn %d of table %d on %u, not turn %d of table %d on %u", step.turn, step.table,
                  step.devices, turn, table, on);
@@ -72,31 +69,31 @@ static void the_order_is_that_of_priority(void **state)
 {
     (void)state;
     struct rg_standing s[TABLES];
-    begin(s);
-    expect(s, RG_TURN_FIRST, 0, CPU, 5);
-    expect(s, RG_TURN_FIRST, 1, CPU, 1); // of another technique, so that nothing is known of it
-    expect(s, RG_TURN_FIRST, 2, CPU, 3);
-    expect(s, RG_TURN_NEEDED, 1, CPU, 1);
-    expect(s, RG_TURN_NEEDED, 2, CPU, 3);
-    expect(s, RG_TURN_NEEDED, 0, CPU, 5);
-    expect(s, RG_TURN_CLAIMED, 2, GL, 3);
-    expect(s, RG_TURN_DEVICES, 1, GL, 1);
-    expect(s, RG_TURN_DEVICES, 0, GL, 5);
-    expect(s, RG_TURN_BETTER, 1, CPU | GL, 1);
-    expect(s, RG_TURN_BETTER, 2, CPU | GL, 3);
-    expect(s, RG_TURN_BETTER, 0, CPU | GL, 5);
+    struct rg_order order = begin(s);
+    expect(&order, RG_TURN_FIRST, 0, CPU, 5);
+    expect(&order, RG_TURN_FIRST, 1, CPU,
+           1); // of another technique, so that nothing is known of it
+    expect(&order, RG_TURN_FIRST, 2, CPU, 3);
+    expect(&order, RG_TURN_NEEDED, 1, CPU, 1);
+    expect(&order, RG_TURN_NEEDED, 2, CPU, 3);
+    expect(&order, RG_TURN_NEEDED, 0, CPU, 5);
+    expect(&order, RG_TURN_CLAIMED, 2, GL, 3);
+    expect(&order, RG_TURN_DEVICES, 1, GL, 1);
+    expect(&order, RG_TURN_DEVICES, 0, GL, 5);
+    expect(&order, RG_TURN_BETTER, 1, CPU | GL, 1);
+    expect(&order, RG_TURN_BETTER, 2, CPU | GL, 3);
+    expect(&order, RG_TURN_BETTER, 0, CPU | GL, 5);
     for (enum rg_turn turn = RG_TURN_ROWS; turn <= RG_TURN_WORKS; turn++)
         for (int i = 0; i < TABLES; i++)
-            assert_int_equal(next(s, 1).turn, turn);
+            assert_int_equal(next(&order, 1).turn, turn);
     for (int i = 0; i < TABLES; i++)
-        assert_int_equal(next(s, 1).devices, REFERENCE);
+        assert_int_equal(next(&order, 1).devices, REFERENCE);
     struct rg_step none;
-    assert_false(rg_order_next(s, TABLES, &devices, LEFT_S, &none));
+    assert_false(rg_order_next(&order, LEFT_S, &none));
     for (int i = 0; i < TABLES; i++) {
-        assert_int_equal(s[i].share.devices, devices.all);
+        assert_int_equal(s[i].share.devices, order.all);
         assert_int_equal(s[i].share.divisor, 1);
         assert_true(s[i].share.all_samples);
-        assert_true(s[i].share.all_rows);
         assert_true(s[i].share.all_variants);
         assert_true(s[i].share.all_works);
         assert_equals(s[i].rows, 5);
@@ -110,7 +107,7 @@ static void what_looks_light_comes_first(void **state)
     (void)state;
     struct rg_standing s[TABLES];
     struct rg_table looks[TABLES];
-    begin(s);
+    struct rg_order order = begin(s);
     for (int i = 0; i < TABLES; i++) {
         looks[i] = (struct rg_table){.technique = i ? "other" : "one", .width = 100, .height = 100};
         s[i].table = &looks[i];
@@ -119,9 +116,8 @@ static void what_looks_light_comes_first(void **state)
     looks[1].check_frames = 20;
     for (int i = TABLES - 1; i >= 0; i--) {
         struct rg_step step;
-        assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+        assert_true(rg_order_next(&order, LEFT_S, &step));
         assert_int_equal(step.table, i);
-        rg_order_tried(s, &step);
     }
 }
 
@@ -131,13 +127,12 @@ static void what_was_tried_is_not_tried_again(void **state)
     (void)state;
     struct rg_standing s[TABLES];
     struct rg_step step;
-    begin(s);
+    struct rg_order order = begin(s);
     for (int i = 0; i < TABLES; i++) {
-        assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+        assert_true(rg_order_next(&order, LEFT_S, &step));
         assert_int_equal(step.turn, RG_TURN_FIRST);
-        rg_order_tried(s, &step);
     }
-    assert_false(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+    assert_false(rg_order_next(&order, LEFT_S, &step));
 }
 
 // By its own cells, or by those of its technique: by how a device compares with others there; else
@@ -146,29 +141,25 @@ static void what_cells_take_follows_from_others(void **state)
 {
     (void)state;
     struct rg_standing s[TABLES];
-    struct rg_step step;
-    begin(s);
-    next(s, 5);
-    assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+    struct rg_order order = begin(s);
+    next(&order, 5);
+    struct rg_step step = next(&order, 1);
     assert_equals(step.table, 1);
     assert_equals(step.expected_s, 0);
-    next(s, 1);
-    assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+    step = next(&order, 3);
     assert_equals(step.table, 2);
     assert_equals(step.expected_s, 5);
-    for (int i = 0; i < 4; i++)
-        next(s, 3);
+    for (int i = 0; i < 3; i++)
+        next(&order, 3);
     // Three rows on gl, of which nothing is known: no less than on cpu.
-    assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+    step = next(&order, 3);
     assert_equals(step.turn, RG_TURN_CLAIMED);
     assert_equals(step.expected_s, 3 * 3);
-    next(s, 3);
     // The other table of its technique takes twice as long there, too; its cells take 3 s now.
     struct rg_step of = {.table = 0, .turn = RG_TURN_DEVICES};
     for (int i = 0; i < 2; i++) {
-        assert_true(rg_order_next(s, TABLES, &devices, LEFT_S, &step));
+        assert_true(rg_order_next(&order, LEFT_S, &step));
         of = step.table == 0 ? step : of;
-        rg_order_tried(s, &step);
     }
     assert_equals(of.expected_s, 3 * 2 * 3);
 }
@@ -181,13 +172,13 @@ static void pictures_grow_as_far_as_there_is_time(void **state)
     for (int much = 0; much < 2; much++) {
         struct rg_standing s[TABLES];
         struct rg_step step;
-        begin(s);
+        struct rg_order order = begin(s);
         for (int i = 0; i < 9; i++)
-            next(s, 1);
+            next(&order, 1);
         // Three rows on cpu and, which takes twice as long, on gl; 16 times the pixels and twice
         // the samples, of three tables.
         const double left_s = 3 * (9 * 16 * 2) * (much ? 1.01 : 0.99);
-        assert_true(rg_order_next(s, TABLES, &devices, left_s, &step));
+        assert_true(rg_order_next(&order, left_s, &step));
         assert_int_equal(step.turn, RG_TURN_BETTER);
         assert_int_equal(step.share.divisor, much ? 1 : 2);
         assert_equals(step.expected_s, 9 * 2 * (much ? 16 : 4));
@@ -199,10 +190,14 @@ static void time_is_shared_among_those_that_wait(void **state)
 {
     (void)state;
     struct rg_standing s[TABLES];
-    begin(s);
-    assert_equals(rg_order_part_s(s, TABLES, 60), 20);
-    next(s, 5);
-    assert_equals(rg_order_part_s(s, TABLES, 60), 30);
+    struct rg_order order = begin(s);
+    for (int waiting = TABLES; waiting; waiting--) {
+        struct rg_step step;
+        assert_true(rg_order_next(&order, 60, &step));
+        assert_equals(step.part_s, 60 / waiting);
+        s[step.table].rows = 1;
+    }
+    assert_equals(next(&order, 1).part_s, LEFT_S);
 }
 
 // The ends and the middle of each table, and what claims end without.

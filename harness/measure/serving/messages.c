@@ -1,4 +1,4 @@
-#include "harness/measure/messages.h"
+#include "harness/measure/serving/messages.h"
 
 #include <limits.h>
 

@@ -2,8 +2,8 @@
 //
 // Received values are safe to print and compute with: counts are within their totals, and numbers
 // are finite and in range. Derived values are not sent.
-#ifndef RG_HARNESS_MEASURE_MESSAGES_H
-#define RG_HARNESS_MEASURE_MESSAGES_H
+#ifndef RG_HARNESS_MEASURE_SERVING_MESSAGES_H
+#define RG_HARNESS_MEASURE_SERVING_MESSAGES_H
 
 #include "harness/devices/workers/fields.h"
 

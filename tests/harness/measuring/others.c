@@ -1,0 +1,289 @@
+// What others take of the machine: how it is read, which samples it has taken again, and when it is
+// told. By a scripted /proc/stat, and a clock that only the script moves.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "harness/console/clock.h"
+#include "harness/console/interrupt.h"
+#include "harness/measure/measure.h"
+#include "tests/harness/measuring/fake.h"
+#include "tests/tools/expect.h"
+
+#define assert_ms(value, ms) assert_near(value, ms, 1e-6)
+
+// --- a reading ---
+
+// Writes a machine of so many processors, each with these ticks of idle time, waiting and steal.
+static void write_stat(const char *root, int processors, int idle, int waiting, int stolen)
+{
+    char path[256];
+    snprintf(path, sizeof(path), "%s/proc/stat", root);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "cpu  7 1 2 %d %d 3 4 %d 0 0\n", processors * idle, processors * waiting,
+            processors * stolen);
+    for (int i = 0; i < processors; i++)
+        fprintf(file, "cpu%d 7 1 2 %d %d 3 4 %d 0 0\n", i, idle, waiting, stolen);
+    fprintf(file, "intr 1 2 3\nctxt 4\n");
+    assert_int_equal(fclose(file), 0);
+}
+
+static void test_reading(void **state)
+{
+    (void)state;
+    char root[] = "/tmp/raingauge-stat-XXXXXX", path[256];
+    const int processors = (int)sysconf(_SC_NPROCESSORS_CONF);
+    const double tick_ms = 1e3 / (double)sysconf(_SC_CLK_TCK);
+    assert_non_null(mkdtemp(root));
+    assert_int_equal(rg_processors_read(root, NULL, 0).count, 0);
+    snprintf(path, sizeof(path), "%s/proc", root);
+    assert_int_equal(mkdir(path, 0700), 0);
+    write_stat(root, processors, 100, 10, 5);
+    const pid_t gone = 0x7ffffff;
+    const struct rg_processors before = rg_processors_read(root, NULL, 0);
+    assert_in_range(before.count, 1, processors);
+    assert_ms(before.idle_ms, 110 * before.count * tick_ms);
+    assert_ms(before.stolen_ms, 5 * before.count * tick_ms);
+    assert_above(before.own_ms, 0);
+    assert_true(isnan(rg_processors_read(root, &gone, 1).own_ms));
+    // A line that is cut off tells nothing.
+    FILE *file = fopen(strcat(path, "/stat"), "w");
+    fprintf(file, "cpu  7 1 2\ncpu0 7 1\n");
+    fclose(file);
+    assert_int_equal(rg_processors_read(root, NULL, 0).count, 0);
+    snprintf(path, sizeof(path), "rm -r %s", root);
+    assert_int_equal(system(path), 0);
+}
+
+static void test_taken(void **state)
+{
+    (void)state;
+    const struct rg_processors before = {.count = 2, .grain_ms = 10};
+    struct rg_processors after = before;
+    after.at_ms = 500; // of two: 1000 ms
+    after.idle_ms = 290;
+    after.own_ms = 200;
+    after.stolen_ms = 100;
+    const struct rg_taken taken = rg_taken_between(&before, &after);
+    assert_ms(taken.stolen, 0.1);
+    assert_ms(taken.others, 0.4); // but for the grain
+    after.idle_ms = 795;          // less is not told from none
+    assert_equals(rg_taken_between(&before, &after).others, 0);
+    after.idle_ms = 0;
+    after.own_ms = NAN; // a process of ours has gone
+    assert_equals(rg_taken_between(&before, &after).others, 0);
+    after.count = 0; // nothing is known
+    assert_equals(rg_taken_between(&before, &after).stolen, 0);
+}
+
+// --- samples ---
+
+// Two processors, of which others take a share from one time to another.
+static struct {
+    double from_ms, to_ms, share;
+    int readings;
+    struct rg_processors now;
+} machine;
+
+static struct rg_processors watch(const pid_t *ours, int our_count)
+{
+    (void)ours;
+    (void)our_count;
+    struct rg_processors *now = &machine.now;
+    const double at_ms = rg_now_ms(), passed_ms = at_ms - now->at_ms;
+    const double busy_ms = fmax(fmin(at_ms, machine.to_ms) - fmax(now->at_ms, machine.from_ms), 0);
+    now->idle_ms += 2 * (passed_ms - machine.share * busy_ms);
+    now->at_ms = at_ms;
+    machine.readings++;
+    return *now;
+}
+
+static void begin_machine(double from_ms, double to_ms, double share)
+{
+    memset(&machine, 0, sizeof(machine));
+    machine.now = (struct rg_processors){.count = 2, .at_ms = rg_now_ms()};
+    machine.from_ms = machine.now.at_ms + from_ms;
+    machine.to_ms = machine.now.at_ms + to_ms;
+    machine.share = share;
+}
+
+enum { SAMPLES = 12, JOBS = 2 };
+static struct rg_record records[JOBS];
+
+// Two jobs of samples of 50 ms, with a frame of as much before each: five of them make a batch.
+static void measure(void)
+{
+    static const struct fake_script scripts[JOBS] = {{.letter = 'A', .draw_ms = 50},
+                                                     {.letter = 'B', .draw_ms = 50}};
+    const struct rg_measure_options options = {.most_samples = SAMPLES,
+                                               .least_samples = SAMPLES,
+                                               .sample_ms = 20,
+                                               .warm_up_ms = 1,
+                                               .warm_up_frames = 1,
+                                               .watch = watch};
+    struct fake_device *fake = fake_open();
+    struct rg_job jobs[JOBS];
+    rg_interrupt_watch();
+    memset(records, 0, sizeof(records));
+    for (int i = 0; i < JOBS; i++) {
+        jobs[i] = (struct rg_job){.subject = {&fake_technique, &scripts[i], 8, 8},
+                                  .device = &fake->pub,
+                                  .check_frames = 1,
+                                  .record = &records[i]};
+        assert_true(rg_job_open(&jobs[i]) && rg_job_warm_up(&jobs[i], &options));
+    }
+    fake_forget();
+    const double start_ms = rg_now_ms();
+    machine.from_ms += start_ms - machine.now.at_ms;
+    machine.to_ms += start_ms - machine.now.at_ms;
+    rg_jobs_measure(jobs, JOBS, &options);
+    for (int i = 0; i < JOBS; i++) {
+        assert_int_equal(records[i].outcome, RG_OK);
+        assert_int_equal(records[i].sample_count, SAMPLES);
+        assert_true(records[i].is_watched);
+        rg_job_close(&jobs[i]);
+    }
+    assert_true(rg_device_close(&fake->pub));
+}
+
+static void test_quiet(void **state)
+{
+    (void)state;
+    char mark[RG_MARK_SIZE];
+    begin_machine(0, 1e9, 0.04);
+    measure();
+    for (int i = 0; i < JOBS; i++) {
+        assert_int_equal(records[i].retaken, 0);
+        assert_int_equal(rg_record_disturbed(&records[i]), 0);
+        assert_ms(records[i].taken[3], 0.04);
+        rg_record_mark(&records[i], mark);
+        assert_string_equal(mark, "");
+    }
+}
+
+// Checks that as many samples were timed as records say, taken again or not: of two frames each,
+// besides one in which passes are timed.
+static int retaken_of_all(void)
+{
+    int frames = 0;
+    const int retaken = records[0].retaken + records[1].retaken;
+    for (const char *event = fake_events(); *event; event++)
+        frames += *event == 'A' || *event == 'B';
+    assert_int_equal(frames, 2 * (JOBS * SAMPLES + retaken) + JOBS);
+    return retaken;
+}
+
+// Others are there for a short while: the samples of that batch alone are taken again.
+static void test_disturbed_once(void **state)
+{
+    (void)state;
+    begin_machine(300, 450, 0.5);
+    measure();
+    for (int i = 0; i < JOBS; i++) {
+        assert_int_equal(rg_record_disturbed(&records[i]), 0);
+        for (int k = 0; k < SAMPLES; k++)
+            assert_ms(records[i].samples_ms[k], 50);
+    }
+    assert_in_range(retaken_of_all(), 2, 6);
+}
+
+// They stay: samples are taken again twice, but not for ever, and kept, whatever their times.
+static void test_disturbed_always(void **state)
+{
+    (void)state;
+    char mark[RG_MARK_SIZE];
+    begin_machine(0, 1e9, 0.5);
+    measure();
+    assert_in_range(retaken_of_all(), 3 * 2 * 2, 3 * 2 * 6); // three batches, twice
+    for (int i = 0; i < JOBS; i++) {
+        assert_int_equal(rg_record_disturbed(&records[i]), SAMPLES);
+        rg_record_mark(&records[i], mark);
+        assert_string_equal(mark, "busy");
+    }
+}
+
+// Steal counts as other programs do.
+static void test_marks(void **state)
+{
+    (void)state;
+    static const struct {
+        double low, high, taken;
+        const char *mark;
+    } cases[] = {{10, 10.9, 0, ""},         {10, 11.1, 0, "+-5%"},
+                 {10, 14.4, 0.05, "+-20%"}, {10, 14.4, 0.06, "+-20% busy"},
+                 {NAN, NAN, 0.06, "busy"},  {NAN, NAN, 0, ""}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        const struct rg_record record = {.frame_ms = {10, cases[i].low, cases[i].high},
+                                         .sample_count = 2,
+                                         .taken = {0, cases[i].taken}};
+        char mark[RG_MARK_SIZE];
+        rg_record_mark(&record, mark);
+        assert_string_equal(mark, cases[i].mark);
+    }
+}
+
+// --- the probe ---
+
+static char heard[256];
+
+static void hear(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    assert_int_equal(level, RG_LOG_WARNING);
+    snprintf(heard, sizeof(heard), "%s", line);
+}
+
+// The clock of this program stands still, so that a reading moves it.
+static struct rg_processors watch_and_pass(const pid_t *ours, int our_count)
+{
+    const struct rg_processors now = watch(ours, our_count);
+    fake_pass(1000);
+    return now;
+}
+
+static void test_probe(void **state)
+{
+    (void)state;
+    rg_log_listen(hear, NULL);
+    for (int busy = 0; busy < 2; busy++) {
+        *heard = 0;
+        begin_machine(0, 1e9, busy ? 0.48 : 0.02);
+        rg_machine_probe(watch_and_pass);
+        assert_int_equal(machine.readings, 2);
+        if (!busy)
+            assert_string_equal(heard, "");
+        else
+            assert_non_null(strstr(heard, "others take 48 % of this machine's processors"));
+    }
+    setenv("RG_PROBE_S", "0", 1);
+    *heard = 0;
+    begin_machine(0, 1e9, 1);
+    rg_machine_probe(watch_and_pass);
+    assert_string_equal(heard, "");
+    rg_log_listen(NULL, NULL);
+}
+
+int main(void)
+{
+    unsetenv("RG_PROBE_S");
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_reading),
+        cmocka_unit_test(test_taken),
+        cmocka_unit_test(test_quiet),
+        cmocka_unit_test(test_disturbed_once),
+        cmocka_unit_test(test_disturbed_always),
+        cmocka_unit_test(test_marks),
+        cmocka_unit_test(test_probe),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
