@@ -311,13 +311,8 @@ static bool can_search(const struct gate_input *in)
 static bool knows_devices(const struct gate_options *o, const struct rg_baseline *baseline)
 {
     for (int i = 0; i < baseline->device_count; i++) {
-        const char *name = baseline->devices[i].name, *full = rg_device_name_full(name);
-        const size_t api = strcspn(full, ":@");
-        int b = 0;
-        while (rg_backends[b] &&
-               (strlen(rg_backends[b]->name) != api || strncmp(full, rg_backends[b]->name, api)))
-            b++;
-        if (!rg_backends[b] && rg_baseline_asks(o->devices.names, name))
+        const char *name = baseline->devices[i].name;
+        if (!rg_backend_of(rg_device_name_full(name)) && rg_baseline_asks(o->devices.names, name))
             return rg_error("%s: its device '%s' is a short name, and the file does not say of "
                             "what; add --device %s=DEVICE with all that are to run",
                             o->baseline, name, name);

@@ -40,6 +40,7 @@ static enum rg_ending ending_of_outcome(enum rg_outcome outcome)
         [RG_TIMEOUT] = RG_ENDING_TIMEOUT,
         [RG_NOTHING] = RG_ENDING_NOTHING_MEASURED,
         [RG_LACKING] = RG_ENDING_LACKING,
+        [RG_SETUP] = RG_ENDING_SETUP,
     };
     return endings[outcome];
 }

@@ -36,7 +36,7 @@ bool rg_timed_cell_fails(struct rg_timed_cell *timed)
 {
     const struct rg_failure failure = rg_failure_take();
     timed->outcome = failure.outcome == RG_UNSUPPORTED ? RG_ERROR : failure.outcome;
-    timed->is_ours = failure.fault == RG_FAULT_INPUT || failure.fault == RG_FAULT_HARNESS;
+    timed->is_ours = failure.fault != RG_FAULT_DRIVER && failure.fault != RG_FAULT_NONE;
     rg_text_copy(timed->why, sizeof(timed->why), failure.line);
     return false;
 }

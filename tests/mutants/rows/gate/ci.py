@@ -17,7 +17,7 @@ ROWS = [
     Fault(CASES, "return «c->times.is_ours» || c->times.side != RG_SIDE_B;", "false", "a side that is no raingauge is expected to fail", tests=("command line, gates",)),
     Fault(CASES, "c->times.is_ours || «c->times.side != RG_SIDE_B»;", "false", "A's crash while it is timed is what was expected of B", tests=("command line, gates",)),
     Fault(CASES, "strcmp(device, own) != 0 : «device != own»;", "false", "A's crash is what was expected of B", tests=("command line, gates",)),
-    Fault(AGREE, "agreement->is_ours = «failure.fault == RG_FAULT_INPUT» ||", "false", "a file that is missing is an expected failure", tests=("command line, gates",)),
+    Fault(AGREE, "agreement->is_ours = failure.fault != RG_FAULT_DRIVER && «failure.fault != RG_FAULT_NONE»;", "failure.fault == RG_FAULT_SETUP", "a file that is missing is an expected failure", tests=("command line, gates",)),
     Fault(AGREE, "agreement->is_ours = «true»;", "false", "a cell without rain is an expected failure", tests=("command line, gates",)),
     Fault(CASES, "return «rg_ending_fails(own)» ? own", "own != RG_ENDING_PASS", "what has expired and is faster passes", tests=("command line, gates",)),
     Fault(FILE, "return name_a && name_b && «!strcmp(name_a, name_b)» && lead", "false", "a report replaces another whose file was not there yet", tests=("command line, gates",)),
