@@ -173,6 +173,11 @@ struct rg_run {
 };
 
 enum { RG_MAX_DEVICES = 32, RG_LIST_WHY_SIZE = 640 }; // length of a list; size of its reason
+// Returned in place of a number of devices.
+enum rg_list_end {
+    RG_LIST_FAILED = -1, // a driver is installed, and fails when it is asked
+    RG_LIST_BROKEN = -2, // a driver is installed, and its files or settings are broken
+};
 
 struct rg_backend {
     const char *name;    // "vulkan"
@@ -181,7 +186,7 @@ struct rg_backend {
     bool packed;         // draws primitives packed by core/device/packing.c, rather than items
 
     // Fills `infos` with up to `max` devices, best first, and returns their number; 0: no driver is
-    // installed; -1: a driver is installed, and fails. `why` (of `why_size` bytes, RG_LIST_WHY_SIZE
+    // installed; else an enum rg_list_end. `why` (of `why_size` bytes, RG_LIST_WHY_SIZE
     // are enough) then says so in one line, with the mend. If devices were found, `why` is "" or
     // tells of another driver that fails. Logs nothing and leaves nothing open.
     int (*list)(struct rg_device_info *infos, int max, char *why, size_t why_size);

@@ -23,6 +23,7 @@ struct walk {
     int drivers;          // number of drivers
     int devices;          // devices that the drivers report when asked
     bool is_named_broken;
+    bool is_failing;   // the broken driver could be loaded, and fails when it is asked
     char sound[4096];  // files of drivers that work, separated by ':'; "": none
     char broken[512];  // why the first broken driver fails, preferring a named one; "": none
     char foreign[512]; // the same for a driver for another kind of processor
@@ -47,13 +48,14 @@ static bool ends_with(const char *text, const char *ending)
 
 // Notes a driver's failure. A driver for another kind of processor may be installed beside this
 // machine's, and is a failure only where there is no other.
-static void note(struct walk *walk, const char *path, const char *fault)
+static void note(struct walk *walk, const char *path, const char *fault, bool is_failing)
 {
     const bool is_foreign = !walk->variable && strstr(fault, "wrong ELF class");
     char *to = is_foreign ? walk->foreign : walk->broken;
     if (*to && (walk->is_named_broken || !walk->variable))
         return;
     walk->is_named_broken = walk->variable != NULL;
+    walk->is_failing = is_failing;
     const size_t room = is_foreign ? sizeof(walk->foreign) : sizeof(walk->broken);
     if (walk->variable)
         snprintf(to, room, "%s names '%.120s', %s", walk->variable, path, fault);
@@ -78,8 +80,9 @@ static bool has_function(const struct rg_manifest_rules *rules, void *library)
     return false;
 }
 
-// Tries a driver's library; `fault` says why it does not work, or is "".
-static void try_library(struct walk *walk, void *library, const char *name, char *fault,
+// Tries a driver's library; `fault` says why it does not work, or is "". True if it could be loaded
+// and fails when it is asked.
+static bool try_library(struct walk *walk, void *library, const char *name, char *fault,
                         size_t size)
 {
     const struct rg_manifest_rules *rules = walk->rules;
@@ -97,6 +100,7 @@ static void try_library(struct walk *walk, void *library, const char *name, char
         snprintf(fault, size, "whose driver fails: %s", why);
     else
         walk->devices += devices;
+    return devices < 0;
 }
 
 static void examine_library(struct walk *walk, const char *path, const char *name)
@@ -104,9 +108,9 @@ static void examine_library(struct walk *walk, const char *path, const char *nam
     char fault[320];
     count_driver(walk);
     void *library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
-    try_library(walk, library, name, fault, sizeof(fault));
+    const bool is_failing = try_library(walk, library, name, fault, sizeof(fault));
     if (*fault)
-        note(walk, path, fault);
+        note(walk, path, fault, is_failing);
     else if (strlen(walk->sound) + strlen(path) + 1 < sizeof(walk->sound))
         add(walk->sound, sizeof(walk->sound), "%s%s", *walk->sound ? ":" : "", path);
     if (library)
@@ -170,7 +174,7 @@ static void examine_file(struct walk *walk, const char *path)
         fclose(file);
     if (!is_read) {
         count_driver(walk);
-        note(walk, path, fault);
+        note(walk, path, fault, false);
         return;
     }
     const char *slash = strrchr(path, '/');
@@ -217,7 +221,7 @@ static void examine_named(struct walk *walk, const char *path)
     else if (is_library)
         examine_library(walk, path, path);
     else if (is_there)
-        note(walk, path, "which the loader passes over, for its name has another ending");
+        note(walk, path, "which the loader passes over, for its name has another ending", false);
 }
 
 static void each_path(struct walk *walk, const char *paths, const char *below,
@@ -292,21 +296,28 @@ bool rg_manifests_sound(const struct rg_manifest_rules *rules, char *paths, size
 
 // --- judging ---
 
+static enum rg_list_end end_of(const struct walk *walk)
+{
+    return walk->is_failing ? RG_LIST_FAILED : RG_LIST_BROKEN;
+}
+
 static int judge_none(const struct walk *walk, const char *instead, enum rg_manifest_state state,
                       char *why, size_t why_size)
 {
     const char *broken = *walk->broken ? walk->broken : walk->foreign;
     if (*broken) {
         add(why, why_size, ": %s", broken);
-        return -1;
+        return end_of(walk);
     }
     if (walk->named_by) {
         add(why, why_size, "; %s names a driver that gives no device here: name another",
             walk->named_by);
-        return -1;
+        return RG_LIST_BROKEN;
     }
+    if (state == RG_MANIFEST_BROKEN)
+        return RG_LIST_BROKEN;
     if (state == RG_MANIFEST_FAILED || (state == RG_MANIFEST_UNCLEAR && walk->devices))
-        return -1;
+        return RG_LIST_FAILED;
     if (instead)
         add(why, why_size, "; %s=%.100s names no driver: unset it, or name one", instead,
             getenv(instead));
@@ -326,5 +337,5 @@ int rg_manifests_judge(const struct rg_manifest_rules *rules, int count,
     if (count <= 0)
         return judge_none(&walk, instead, state, why, why_size);
     snprintf(why, why_size, "%s", walk.broken);
-    return walk.is_named_broken ? -1 : count;
+    return walk.is_named_broken ? end_of(&walk) : count;
 }

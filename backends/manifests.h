@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "backends/backend.h"
+
 // A variable that holds folders, separated by ':', and the default where it is not set; "~/" is the
 // user's folder.
 struct rg_manifest_place {
@@ -42,10 +44,11 @@ enum rg_manifest_state {
     RG_MANIFEST_NONE,    // it found none
     RG_MANIFEST_UNCLEAR, // an error that it also reports where there is none
     RG_MANIFEST_FAILED,  // an error
+    RG_MANIFEST_BROKEN,  // an error of this machine's set-up
 };
 
 // The result of a backend's list that has found `count` devices: `count`; 0: no driver is
-// installed; -1: a driver is installed, and fails. Without devices, `why` (of `why_size` bytes) has
+// installed; or an enum rg_list_end. Without devices, `why` (of `why_size` bytes) has
 // the loader's reason, and gets one line: what failed, or how to install a driver. With devices it
 // is "", or tells of another driver that fails. If a variable names a driver that cannot be loaded,
 // the list fails whatever else was found, because the named driver must be the one that runs.

@@ -30,10 +30,10 @@ struct gl_target {
 struct gl_search {
     struct gl_target targets[GL_MAX_TARGETS];
     int count, next;
-    bool found;    // at least one has opened
-    bool lacks;    // a library of EGL's or OpenGL's is missing
-    bool failed;   // `why` tells of a failure rather than of something missing
-    bool grave;    // the failure counts even if devices opened
+    bool found;                   // at least one has opened
+    bool lacks;                   // a library of EGL's or OpenGL's is missing
+    bool grave;                   // the failure counts even if devices opened
+    enum rg_manifest_state state; // whether `why` tells of a failure, or of something missing
     char why[512]; // the reason of the best target's driver, preferring failures; "": none
 };
 

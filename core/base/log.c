@@ -161,7 +161,7 @@ bool rg_system_error(int error, const char *format, ...)
 
 bool rg_setup_error(const char *format, ...)
 {
-    ERROR(RG_FAULT_SETUP, RG_ERROR, false);
+    ERROR(RG_FAULT_SETUP, RG_SETUP, false);
 }
 
 bool rg_crash_error(const char *format, ...)

@@ -15,17 +15,19 @@ enum rg_outcome {
     RG_NOTHING,     // done, but proves nothing: there was no rain to compare or to time
     RG_LACKING, // not done: raingauge itself lacked memory, a process, a descriptor or disk space,
                 // which says nothing of a driver
+    RG_SETUP,   // not done: a driver is installed, and its files or settings are broken
 };
-enum { RG_OUTCOME_COUNT = RG_LACKING + 1 };
+enum { RG_OUTCOME_COUNT = RG_SETUP + 1 };
 
 // "ok", "fail", "unsupported", "error", "crash", "timeout", "nothing": the words of all machine
-// forms. RG_LACKING is also written "error", which all readers know, with its fault beside it.
+// forms. RG_LACKING and RG_SETUP are also written "error", which all readers know, with their fault
+// beside it.
 const char *rg_outcome_name(enum rg_outcome outcome);
 // Finds the outcome of this name. False if there is none.
 bool rg_outcome_find(const char *name, enum rg_outcome *outcome);
 
-// Whether the work was not done, and might succeed at another time: an error, crash, timeout, or a
-// lack of raingauge's own.
+// Whether the work was not done, and might succeed at another time: an error, crash, timeout, a
+// lack of raingauge's own, or a broken set-up.
 bool rg_outcome_is_broken(enum rg_outcome outcome);
 
 #endif

@@ -38,8 +38,10 @@ void rg_device_list_add(struct rg_device_list *devices, const struct rg_backend 
     if (found > 0)
         return;
     struct rg_missing *missing = &devices->missing[devices->missing_count++];
-    *missing =
-        (struct rg_missing){.backend = backend, .outcome = found ? RG_ERROR : RG_UNSUPPORTED};
+    *missing = (struct rg_missing){.backend = backend,
+                                   .outcome = found == RG_LIST_BROKEN   ? RG_SETUP
+                                              : found == RG_LIST_FAILED ? RG_ERROR
+                                                                        : RG_UNSUPPORTED};
     snprintf(missing->why, sizeof(missing->why), "%s: %s", backend->name, why);
 }
 
@@ -50,8 +52,9 @@ void rg_device_list_all(struct rg_device_list *devices)
         rg_device_list_add(devices, rg_backends[b]);
 }
 
-static const struct rg_backend *find_backend(const char *name, size_t length)
+const struct rg_backend *rg_backend_of(const char *name)
 {
+    const size_t length = strcspn(name, ":@");
     for (int b = 0; rg_backends[b]; b++)
         if (strlen(rg_backends[b]->name) == length && !memcmp(rg_backends[b]->name, name, length))
             return rg_backends[b];
@@ -109,15 +112,16 @@ static void find_libraries(struct rg_device *device)
 struct rg_device *rg_device_open(const char *name)
 {
     const char *colon = strchr(name, ':');
-    const struct rg_backend *backend =
-        find_backend(name, colon ? (size_t)(colon - name) : strlen(name));
+    const struct rg_backend *backend = rg_backend_of(name);
     require_or_null(backend, "device '%s': unknown; `raingauge list devices` prints the names",
                     name);
     struct rg_device_info infos[RG_MAX_DEVICES];
     char why[RG_LIST_WHY_SIZE];
     int count = list(backend, infos, RG_MAX_DEVICES, why);
-    if (count < 0)
-        return rg_driver_error_null("device '%s': %s", name, why);
+    if (count < 0) {
+        (count == RG_LIST_BROKEN ? rg_setup_error : rg_driver_error)("device '%s': %s", name, why);
+        return NULL;
+    }
     if (count == 0)
         return rg_unsupported_null("device '%s': %s", name, why);
     int index = choose(infos, count, name, colon ? colon + 1 : NULL);

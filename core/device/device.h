@@ -31,6 +31,9 @@ void rg_device_list_all(struct rg_device_list *list);
 // Adds one backend's devices to a list that was zeroed at first; call it once for each backend.
 void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *backend);
 
+// The backend in a device's name: that of "gl" for "gl:1@LP_NUM_THREADS=1". NULL: none has it.
+const struct rg_backend *rg_backend_of(const char *name);
+
 // Opens a device by name: "cpu", "cpu:reference", "gl", "gl:1", "vulkan:NVIDIA" (an index, or a
 // part of the device's name, case ignored). NULL, and one logged line, on failure: an input error
 // for an unknown name, unsupported where the driver is absent, a driver error where it fails.

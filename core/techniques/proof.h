@@ -21,7 +21,8 @@ struct rg_pose {
 // A law that the state obeys on every device, whatever happened before.
 struct rg_law {
     const char *name; // "conservation"
-    // Whether the law holds now; if not, `detail` says in one line what is wrong.
+    // Whether the law holds now. If not, `detail` says in one line what is wrong; if the state
+    // cannot be read, which is logged, the result is false and `detail` stays as it is: "".
     bool (*holds)(const struct rg_instance *instance, char *detail, size_t size);
 };
 

@@ -90,6 +90,15 @@ void rg_devices_list(struct rg_device_list *list)
         rg_worker_destroy(workers[b]);
 }
 
+// Logs why there is no device, and returns false.
+static bool tell_missing(enum rg_outcome outcome, const char *require, const char *why)
+{
+    bool (*const tell)(const char *format, ...) = outcome == RG_LACKING ? rg_harness_error
+                                                  : outcome == RG_SETUP ? rg_setup_error
+                                                                        : rg_driver_error;
+    return require ? tell("--require %s: %s", require, why) : tell("%s", why);
+}
+
 int rg_devices_complain(const struct rg_device_list *list)
 {
     int exit = list->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
@@ -99,8 +108,7 @@ int rg_devices_complain(const struct rg_device_list *list)
             rg_warning("unsupported here: %s", missing->why);
             continue;
         }
-        const bool is_lacking = missing->outcome == RG_LACKING;
-        (is_lacking ? rg_harness_error : rg_driver_error)("%s", missing->why);
+        tell_missing(missing->outcome, NULL, missing->why);
         exit = rg_exit_worse(exit, rg_exit_of(missing->outcome));
     }
     return exit;
@@ -237,13 +245,13 @@ static bool is_there(const struct rg_devices *devices, const char *name)
     for (int i = 0; i < devices->count; i++)
         if (rg_device_is_of(devices->devices[i]->info.name, name))
             return true;
-    bool is_lacking = false;
+    enum rg_outcome outcome = RG_UNSUPPORTED;
     for (int i = 0; i < devices->absent_count; i++)
         if (rg_device_is_of(devices->absent[i].name, name)) {
             why = devices->absent[i].why;
-            is_lacking = devices->absent[i].outcome == RG_LACKING;
+            outcome = devices->absent[i].outcome;
         }
-    return (is_lacking ? rg_harness_error : rg_driver_error)("--require %s: %s", name, why);
+    return tell_missing(outcome, name, why);
 }
 
 bool rg_devices_have(const struct rg_devices *devices, const char *require)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/device/device.h"
 #include "harness/console/threads.h"
 #include "harness/devices/workers/environment.h"
 
@@ -37,15 +38,6 @@ static size_t short_length(const char *name)
     return name[length] == '=' ? length : 0;
 }
 
-// Whether a backend or device has this name, so that it cannot be a short name.
-static bool is_taken(const char *name)
-{
-    bool taken = !strcmp(name, "all");
-    for (int i = 0; !taken && rg_backends[i]; i++)
-        taken = !strcmp(name, rg_backends[i]->name);
-    return taken;
-}
-
 // Splits off the short name, or replaces a short name by what it stands for.
 static bool read_short(struct rg_device_name *name)
 {
@@ -55,7 +47,8 @@ static bool read_short(struct rg_device_name *name)
         return true;
     memmove(name->full, name->full + length + 1, strlen(name->full + length + 1) + 1);
     name->name[length] = 0;
-    if (is_taken(name->name) || length >= SHORT_SIZE || !isalnum((unsigned char)*name->name))
+    if (!strcmp(name->name, "all") || rg_backend_of(name->name) || length >= SHORT_SIZE ||
+        !isalnum((unsigned char)*name->name))
         return rg_error("device '%.80s=%.200s': a short name begins with a letter or a digit, has "
                         "at most %d characters, and is no API's; choose another one",
                         name->name, name->full, SHORT_SIZE - 1);

@@ -38,8 +38,10 @@ void rg_text_copy(char *to, size_t size, const char *from)
 void rg_outcome_set(json_t *json, enum rg_outcome outcome)
 {
     json_object_set_new(json, "status", json_string(rg_outcome_name(outcome)));
-    if (outcome == RG_LACKING)
-        json_object_set_new(json, "fault", json_string(rg_fault_name(RG_FAULT_HARNESS)));
+    if (outcome == RG_LACKING || outcome == RG_SETUP)
+        json_object_set_new(
+            json, "fault",
+            json_string(rg_fault_name(outcome == RG_SETUP ? RG_FAULT_SETUP : RG_FAULT_HARNESS)));
 }
 
 json_t *rg_json_text(const char *text)

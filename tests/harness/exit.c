@@ -14,8 +14,8 @@ static void each_outcome_has_one(void **state)
 {
     (void)state;
     static const int due[RG_OUTCOME_COUNT] = {
-        [RG_OK] = 0,    [RG_FAIL] = 1,    [RG_UNSUPPORTED] = 77, [RG_ERROR] = 1,
-        [RG_CRASH] = 1, [RG_TIMEOUT] = 1, [RG_NOTHING] = 4,      [RG_LACKING] = 71};
+        [RG_OK] = 0,      [RG_FAIL] = 1,    [RG_UNSUPPORTED] = 77, [RG_ERROR] = 1, [RG_CRASH] = 1,
+        [RG_TIMEOUT] = 1, [RG_NOTHING] = 4, [RG_LACKING] = 71,     [RG_SETUP] = 1};
     for (int i = 0; i < RG_OUTCOME_COUNT; i++)
         assert_int_equal(rg_exit_of((enum rg_outcome)i), due[i]);
 }
@@ -29,8 +29,8 @@ static void failures_outweigh_what_is_ok(void **state)
     assert_int_equal(rg_exit_of_all(counts), RG_EXIT_UNSUPPORTED);
     counts[RG_OK] = 1;
     assert_int_equal(rg_exit_of_all(counts), RG_EXIT_PASS);
-    static const enum rg_outcome failures[] = {RG_FAIL, RG_ERROR, RG_CRASH, RG_TIMEOUT};
-    for (int i = 0; i < 4; i++) {
+    static const enum rg_outcome failures[] = {RG_FAIL, RG_ERROR, RG_CRASH, RG_TIMEOUT, RG_SETUP};
+    for (int i = 0; i < 5; i++) {
         counts[failures[i]] = 1;
         assert_int_equal(rg_exit_of_all(counts), RG_EXIT_FAIL);
         counts[RG_LACKING] = 1;

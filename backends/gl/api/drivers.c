@@ -72,17 +72,19 @@ static bool find_drivers(char folder[PATH_MAX])
     return true;
 }
 
-// Mesa does not report why it cannot load a driver, so the linker is asked.
-static void add_linker_error(char *why, size_t why_size)
+// Mesa does not report why it cannot load a driver, so the linker is asked. Whether that is so.
+static bool add_linker_error(char *why, size_t why_size)
 {
     char folder[PATH_MAX], path[PATH_MAX + 16], error[320];
     bool is_absent;
     if (!find_drivers(folder))
-        return;
+        return false;
     snprintf(path, sizeof(path), "%s/swrast_dri.so", folder);
     const size_t used = strlen(why);
-    if (!rg_manifests_load(path, &is_absent, error, sizeof(error)))
-        snprintf(why + used, why_size - used, ": %s", error);
+    if (rg_manifests_load(path, &is_absent, error, sizeof(error)))
+        return false;
+    snprintf(why + used, why_size - used, ": %s", error);
+    return true;
 }
 
 static void add_asked(char *why, size_t why_size)
@@ -107,17 +109,17 @@ const struct rg_manifest_rules gl_manifests = {
 
 int gl_judge(const struct gl_search *search, int count, char *why, size_t why_size)
 {
+    enum rg_manifest_state state = search->state;
     snprintf(why, why_size, "%s", search->why);
     if (search->grave)
-        return -1;
+        return state == RG_MANIFEST_BROKEN ? RG_LIST_BROKEN : RG_LIST_FAILED;
     if (!count && search->lacks)
         return 0;
-    const bool is_asked = asked_by(0) || asked_by(1);
-    if (!count && is_asked)
+    if (!count && (asked_by(0) || asked_by(1))) {
         add_asked(why, why_size);
-    else if (!count && search->failed)
-        add_linker_error(why, why_size);
-    return rg_manifests_judge(&gl_manifests, count,
-                              search->failed || is_asked ? RG_MANIFEST_FAILED : RG_MANIFEST_NONE,
-                              why, why_size);
+        state = RG_MANIFEST_BROKEN;
+    } else if (!count && state == RG_MANIFEST_FAILED && add_linker_error(why, why_size)) {
+        state = RG_MANIFEST_BROKEN;
+    }
+    return rg_manifests_judge(&gl_manifests, count, state, why, why_size);
 }

@@ -34,37 +34,25 @@ static const char *error_name(EGLint code)
                                                                          : "an unknown error";
 }
 
-// Notes why a target was refused, if it is the first reason, which is the best target's.
-__attribute__((format(printf, 2, 3))) static bool refuse(struct gl_search *search,
-                                                         const char *format, ...)
+// Notes why a target was refused, if it is the first reason, which is the best target's. A driver
+// that is installed, and fails or is broken, outweighs missing ones.
+__attribute__((format(printf, 3, 4))) static bool
+note(struct gl_search *search, enum rg_manifest_state state, const char *format, ...)
 {
-    if (search->why[0])
+    if (search->state != RG_MANIFEST_NONE || (state == RG_MANIFEST_NONE && search->why[0]))
         return false;
     va_list args;
     va_start(args, format);
     vsnprintf(search->why, sizeof(search->why), format, args);
     va_end(args);
-    return false;
-}
-
-// The same for a driver that is installed and fails, which outweighs missing ones.
-__attribute__((format(printf, 2, 3))) static bool fail(struct gl_search *search, const char *format,
-                                                       ...)
-{
-    if (search->failed)
-        return false;
-    va_list args;
-    va_start(args, format);
-    vsnprintf(search->why, sizeof(search->why), format, args);
-    va_end(args);
-    search->failed = true;
+    search->state = state;
     return false;
 }
 
 // The same for failures that count even if devices open.
 static void fail_gravely(struct gl_search *search, const char *call)
 {
-    fail(search, "%s failed with %s", call, error_name(eglGetError()));
+    note(search, RG_MANIFEST_FAILED, "%s failed with %s", call, error_name(eglGetError()));
     search->grave = true;
 }
 
@@ -85,9 +73,10 @@ static bool can_load(struct gl_search *search, const char *noun, const char *lib
     if (rg_manifests_load(library, &is_absent, why, sizeof(why)))
         return true;
     search->lacks = is_absent;
-    return is_absent ? refuse(search, "no %s: %s is not there; install the Debian package %s", noun,
-                              library, package)
-                     : fail(search, "no %s: %s", noun, why);
+    return is_absent ? note(search, RG_MANIFEST_NONE,
+                            "no %s: %s is not there; install the Debian package %s", noun, library,
+                            package)
+                     : note(search, RG_MANIFEST_BROKEN, "no %s: %s", noun, why);
 }
 
 // Either of two libraries provides OpenGL's functions.
@@ -156,13 +145,14 @@ void gl_search_begin(struct gl_search *search)
     const char *listed = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const EGLint code = listed ? EGL_SUCCESS : eglGetError();
     if (code != EGL_SUCCESS && code != EGL_BAD_DISPLAY)
-        fail(search, "no EGL driver: eglQueryString failed with %s", error_name(code));
+        note(search, RG_MANIFEST_FAILED, "no EGL driver: eglQueryString failed with %s",
+             error_name(code));
     else if (!has_client_extension("EGL_EXT_platform_base"))
-        refuse(search, "no EGL driver: EGL lists no platforms");
+        note(search, RG_MANIFEST_NONE, "no EGL driver: EGL lists no platforms");
     else
         add_targets(search);
     if (!search->count)
-        refuse(search, "no EGL device and no surfaceless platform");
+        note(search, RG_MANIFEST_NONE, "no EGL device and no surfaceless platform");
 }
 
 // --- displays and contexts ---
@@ -185,13 +175,14 @@ static bool open_display(struct gl_search *search, const struct gl_target *targe
 {
     *display = eglGetPlatformDisplayEXT(target->platform, target->native, NULL);
     if (*display == EGL_NO_DISPLAY)
-        return fail(search, "no EGL display: eglGetPlatformDisplay failed with %s",
+        return note(search, RG_MANIFEST_FAILED,
+                    "no EGL display: eglGetPlatformDisplay failed with %s",
                     error_name(eglGetError()));
     int at = place_of(*display);
     if (at < 0)
-        return refuse(search, "no EGL display: %d are open", GL_MAX_TARGETS);
+        return note(search, RG_MANIFEST_NONE, "no EGL display: %d are open", GL_MAX_TARGETS);
     if (!displays[at].users && !eglInitialize(*display, NULL, NULL))
-        return fail(search, "no EGL display: eglInitialize failed with %s",
+        return note(search, RG_MANIFEST_FAILED, "no EGL display: eglInitialize failed with %s",
                     error_name(eglGetError()));
     displays[at].display = *display;
     displays[at].users++;
@@ -215,20 +206,21 @@ static bool open_context(struct gl_search *search, struct gl_egl *egl)
                                         EGL_NONE};
     if (!epoxy_has_egl_extension(egl->display, "EGL_KHR_no_config_context") ||
         !epoxy_has_egl_extension(egl->display, "EGL_KHR_surfaceless_context"))
-        return refuse(search, "EGL by %s cannot open a context without a surface",
-                      eglQueryString(egl->display, EGL_VENDOR));
+        return note(search, RG_MANIFEST_NONE, "EGL by %s cannot open a context without a surface",
+                    eglQueryString(egl->display, EGL_VENDOR));
     if (!eglBindAPI(EGL_OPENGL_API))
-        return fail(search, "no OpenGL: eglBindAPI failed with %s", error_name(eglGetError()));
+        return note(search, RG_MANIFEST_FAILED, "no OpenGL: eglBindAPI failed with %s",
+                    error_name(eglGetError()));
     egl->context = eglCreateContext(egl->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
     if (egl->context == EGL_NO_CONTEXT) {
         const EGLint code = eglGetError();
         // EGL's error codes for a version that the driver lacks.
         const bool is_lack = code == EGL_BAD_MATCH || code == EGL_BAD_ATTRIBUTE;
-        return (is_lack ? refuse : fail)(
-            search, "no OpenGL 4.5 core: eglCreateContext failed with %s", error_name(code));
+        return note(search, is_lack ? RG_MANIFEST_NONE : RG_MANIFEST_FAILED,
+                    "no OpenGL 4.5 core: eglCreateContext failed with %s", error_name(code));
     }
     if (!eglMakeCurrent(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context)) {
-        fail(search, "no OpenGL 4.5 core: eglMakeCurrent failed with %s",
+        note(search, RG_MANIFEST_FAILED, "no OpenGL 4.5 core: eglMakeCurrent failed with %s",
              error_name(eglGetError()));
         eglDestroyContext(egl->display, egl->context);
         return false;
@@ -253,7 +245,7 @@ static bool open_target(struct gl_search *search, const struct gl_target *target
         return ok;
     search->grave = true;
     gl_egl_close(egl);
-    return fail(search, "%s", why);
+    return note(search, RG_MANIFEST_BROKEN, "%s", why);
 }
 
 bool gl_search_next(struct gl_search *search, struct gl_egl *egl)
@@ -276,7 +268,8 @@ void gl_search_check(struct gl_search *search)
     if (code == GL_NO_ERROR)
         return;
     search->grave = true;
-    fail(search, "no GL device: its limits cannot be read, with GL error 0x%x", code);
+    note(search, RG_MANIFEST_FAILED, "no GL device: its limits cannot be read, with GL error 0x%x",
+         code);
 }
 
 void gl_egl_close(struct gl_egl *egl)

@@ -57,18 +57,18 @@ static const char *missing(cl_device_id id)
     return floats & CL_FP_ROUND_TO_NEAREST ? NULL : "does not round floats to nearest";
 }
 
-// Notes a driver that is installed and fails, which outweighs missing ones; the first failure
-// stays.
-__attribute__((format(printf, 2, 3))) static void fail(struct opencl_search *search,
-                                                       const char *format, ...)
+// Notes a driver that is installed, and fails or is broken. This outweighs missing ones; the first
+// failure stays.
+__attribute__((format(printf, 3, 4))) static void
+note(struct opencl_search *search, enum rg_manifest_state state, const char *format, ...)
 {
-    if (search->state == RG_MANIFEST_FAILED)
+    if (search->state != RG_MANIFEST_NONE)
         return;
     va_list args;
     va_start(args, format);
     vsnprintf(search->why, sizeof(search->why), format, args);
     va_end(args);
-    search->state = RG_MANIFEST_FAILED;
+    search->state = state;
 }
 
 // PoCL has a device on every machine, unless POCL_DEVICES is empty. It silently reports none where
@@ -91,15 +91,16 @@ static void blame_pocl(struct opencl_search *search)
     if (rg_user_make_folders(folder, why) && access(folder, W_OK | X_OK))
         snprintf(why, sizeof(why), "%.200s: %s", folder, strerror(errno));
     if (*why)
-        fail(search,
+        note(search, RG_MANIFEST_BROKEN,
              "no OpenCL device: PoCL cannot write to its cache: %s; set POCL_CACHE_DIR to "
              "a folder that takes files",
              why);
     else if (devices)
-        fail(search, "no OpenCL device: PoCL has none that POCL_DEVICES=%.60s asks for; unset it",
-             devices);
+        note(search, RG_MANIFEST_BROKEN,
+             "no OpenCL device: PoCL has none that POCL_DEVICES=%.60s asks for; unset it", devices);
     else
-        fail(search, "no OpenCL device: PoCL tells of none, though each machine has one");
+        note(search, RG_MANIFEST_FAILED,
+             "no OpenCL device: PoCL tells of none, though each machine has one");
 }
 
 static bool is_pocl(const char *platform)
@@ -110,7 +111,7 @@ static bool is_pocl(const char *platform)
 static void blame_platform(struct opencl_search *search, const char *name, cl_int code)
 {
     if (code != CL_DEVICE_NOT_FOUND)
-        fail(search, "no OpenCL device: clGetDeviceIDs failed with %s on %.60s",
+        note(search, RG_MANIFEST_FAILED, "no OpenCL device: clGetDeviceIDs failed with %s on %.60s",
              opencl_error_name(code), name);
     else if (is_pocl(name))
         blame_pocl(search);
@@ -150,11 +151,12 @@ static int find_on_platform(struct opencl_search *search, cl_platform_id platfor
     char name[OPENCL_TEXT], cache[PATH_MAX];
     cl_int code = clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof(name), name, NULL);
     if (code != CL_SUCCESS) {
-        fail(search, "no OpenCL device: clGetPlatformInfo failed with %s", opencl_error_name(code));
+        note(search, RG_MANIFEST_FAILED, "no OpenCL device: clGetPlatformInfo failed with %s",
+             opencl_error_name(code));
         return count;
     }
     if (is_pocl(name) && cache_is_noexec(cache)) {
-        fail(search,
+        note(search, RG_MANIFEST_FAILED,
              "PoCL cannot load what it compiles from %.50s, which is mounted noexec; set "
              "POCL_CACHE_DIR to another folder",
              cache);
@@ -168,7 +170,7 @@ static int find_on_platform(struct opencl_search *search, cl_platform_id platfor
         const cl_int told = clGetDeviceInfo(all[i], CL_DEVICE_NAME, sizeof(name), name, NULL);
         const char *reason = told == CL_SUCCESS ? missing(all[i]) : NULL;
         if (told != CL_SUCCESS)
-            fail(search, "no OpenCL device: clGetDeviceInfo failed with %s",
+            note(search, RG_MANIFEST_FAILED, "no OpenCL device: clGetDeviceInfo failed with %s",
                  opencl_error_name(told));
         else if (!reason)
             ids[count++] = all[i];
@@ -188,7 +190,7 @@ static int find_on_platforms(struct opencl_search *search, cl_device_id *ids, in
         snprintf(search->why, sizeof(search->why), "no OpenCL platform: clGetPlatformIDs gives %s",
                  code ? opencl_error_name(code) : "none");
     else if (code != CL_SUCCESS)
-        fail(search, "no OpenCL platform: clGetPlatformIDs failed with %s",
+        note(search, RG_MANIFEST_FAILED, "no OpenCL platform: clGetPlatformIDs failed with %s",
              opencl_error_name(code));
     for (int i = 0; code == CL_SUCCESS && i < (int)found && i < MAX_PLATFORMS; i++)
         count = find_on_platform(search, platforms[i], ids, count, max);

@@ -13,14 +13,12 @@ struct reading {
     drops_drop *drops;
 };
 
-static bool read_drops(const struct drops *d, struct reading *r, char *detail, size_t size)
+static bool read_drops(const struct drops *d, struct reading *r)
 {
     const int64_t bytes = d->settings.max_drops * (int64_t)sizeof(*r->drops);
     r->drops = rg_alloc((size_t)d->settings.max_drops, sizeof(*r->drops), "drops");
     const bool ok = r->drops && rg_buf_read(d->tally->buf, 0, r->tally, sizeof(r->tally)) &&
                     rg_buf_read(d->drops->buf, 0, r->drops, bytes);
-    if (!ok)
-        snprintf(detail, size, "%s", rg_last_error());
     return ok;
 }
 
@@ -28,7 +26,7 @@ static bool read_drops(const struct drops *d, struct reading *r, char *detail, s
 static bool mass_is_conserved(const struct rg_instance *instance, char *detail, size_t size)
 {
     struct reading r;
-    bool holds = read_drops((const struct drops *)instance, &r, detail, size);
+    bool holds = read_drops((const struct drops *)instance, &r);
     uint32_t mass = 0;
     for (uint32_t i = 0; holds && i < r.tally[DROPS_COUNT]; i++)
         mass += r.drops[i].mass;
@@ -62,7 +60,7 @@ static bool drops_are_sound(const struct rg_instance *instance, char *detail, si
 {
     const struct drops *d = (const struct drops *)instance;
     struct reading r;
-    bool holds = read_drops(d, &r, detail, size);
+    bool holds = read_drops(d, &r);
     for (uint32_t i = 0; holds && i < r.tally[DROPS_COUNT]; i++) {
         const char *fault = fault_of(d, &r.drops[i], i ? r.drops[i - 1].id : 0);
         if (fault)

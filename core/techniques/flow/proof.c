@@ -63,12 +63,9 @@ static bool ledger_balances(const struct reading *r, char *detail, size_t size)
 static bool water_is_conserved(const struct rg_instance *instance, char *detail, size_t size)
 {
     struct reading reading;
-    bool holds = false;
-    if (!read_state(instance, &reading))
-        snprintf(detail, size, "%s", rg_last_error());
-    else
-        holds =
-            droplets_are_whole(&reading, detail, size) && ledger_balances(&reading, detail, size);
+    const bool holds = read_state(instance, &reading) &&
+                       droplets_are_whole(&reading, detail, size) &&
+                       ledger_balances(&reading, detail, size);
     free(reading.water);
     return holds;
 }

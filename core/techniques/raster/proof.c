@@ -35,13 +35,11 @@ static bool drops_lie_evenly(const struct rg_instance *instance, char *detail, s
     const struct rg_buf *buf = instance->state[0].asset->buf;
     const int count = instance->state[0].row;
     float *drops = rg_alloc(1, buf->size, "drops");
-    bool holds = false;
-    if (!drops || !rg_buf_read(instance->state[0].asset->buf, 0, drops, (int64_t)buf->size))
-        snprintf(detail, size, "%s", rg_last_error());
-    else
-        holds = axis_is_even(drops, count, "x", detail, size) &&
-                axis_is_even(drops + count, count, "y", detail, size) &&
-                axis_is_even(drops + 2 * (size_t)count, count, "z", detail, size);
+    const bool holds = drops &&
+                       rg_buf_read(instance->state[0].asset->buf, 0, drops, (int64_t)buf->size) &&
+                       axis_is_even(drops, count, "x", detail, size) &&
+                       axis_is_even(drops + count, count, "y", detail, size) &&
+                       axis_is_even(drops + 2 * (size_t)count, count, "z", detail, size);
     free(drops);
     return holds;
 }

@@ -23,10 +23,8 @@ static bool population_is_sound(const struct rg_instance *instance, char *detail
     for (int i = 0; ok && i < p->slots; i++)
         alive += falls[i] > 0;
     free(falls);
-    if (!ok) {
-        snprintf(detail, size, "%s", rg_last_error());
+    if (!ok)
         return false;
-    }
     const uint32_t *t = s->tally;
     const uint32_t due = p->is_promoted ? alive : t[SHOWER_BORN] - t[SHOWER_DIED];
     const bool holds = alive == t[SHOWER_ALIVE] && alive == due && (int)alive <= p->slots;
@@ -68,8 +66,6 @@ static bool particles_are_sound(const struct rg_instance *instance, char *detail
     float *words = rg_alloc(slots, SHOWER_WORDS * sizeof(*words), "particles");
     bool holds = words && rg_buf_read(s->particles->buf, 0, words,
                                       (int64_t)slots * SHOWER_WORDS * (int64_t)sizeof(*words));
-    if (!holds)
-        snprintf(detail, size, "%s", rg_last_error());
     for (size_t i = 0; holds && i < slots; i++) {
         const float at[3] = {words[i], words[slots + i], words[2 * slots + i]};
         const char *fault = fault_of(&s->params, at, words[3 * slots + i]);

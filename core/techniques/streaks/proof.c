@@ -52,8 +52,6 @@ static bool particles_are_sound(const struct rg_instance *instance, char *detail
     const char *fault = NULL;
     bool ok = places && rg_buf_read(instance->state[0].asset->buf, 0, places,
                                     count * STREAKS_STATE_WORDS * (int64_t)sizeof(float));
-    if (!ok)
-        snprintf(detail, size, "%s", rg_last_error());
     for (int64_t i = 0; ok && i < count; i++)
         if ((fault = fault_of(s, places + i * STREAKS_STATE_WORDS))) {
             snprintf(detail, size, "particle %lld %s", (long long)i, fault);

@@ -15,6 +15,7 @@
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/duration.h"
+#include "harness/console/started.h"
 #include "harness/devices/drivers/side.h"
 #include "harness/devices/names.h"
 #include "harness/devices/workers/worker.h"
@@ -67,8 +68,8 @@ static const struct rg_option options[] = {
      .about = "compares pictures, states and counters, and times nothing",
      .offset = AT(pictures_only), .excludes = "margin budget"},
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "begins no launch behind so much time, as 90s or 4m; what is not decided by then is "
-              "inconclusive",
+     .about = "ends within so much time of its start, as 90s or 4m; what is not decided by then "
+              "is inconclusive, and a time in which nothing can be is refused",
      .offset = AT(budget)},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("What is known"),
@@ -238,6 +239,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
                                       .require = o->devices.require,
                                       .left = left_of(o, in),
                                       .today = today(),
+                                      .begin_ms = rg_started_ms(),
                                       .margin =
                                           o->margin_percent > 0 ? o->margin_percent / 100 : margin,
                                       .pictures_only = o->pictures_only,
@@ -309,13 +311,8 @@ static bool can_search(const struct gate_input *in)
 static bool knows_devices(const struct gate_options *o, const struct rg_baseline *baseline)
 {
     for (int i = 0; i < baseline->device_count; i++) {
-        const char *name = baseline->devices[i].name, *full = rg_device_name_full(name);
-        const size_t api = strcspn(full, ":@");
-        int b = 0;
-        while (rg_backends[b] &&
-               (strlen(rg_backends[b]->name) != api || strncmp(full, rg_backends[b]->name, api)))
-            b++;
-        if (!rg_backends[b] && rg_baseline_asks(o->devices.names, name))
+        const char *name = baseline->devices[i].name;
+        if (!rg_backend_of(rg_device_name_full(name)) && rg_baseline_asks(o->devices.names, name))
             return rg_error("%s: its device '%s' is a short name, and the file does not say of "
                             "what; add --device %s=DEVICE with all that are to run",
                             o->baseline, name, name);

@@ -151,10 +151,8 @@ static bool is_packer(const struct rg_kernel *kernel)
 // Whether a device has the packing kernels.
 static bool has_packers(const struct rg_device *device)
 {
-    int i = 0;
-    while (rg_backends[i] && strcmp(rg_backends[i]->name, device->backend->name) != 0)
-        i++;
-    return rg_backends[i] && rg_backends[i]->packed;
+    const struct rg_backend *backend = rg_backend_of(device->backend->name);
+    return backend && backend->packed;
 }
 
 static void tell_none(const struct pair *p, const struct rg_blame *blame,

@@ -80,12 +80,12 @@ static bool refuse_manifest(const struct rg_choice *c, const struct rg_manifest 
                               "or " RG_MEND_PREFIX,
                               device, c->variable, m->path, c->api);
     if (m->fault == RG_MANIFEST_NO_LIBRARY)
-        return rg_driver_error("device '%s': %s names the library %s, which is not there; mend its "
-                               "library_path, or " RG_MEND_PREFIX,
-                               device, m->path, m->library, c->api);
-    return rg_driver_error("device '%s': %s is no driver's file, which has a library_path; name "
-                           "another one, or " RG_MEND_PREFIX,
-                           device, m->path, c->api);
+        return rg_setup_error("device '%s': %s names the library %s, which is not there; mend its "
+                              "library_path, or " RG_MEND_PREFIX,
+                              device, m->path, m->library, c->api);
+    return rg_setup_error("device '%s': %s is no driver's file, which has a library_path; name "
+                          "another one, or " RG_MEND_PREFIX,
+                          device, m->path, c->api);
 }
 
 // As for the loaders, one good manifest is enough.
@@ -166,12 +166,12 @@ bool rg_choice_refuse(const struct rg_choice *c, const char *why)
     const char *library = "its library";
     rg_choice_libraries(c, &library, 1);
     if (c->driver)
-        return rg_driver_error("device '%s': %s cannot be loaded: %s; install the package that has "
-                               "what is missing, or unpack it into %s",
-                               c->name, library, why, c->driver);
-    return rg_driver_error("device '%s': the library that %s names cannot be loaded: %s; add the "
-                           "folder of what is missing by LD_LIBRARY_PATH, or " RG_MEND_PREFIX,
-                           c->name, c->manifests[0].path, why, c->api);
+        return rg_setup_error("device '%s': %s cannot be loaded: %s; install the package that has "
+                              "what is missing, or unpack it into %s",
+                              c->name, library, why, c->driver);
+    return rg_setup_error("device '%s': the library that %s names cannot be loaded: %s; add the "
+                          "folder of what is missing by LD_LIBRARY_PATH, or " RG_MEND_PREFIX,
+                          c->name, c->manifests[0].path, why, c->api);
 }
 
 // Whether a library of the device is this file, after following links.

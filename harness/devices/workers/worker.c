@@ -21,6 +21,7 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/channel.h"
+#include "harness/devices/workers/end.h"
 #include "harness/devices/workers/environment.h"
 #include "harness/devices/workers/held.h"
 #include "harness/devices/workers/inside.h"
@@ -50,9 +51,9 @@ struct rg_worker {
     int64_t memory_bytes; // that its process may hold
     int64_t taken_bytes;  // of them counted here (core/base/memory.h)
     int life;
-    int ended;           // processes that ended since it was renewed
-    enum rg_outcome end; // how its last process ended
-    char doing[560];     // what that process was doing
+    int ended;                   // processes that ended since it was renewed
+    enum rg_outcome end;         // how its last process ended
+    char doing[RG_WORKER_DOING]; // what that process was doing
 };
 
 struct rg_worker *rg_worker_create(const char *name, const char *environment)
@@ -242,13 +243,6 @@ static int end_process(struct rg_worker *worker)
     return status;
 }
 
-// Whether a process said so by its status: raingauge's own code in it lacked memory, and no driver
-// is at fault.
-static bool ended_lacking(int status)
-{
-    return WIFEXITED(status) && WEXITSTATUS(status) == RG_EXIT_HARNESS;
-}
-
 // A process that was asked to close its device has nothing more to do but to end. False, with one
 // logged line, where it does not do so well.
 static bool end(struct rg_worker *worker)
@@ -258,7 +252,7 @@ static bool end(struct rg_worker *worker)
     const int status = end_process(worker);
     rg_program_last_line(worker->printed, last, sizeof(last));
     const bool well =
-        !worker->is_closed || !status || ended_lacking(status) ||
+        !worker->is_closed || !status || rg_worker_ended_lacking(status) ||
         rg_crash_error("device '%s': its process ended with status %d when all was done%s",
                        worker->name, WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
                        last);
@@ -278,9 +272,6 @@ bool rg_worker_destroy(struct rg_worker *worker)
 }
 
 // --- watching ---
-
-// Why a process ended, if we ended it.
-enum verdict { BY_ITSELF, HANGS, HOLDS_TOO_MUCH, NO_ROOM, LIES };
 
 // Passes an interruption on, because the terminal's Ctrl-C does not reach the worker, which has its
 // own process group. It does so once, since a second signal would end the worker. Returns whether
@@ -312,7 +303,7 @@ static void drop_much_printed(const struct rg_worker *worker)
 }
 
 static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
-                             enum verdict *verdict)
+                             enum rg_worker_verdict *verdict)
 {
     const struct rg_doing *doing = worker->channel.doing;
     uint64_t seen = 0;
@@ -321,9 +312,9 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
         drop_much_printed(worker);
         const enum rg_arrival arrival = rg_channel_receive(&worker->channel, reply, LOOK_MS);
         if (arrival == RG_DAMAGED)
-            *verdict = LIES;
+            *verdict = RG_WORKER_LIES;
         if (arrival == RG_NO_ROOM)
-            *verdict = NO_ROOM;
+            *verdict = RG_WORKER_NO_ROOM;
         if (arrival != RG_NOT_YET)
             return arrival;
         const bool is_told_now = pass_on_interruption(worker);
@@ -332,10 +323,10 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
             since_ms = rg_now_ms();
         seen = count;
         if (rg_now_ms() - since_ms > 1000.0 * rg_workers.timeout_s)
-            *verdict = HANGS;
+            *verdict = RG_WORKER_HANGS;
         else if (rg_held_bytes(worker->process) > worker->memory_bytes)
-            *verdict = HOLDS_TOO_MUCH;
-        if (*verdict != BY_ITSELF)
+            *verdict = RG_WORKER_HOLDS_TOO_MUCH;
+        if (*verdict != RG_WORKER_BY_ITSELF)
             return RG_ENDED;
         if (is_dead(worker)) // its last reply may have arrived meanwhile
             return rg_channel_receive(&worker->channel, reply, 0) == RG_ARRIVED ? RG_ARRIVED
@@ -345,83 +336,21 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
 
 // --- reporting its end ---
 
-// Notes what the process was doing, and which kernels nobody had waited for: a driver may compile
-// and run them at any time, in its own threads.
-static void tell_doing(struct rg_worker *worker)
+static enum rg_outcome bury(struct rg_worker *worker, enum rg_worker_verdict verdict, char *why,
+                            size_t size)
 {
-    struct rg_doing seen = *worker->channel.doing;
-    seen.what[sizeof(seen.what) - 1] = seen.queued[sizeof(seen.queued) - 1] = 0;
-    const bool is_told = *seen.queued && !strchr(seen.queued, ',') &&
-                         strstr(seen.what, "running") && strstr(seen.what, seen.queued);
-    snprintf(worker->doing, sizeof(worker->doing), "%s%s%s%s", *seen.what ? " while " : "",
-             seen.what, *seen.queued && !is_told ? "; not known to have ended: " : "",
-             is_told ? "" : seen.queued);
-}
-
-// Writes how the process ended, what it was doing, and the last line that it printed.
-static void tell_end(struct rg_worker *worker, enum verdict verdict, int status, char *why,
-                     size_t size)
-{
-    char last[200], line[240], limits[RG_LIMITS_TEXT];
-    const char *mend = "";
-    tell_doing(worker);
-    rg_program_last_line(worker->printed, last, sizeof(last));
-    if (verdict == HANGS)
-        snprintf(line, sizeof(line), "its driver did not come back within %d s",
-                 rg_workers.timeout_s);
-    else if (verdict == HOLDS_TOO_MUCH)
-        snprintf(line, sizeof(line), "it took more than %lld MiB of memory and was ended",
-                 (long long)(worker->memory_bytes >> 20));
-    else if (verdict == LIES)
-        snprintf(line, sizeof(line),
-                 "it sent no message that can be taken, and was ended; a "
-                 "driver may have written over it");
-    else if (verdict == NO_ROOM)
-        snprintf(line, sizeof(line), "raingauge has no memory for what it replied");
-    else if (ended_lacking(status))
-        snprintf(line, sizeof(line), "its process ended, for it had no memory for a message");
-    else if (rg_limits_low(limits))
-        snprintf(line, sizeof(line), "its process ended %s", limits);
-    else if (WIFSIGNALED(status))
-        snprintf(line, sizeof(line), "its driver crashed (%s)", strsignal(WTERMSIG(status)));
-    else
-        snprintf(line, sizeof(line), "its driver ended the process with status %d",
-                 WEXITSTATUS(status));
-    if (verdict == NO_ROOM || (verdict == BY_ITSELF && ended_lacking(status)))
-        mend = "; ask for a smaller --size, or allow more memory (ulimit -v)";
-    else if (verdict == BY_ITSELF && rg_limits_low(limits))
-        mend = "; allow more";
-    snprintf(why, size, "%s%s%s%s", line, worker->doing, last, mend);
-}
-
-// A sanitizer's report has many lines, all of which are shown.
-static void show_report(FILE *printed)
-{
-#ifdef __SANITIZE_ADDRESS__
-    char line[512];
-    rewind(printed);
-    while (fgets(line, sizeof(line), printed))
-        fputs(line, stderr);
-#endif
-    (void)printed;
-}
-
-static enum rg_outcome bury(struct rg_worker *worker, enum verdict verdict, char *why, size_t size)
-{
-    char limits[RG_LIMITS_TEXT];
-    if (verdict != BY_ITSELF)
+    if (verdict != RG_WORKER_BY_ITSELF)
         kill(worker->process, SIGKILL);
-    const int status = end_process(worker);
-    tell_end(worker, verdict, status, why, size);
-    show_report(worker->printed);
+    const struct rg_worker_end end = {.verdict = verdict,
+                                      .status = end_process(worker),
+                                      .memory_bytes = worker->memory_bytes,
+                                      .timeout_s = rg_workers.timeout_s,
+                                      .printed = worker->printed};
+    rg_worker_tell_doing(worker->channel.doing, worker->doing);
+    rg_worker_tell_end(&end, worker->doing, why, size);
     forget_process(worker);
     worker->ended++;
-    const bool is_limited =
-        verdict == BY_ITSELF && (ended_lacking(status) || rg_limits_low(limits));
-    worker->end = verdict == HANGS                   ? RG_TIMEOUT
-                  : is_limited || verdict == NO_ROOM ? RG_LACKING
-                                                     : RG_CRASH;
-    return worker->end;
+    return worker->end = rg_worker_end_outcome(&end);
 }
 
 // --- messages ---
@@ -433,7 +362,8 @@ static void relay(const struct rg_worker *worker, enum rg_log_level level, enum 
 {
     char named[1500], limits[RG_LIMITS_TEXT];
     const bool is_error = level == RG_LOG_ERROR;
-    const bool is_limited = is_error && fault == RG_FAULT_DRIVER && rg_limits_low(limits);
+    const bool is_limited =
+        is_error && (fault == RG_FAULT_DRIVER || fault == RG_FAULT_SETUP) && rg_limits_low(limits);
     if (is_error && fault == RG_FAULT_NONE && !worker->was_open && rg_limits_low(limits)) {
         rg_harness_error("device '%s': its driver gives none %s; allow more", worker->name, limits);
         return;
@@ -541,7 +471,7 @@ enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
                               const struct rg_message *request, struct rg_message *reply, char *why,
                               size_t why_size)
 {
-    enum verdict verdict = BY_ITSELF;
+    enum rg_worker_verdict verdict = RG_WORKER_BY_ITSELF;
     *reply = (struct rg_message){0};
     *why = 0;
     if (request && request->failed)
@@ -550,7 +480,7 @@ enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
         return worker->end;
     const bool is_sent = send(worker, call, request);
     if (!is_sent)
-        verdict = errno == ETIMEDOUT ? HANGS : BY_ITSELF;
+        verdict = errno == ETIMEDOUT ? RG_WORKER_HANGS : RG_WORKER_BY_ITSELF;
     if (!is_sent || watch(worker, reply, &verdict) != RG_ARRIVED)
         return bury(worker, verdict, why, why_size);
     count_taken(worker, atomic_load(&worker->channel.doing->taken_bytes));

@@ -103,6 +103,8 @@ static bool read_outcome(struct rg_reader *r, const json_t *object, enum rg_outc
     const char *const fault = json_string_value(json_object_get(object, "fault"));
     if (*outcome == RG_ERROR && fault && !strcmp(fault, rg_fault_name(RG_FAULT_HARNESS)))
         *outcome = RG_LACKING;
+    if (*outcome == RG_ERROR && fault && !strcmp(fault, rg_fault_name(RG_FAULT_SETUP)))
+        *outcome = RG_SETUP;
     return *outcome == RG_OK || rg_field_text(r, object, "detail", detail, RG_DETAIL_SIZE);
 }
 

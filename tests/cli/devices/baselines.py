@@ -9,7 +9,7 @@ import tempfile
 
 import forms
 import misbehaving
-from gates import SCHEMA, TORUS, Files, endings
+from gates import AT_ONCE, SCHEMA, TORUS, Files, endings, is_refused
 from wrong import RIGHT, TURNED
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
@@ -414,6 +414,26 @@ def check_absent(runner):
     return problems
 
 
+def check_long(runner):
+    """a baseline that asks for many frames makes no gate longer than its budget, which is refused where that leaves nothing to decide by"""
+    def lengthen(document):
+        for row in document["baseline"][-1:]:
+            row["frames"], row["timings"] = 1000, 9  # 27000 frames a launch
+
+    problems = []
+    slow = "flow/slow flow 512x384 2 view=pane\n"
+    for cells, status in ((slow, 2), (TORUS + slow, 3)):
+        with Files(cells) as files:
+            path, _ = make(runner, files, *QUICK)
+            change(path, lengthen)
+            result = gate(runner, files, path, "--budget", "30s", *AT_ONCE)
+        cases = json.loads(result.stdout)["gated"]
+        said = is_refused(result) if status == 2 else not result.stderr
+        if result.returncode != status or not said or cases[-1]["message"] != "the time was over before it was decided":
+            problems.append("exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
+    return problems
+
+
 def check_untimed(runner):
     """a gate that is to compare times is refused by a baseline without them, and nothing is compared"""
     with Files(TORUS) as files:
@@ -475,5 +495,5 @@ def check_short_names(runner):
     return problems
 
 
-CHECKS = [check_same, check_short_names, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_fallen, check_meanwhile, check_forms,
+CHECKS = [check_same, check_short_names, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_fallen, check_meanwhile, check_long, check_forms,
           check_absent, check_untimed, check_spared, check_kept]

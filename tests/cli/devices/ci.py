@@ -20,6 +20,17 @@ FOLDER = "gate-results"  # used in the examples
 TIMES = FOLDER + "/launches.csv"
 
 
+def undecided(service, runner, folder):
+    """Runs a job whose budget and margin decide nothing, until the launches that earlier ones kept make up a first look."""
+    for _ in range(20):
+        if os.path.exists(os.path.join(folder, "summary.md")):
+            os.remove(os.path.join(folder, "summary.md"))
+        ended = service(runner, folder, BUDGET="4s --margin 0.001")
+        if "--budget: the first look" not in ended[1]:
+            break
+    return ended
+
+
 def lint(path):
     ran = subprocess.run(["xmllint", "--noout", "--schema", SCHEMA, path], capture_output=True, text=True, check=False)
     return [ran.stderr] if ran.returncode else []
@@ -46,7 +57,7 @@ def check_gitlab(runner):
                                     ("/nonexistent", "failed", ["error"], [])):  # a device that --require misses
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
-            found, log, kept, junit = runners.gitlab(runner, folder, BUDGET="0.1s")
+            found, log, kept, junit = undecided(runners.gitlab, runner, folder)
             problems += lint(junit)
             if (found, ends_in_xml(junit)) != (status, ends) or kept != ["gate.xml"] + more or ("is not there" in log) != (new == "/nonexistent"):
                 problems.append("%s: %s, %s, %s" % (new, found, kept, log))
@@ -61,7 +72,7 @@ def check_github(runner):
                                              ("/nonexistent", "failure", ["error"], "1 case, 1 error", [])):
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
-            found, log, summary, uploaded = runners.github(runner, folder, BUDGET="0.1s")
+            found, log, summary, uploaded = undecided(runners.github, runner, folder)
             missing = [row[2] for row in runners.annotations(log) if "--require vulkan: 'vulkan@" in row[2] and "is not there" in row[2]]
             if found != status or [row[0] for row in runners.annotations(log)] != command or not summary.startswith("## raingauge gate: %s\n" % head) or (
                     uploaded != ["gate.xml", "gate.json"] + more or len(missing) != (new == "/nonexistent")):

@@ -16,6 +16,7 @@ SCHEMA = os.path.join(TESTS, "harness", "gate", "report", "junit.xsd")
 TORUS = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
 # Extra loops per frame for runner.slower: many times the frame's own work, even on a busy machine.
 EXTRA = "RG_EXTRA_LOOPS=1000000"
+AT_ONCE = ["--margin", "100"]  # decided at the first look, unless the machine is very busy
 QUICK = TORUS + "flow/pane flow 64x48 2 view=pane resolution_px=64\n"
 
 
@@ -96,7 +97,7 @@ def check_expired(runner):
     with Files(TORUS) as files:
         slower = "cpu@RG_PROGRAM=%s;%s" % (runner.slower, EXTRA)
         for sides, budget, kinds, status, ending in (([slower, "cpu"], [], ("flake", "skip"), 1, "unexpected pass"),
-                                                     (["cpu", "cpu"], ["--budget", "0.05s"], ("flake", "skip"), 1, "unexpected pass"),
+                                                     (["cpu", "cpu"], ["--budget", "5s"], ("flake", "skip"), 1, "unexpected pass"),
                                                      (["cpu", slower], [], ("flake",), 1, "regressed"),
                                                      (["cpu", "vulkan@VK_DRIVER_FILES=/nonexistent"], [], ("flake", "skip"), 77, "unsupported")):
             for kind in kinds:
@@ -155,26 +156,55 @@ def check_fallen(runner):
         "exit status %d, %s, %s" % (result.returncode, endings(report), result.stderr)]
 
 
-def check_open(runner):
-    """what is not decided when the time is over is inconclusive, with a status of its own"""
+def is_refused(result):
+    """Whether a gate was refused because its budget has no room for a first look, and says how long that takes."""
+    said = re.fullmatch(r"raingauge: --budget: the first look, after (?:16|8) launches, comes about (\d+) s after the start, so that nothing is "
+                        r"decided within ([\d.]+) s; give (\d+)s or more, or gate fewer cells\n", result.stderr)
+    return bool(result.returncode == 2 and said and float(said[1]) >= float(said[2]) and said[1] == said[3])
+
+
+def check_budget(runner):
+    """a budget without room for a first look is refused, and says how much it takes; what pictures show is told all the same"""
+    problems = []
     with Files() as files:
-        result = runner.run(["gate", "cpu", "cpu", "--cells", files.cells, "--budget", "0.2s", "--json"])
-        found = json.loads(result.stdout)
-    bad = result.returncode != 3 or set(endings(found).values()) != {"inconclusive"}
-    return ["exit status %d, %s" % (result.returncode, result.stdout)] if bad else []
+        for budget, says in (("0.001s", "the time was over before it was compared"), ("1s", "the time was over before it was ")):
+            result = runner.run(["gate", "cpu", "cpu", "--cells", files.cells, "--budget", budget, "--json"])
+            found = json.loads(result.stdout)
+            if not is_refused(result) or not all(case["ending"] == "inconclusive" and case["message"].startswith(says) for case in found["gated"]):
+                problems.append("%s: exit status %d, %s%s" % (budget, result.returncode, result.stderr, result.stdout))
+        kernels = files.path("kernels")
+        os.mkdir(kernels)
+        runner.kernels_with(kernels, "flow_normals.glsl", RIGHT, TURNED)
+        result = runner.run(["gate", "gl", "gl@RG_KERNEL_DIR=" + kernels, "--cells", files.cells, "--budget", "20s", "--margin", "0.001"])
+        if result.returncode != 1 or result.stderr:
+            problems.append("a difference: exit status %d, %s" % (result.returncode, result.stderr))
+    return problems
+
+
+def check_open(runner):
+    """what is not decided when the time is over is inconclusive, with a status of its own; a gate that was refused before goes on"""
+    with Files(TORUS) as files:
+        for _ in range(20):
+            result = runner.run(["gate", "cpu", "cpu", "--cells", files.cells, "--budget", "2s", "--margin", "0.001", "-o", files.path("out")])
+            if result.returncode != 2:
+                break
+    good = result.returncode == 3 and "inconclusive      raster/torus.cpu\n  | the time was over before it was decided\n" in result.stdout
+    return [] if good else ["exit status %d, %s%s" % (result.returncode, result.stderr, result.stdout)]
 
 
 def check_shared(runner):
     """devices of two builds share the budget: one that takes more leaves less to the next, which is left open then"""
     with Files(TORUS) as files:
-        slow = files.path("slow.sh", "#!/bin/sh\nsleep 0.6\nexec %s \"$@\"\n" % runner.raingauge)
+        slow = files.path("slow.sh", "#!/bin/sh\nsleep $RG_SLOW_S\nexec %s \"$@\"\n" % runner.raingauge)
         os.chmod(slow, 0o700)
-        result = runner.run(["gate", "--against", slow, "--device", "cpu,cpu:reference", "--cells", files.cells, "--budget", "0.5s", "--json"])
-    cases = json.loads(result.stdout)["gated"]
-    launches = [re.sub(" launches?, .*", "", case["details"].split("\n")[0]) for case in cases]
-    if result.returncode != 3 or [case["ending"] for case in cases] != ["inconclusive"] * 2 or launches[0] != "1" or cases[1]["ratio"]["value"] is not None:
-        return ["exit status %d, %s, %s" % (result.returncode, [case["message"] for case in cases], launches)]
-    return []
+        problems = []
+        for first_s, second_s, decided in ((0, 3, [True, False]), (3, 0, [False, True])):
+            devices = "cpu@RG_SLOW_S=%d,cpu:reference@RG_SLOW_S=%d" % (first_s, second_s)
+            result = runner.run(["gate", "--against", slow, "--device", devices, "--cells", files.cells, "--budget", "45s", *AT_ONCE, "--json"])
+            cases = json.loads(result.stdout)["gated"]
+            if result.returncode != 3 or [case["ending"] == "pass" for case in cases] != decided:
+                problems.append("%s: exit status %d, %s, %s" % (devices, result.returncode, endings({"gated": cases}), result.stderr))
+    return problems
 
 
 def check_crash(runner):
@@ -303,7 +333,7 @@ def check_miscompiled(runner):
         kernels = files.path("kernels")
         os.mkdir(kernels)
         runner.kernels_with(kernels, "flow_normals.glsl", RIGHT, TURNED)
-        result = runner.run(["gate", "gl", "gl@RG_KERNEL_DIR=" + kernels, "--cells", files.cells, "--json", "--budget", "1s"])
+        result = runner.run(["gate", "gl", "gl@RG_KERNEL_DIR=" + kernels, "--cells", files.cells, "--json", "--budget", "6s"])
         report = json.loads(result.stdout)
     found = {case["name"].split(".")[0]: case for case in report["gated"]}
     problems = []
@@ -326,7 +356,7 @@ def check_cached(runner):
         env = {"XDG_CACHE_HOME": files.path("cache")}
         alone = files.path("alone.txt", TORUS)
         runner.run(["gate", "gl", "gl@RG_X=1", "--cells", files.cells, "--pictures"], env)
-        result = runner.run(["gate", "gl", "gl@RG_X=2", "--cells", alone, "--budget", "1s", "--json"], env)
+        result = runner.run(["gate", "gl", "gl@RG_X=2", "--cells", alone, "--pictures", "--json"], env)
         details = json.loads(result.stdout)["gated"][0]["details"]
     passes = re.search(r"the same program, the same libraries; compiled passes (\w{8}) and (\w{8}), ", details)
     return [] if passes and passes[1] == passes[2] else ["exit status %d, %s" % (result.returncode, details)]
@@ -449,7 +479,7 @@ def check_unwritten(runner):
     with Files(TORUS) as files:
         junit = files.path("junit.xml", "before")
         for more, name, status in ((["--pictures", "--junit", junit], "junit.xml", 71),
-                                   (["--budget", "0.5s", "-o", files.path("out")], "launches.csv", 71)):
+                                   ([*AT_ONCE, "-o", files.path("out")], "launches.csv", 71)):
             result = runner.run(["gate", "cpu", "cpu", "--cells", files.cells] + more, limit=100)
             if result.returncode != status or name + ": cannot be written: " not in result.stderr or "raster/torus.cpu" not in result.stdout:
                 problems.append("%s: exit status %d, %s%s" % (more, result.returncode, result.stdout, result.stderr))
@@ -515,5 +545,5 @@ def check_room(runner):
     return []
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_unused, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_cached, check_cost, check_gtest, check_required, check_missing, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_budget, check_open, check_shared, check_crash, check_unused, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_cached, check_cost, check_gtest, check_required, check_missing, check_no_rain, check_beside,
           check_unwritten, check_apart, check_refused, check_room]

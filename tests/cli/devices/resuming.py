@@ -5,7 +5,7 @@ import json
 import os
 
 from baselines import change
-from gates import Files
+from gates import AT_ONCE, Files
 from losses import wait_for
 
 
@@ -26,7 +26,7 @@ def told_launches(folder):
 
 def left_by_a_kill(runner, files, folder, sides=("cpu", "cpu")):
     """Kills a gate once it has kept some launches, which are returned."""
-    process = runner.start(["gate", *sides, "--cells", files.cells, "-o", folder])
+    process = runner.start(["gate", *sides, "--cells", files.cells, "-o", folder, *AT_ONCE])
     wait_for(lambda: len(kept_launches(folder)) >= 4 or process.poll() is not None)
     process.kill()
     process.communicate()
@@ -38,7 +38,7 @@ def check_killed(runner):
     with Files() as files:
         folder = files.path("out")
         left = left_by_a_kill(runner, files, folder)
-        again = runner.run(["gate", "cpu", "cpu", "--cells", files.cells, "-o", folder, "--budget", "1s"])
+        again = runner.run(["gate", "cpu", "cpu", "--cells", files.cells, "-o", folder, *AT_ONCE])
         told = told_launches(folder)
         names = sorted(os.listdir(folder))
     problems = [] if len(left) >= 4 else ["%d launches were kept" % len(left)]
@@ -60,7 +60,7 @@ def check_kept(runner):
         path = os.path.join(folder, "gate.journal")
         with open(path) as file:
             whole = file.read()
-        args = ["gate", "cpu", "cpu", "--cells", files.cells, "-o", folder, "--budget", "0.5s"]
+        args = ["gate", "cpu", "cpu", "--cells", files.cells, "-o", folder, *AT_ONCE]
         full = runner.run(args, limit=100)
         with open(path) as file:
             after = file.read()
@@ -102,7 +102,7 @@ def check_built_anew(runner):
                 whole = file.read()
             os.remove(other)
             os.symlink(program, other)
-            result = runner.run(["gate", *sides, "--cells", files.cells, "-o", folder, "--budget", "0.5s"])
+            result = runner.run(["gate", *sides, "--cells", files.cells, "-o", folder, *AT_ONCE])
             told = told_launches(folder)
             same = [key for key, values in left.items() if all(abs(a - b) <= 1e-8 * abs(a) for a, b in zip(values, told.get(key, [0, 0, 0])))]
             if result.returncode not in (0, 3) or ("is of another build" in result.stderr) == is_kept or len(same) != is_kept * len(left):
@@ -119,14 +119,14 @@ def check_baseline(runner):
         folder, was, path = files.path("out"), files.path("baseline.json"), files.path("out/gate.journal")
         make = ["baseline", "--device", "cpu", "--launches", "8", "--cells", files.cells, "-o", was]
         runner.run(make)
-        sides = ["--baseline", was, "--margin", "0.01"]  # so that only the last look decides
+        sides = ["--baseline", was]
         left = left_by_a_kill(runner, files, folder, sides)
         if len(left) < 4:
             return ["%d launches were kept" % len(left)]
         with open(path) as file:
             whole = file.read()
         for is_kept in (True, False):
-            result = runner.run(["gate", *sides, "--cells", files.cells, "-o", folder, "--budget", "1s"])
+            result = runner.run(["gate", *sides, "--cells", files.cells, "-o", folder, *AT_ONCE])
             with open(os.path.join(folder, "launches.csv"), newline="") as file:
                 rows = list(csv.DictReader(file))
             told = {(row["case"], int(row["launch"])): row for row in rows}

@@ -6,6 +6,8 @@ import re
 import shlex
 import tempfile
 
+from runner import LATER
+
 SMALL = "--size 16x16 --frame 1"
 CELL = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
 # The command lines for one device.
@@ -164,10 +166,34 @@ def check_commands(runner):
     return check_pairs(runner, [(command, case, status) for case, status in ways for command in COMMANDS])
 
 
+def fault_problems(runner, case, ending):
+    """What is wrong with how a gate tells one device, or a record of doctor's."""
+    api, variables, said = case
+    with tempfile.TemporaryDirectory() as folder:
+        write_drivers(folder)
+        env = {name: value and value.format(tmp=folder) for name, value in variables.items()}
+        known = os.path.join(folder, "known.txt")
+        with open(known, "w") as file:
+            file.write("fail *\n  device %s\n  outcome error\n  reason it does not open\n  since 2026-01-01\n  until %s\n" % (api, LATER))
+        args = ["--cells", os.path.join(folder, "cells.txt"), "--expectations", known, "--json"]
+        gated = json.loads(runner.run(["gate", "cpu", api, "--pictures"] + args, env).stdout)["gated"]
+        examined = json.loads(runner.run(["doctor", "--device", api, "--json"], env).stdout)["devices"] if ending == "set-up" else []
+    keeps_code = "write to its cache" in said  # in a folder of its own, as each side of a gate
+    found = [case["ending"] for case in gated if not keeps_code] + [device.get("fault") for device in examined]
+    return [] if set(found) == {ending} else ["%s, %s: %s and not %s" % (api, variables, found, ending)]
+
+
+def check_faults(runner):
+    """a gate and records tell all of these as the fault of the set-up, of which nothing is expected; what is absent is nobody's"""
+    asked = [(case, "set-up") for case in FAILING] + [(case, "unsupported") for case in ABSENT]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        return [problem for problems in pool.map(lambda one: fault_problems(runner, *one), asked) for problem in problems]
+
+
 def check_all(runner):
     """so it is with each command, for each way"""
     return check_pairs(runner, every(COMMANDS))
 
 
-CHECKS = [check_ways, check_commands]
+CHECKS = [check_ways, check_commands, check_faults]
 THOROUGH = [check_all]

@@ -171,7 +171,7 @@ def of_journals(place, runner):
     key = {"program": place.program, "devices": place.names}
     change(place.file("in/kept.json", json.dumps({"format": 2, "key": key, "codes": {"../../escape": place.program}, "rows": {"../../escape": [[0, 1, 1, 1, False]]},
                                                   "checksum": ""})), lambda _: None, os.path.join(out, "gate.journal"))
-    yield ["gate", "cpu", "cpu", "--cells", cells, "-o", out, "--budget", "1s"], {0, 1, 3, 4}, None
+    yield ["gate", "cpu", "cpu", "--cells", cells, "-o", out, "--margin", "100"], {0, 1, 3, 4}, None
 
 
 def of_lists(place, _):

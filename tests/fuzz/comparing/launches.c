@@ -9,31 +9,34 @@
 #include "harness/record/disk/seal.h"
 #include "tests/fuzz/heard.h"
 
-// What a course is given of a row.
-static void check_row(const struct rg_gate_journal *journal, const char *name)
+// What a course is given of a row. Returns the number of launches.
+static int check_row(const struct rg_gate_journal *journal, const char *name)
 {
+    int count = 0;
     for (int number = 0; number < 4; number++) {
         struct rg_quads quads;
         if (!rg_gate_journal_find(journal, name, number, &quads))
             continue;
         if (!isfinite(quads.log) || !(quads.a_ms >= 0) || !(quads.b_ms > 0))
             fuzz_complain("taken, and no time");
+        count++;
     }
+    return count;
 }
 
 static void check(struct rg_gate_journal *journal, const json_t *document)
 {
     const char *name;
     json_t *row;
+    int lines = 0, launches = 0;
     json_object_foreach(json_object_get(document, "rows"), name, row)
     {
-        check_row(journal, name);
+        launches += check_row(journal, name);
     }
     char *csv = rg_gate_journal_csv(journal);
-    int lines = 0;
     for (const char *c = csv; c && *c; c++)
         lines += *c == '\n';
-    if (!csv || lines < rg_gate_journal_count(journal))
+    if (!csv || lines < launches)
         fuzz_complain("taken, and cannot be printed");
     free(csv);
 }

@@ -17,7 +17,7 @@ OF_CL = ("device suite, kernels, opencl", "device suite, images, opencl", "openc
 MANIFESTS, OF_FAILING = "backends/manifests.c", ("command line, failing",)
 
 ROWS = [
-    Fault(MANIFESTS, "return «walk.is_named_broken ? -1 : count»;", "count", "a named driver that fails beside a good one is passed over", tests=OF_FAILING),
+    Fault(MANIFESTS, "return walk.is_named_broken ? «end_of(&walk)» : count;", "count", "a named driver that fails beside a good one is passed over", tests=OF_FAILING),
     Fault(MANIFESTS, "if («walk->named_by»)", "false", "a named driver without a device is absent", tests=OF_FAILING),
     Fault(MANIFESTS, "if («*broken»)", "false", "a driver that cannot be loaded is absent", tests=OF_FAILING),
     Fault(MANIFESTS, "return «!is_named && *walk.broken» && *paths;", "false", "one damaged file takes all drivers along", tests=OF_FAILING),

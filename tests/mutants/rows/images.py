@@ -1,7 +1,7 @@
 """Pictures: curves, files, halving and blurring, clips, metrics, masks and tiers."""
 from fault import Fault
 
-TESTS = ("image picture", "image cases", "image metrics", "image tiers", "image io", "image disc", "image flip", "image yuv", "image diff", "image foreign",
+TESTS = ("image picture", "image cases", "image metrics", "image tiers", "image io", "image writes", "image disc", "image flip", "image yuv", "image diff", "image foreign",
          "command line, clips", "command line, renders")
 
 TIERS, METRICS, COMPARE = ("core/image/compare/tiers.c", "core/image/compare/metrics.c", "core/image/compare/compare.c")

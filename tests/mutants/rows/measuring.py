@@ -1,7 +1,7 @@
 """Timing: waits, warm-ups, samples, their order and intervals; the audit of timers and the ceilings."""
 from fault import Fault
 
-TESTS = ("scripted", "loads", "others", "stats", "measure", "timer_audit")
+TESTS = ("scripted", "revisited", "loads", "others", "stats", "measure", "timer_audit")
 
 JOB, MEASURE, PASSES = "harness/measure/job.c", "harness/measure/measure.c", "harness/measure/passes.c"
 AUDIT, CEILINGS, STATS = "harness/measure/timer_audit.c", "harness/measure/ceilings.c", "harness/record/stats.c"
@@ -76,7 +76,7 @@ ROWS = [
     Fault(MEASURE, "record->samples_ms[«record->sample_count++»] = ms;", "record->sample_count = 0", "a job keeps its first sample alone"),
     Fault(MEASURE, "return «record->outcome == RG_OK && record->sample_count < due»;", "record->outcome == RG_OK && round < record->wanted_samples", "jobs of few samples take them at the beginning"),
     Fault(MEASURE, "return «record->outcome == RG_OK && record->sample_count < due»;", "record->sample_count < due", "a job that failed is sampled on"),
-    Fault(MEASURE, "round < last && «!rg_interrupted()»; round++", "true", "an interrupted run goes on", tests=("scripted",)),
+    Fault(MEASURE, "round < last && «!rg_interrupted()»; round++", "true", "an interrupted run goes on", tests=("scripted", "revisited",)),
     Fault(MEASURE, "for (int i = 0; i < r->count && «!rg_interrupted()»; i++) {\n        struct rg_job *job", "true", "an interrupted run's jobs are finished", lives="a job that lacks samples is not finished anyway"),
     Fault(MEASURE, "if («job->record->wanted_samples»)\n        return;", "false", "another visit samples in another way"),
     Fault(MEASURE, "if («!r->is_begun[r->order[i]]»)", "true", "the beginning is that of the last visit"),

@@ -18,11 +18,13 @@ MOST = "&& «integer_of(value, field) <= field->most»;"
 NUMBER = "return «number >= (double)field->least && number <= (double)field->most»;"
 FOUND, DAMAGED, IN_WORKERS, LIES = ("damaged findings",), ("damaged replies",), ("sessions in workers",), ("workers that lie, 20000",)
 
+END = "harness/devices/workers/end.c"
+
 ROWS = [
     Fault(WORKER, "if («worker->ended < RG_WORKER_LIVES»)", "true", "a worker is started without end", tests=("workers that end",)),
     Fault(WORKER, "return «worker->process» && worker->life == life;", "true", "what was open is there though its process has ended"),
     Fault(WORKER, "return worker->process && «worker->life == life»;", "true", "what was open in another life is there"),
-    Fault(WORKER, "? «RG_TIMEOUT»\n                  : is_limited", "RG_CRASH", "a hang is a crash"),
+    Fault(END, "return «RG_TIMEOUT»;", "RG_CRASH", "a hang is a crash"),
     Fault(WORKER, "if («is_dead(worker)») // its last", "false", "an end is not seen while another process holds the channel"),
     Fault(WORKER, "if («rg_now_ms() - since_ms > 1000.0 * rg_workers.timeout_s»)", "false", "a hang lasts for ever"),
     Fault(WORKER, "else if («rg_held_bytes(worker->process) > worker->memory_bytes»)", "false", "memory has no limit"),
@@ -32,11 +34,11 @@ ROWS = [
     Fault("core/base/memory.c", "left_of_limit() «+ theirs»;", "+ 0 * theirs", "a worker is left less for what it took"),
     Fault(WORKER, "drop_much_printed(worker);", ";", "what a driver prints has no end"),
     Fault(WORKER, "fcntl(file, F_SETFL, «O_APPEND»);", "0", "what is printed after much was dropped is not found"),
-    Fault(WORKER, "else if («WIFSIGNALED(status)»)", "false", "a signal is told as a status"),
+    Fault(END, "else if («WIFSIGNALED(end->status)»)", "false", "a signal is told as a status"),
     Fault(WORKER, "rg_message_fail(reply)) && «ok» && !reply->failed;", "true", "a call that failed succeeds", tests=("workers that end",)),
     Fault(WORKER, "return «(has_told || rg_message_fail(reply))» && ok", "true", "a call fails without a line", tests=LIES),
     Fault(WORKER, "ok = ok && «(reply->at == reply->size || rg_message_fail(reply))» &&", "true", "a reply goes on behind what is taken of it", tests=DAMAGED),
-    Fault(WORKER, "if (verdict != BY_ITSELF)\n        kill(worker->process, SIGKILL);", ";", "who hangs is not killed, and waited for until it is"),
+    Fault(WORKER, "if (verdict != RG_WORKER_BY_ITSELF)\n        kill(worker->process, SIGKILL);", ";", "who hangs is not killed, and waited for until it is"),
     Fault(WORKER, "is_error && «fault != RG_FAULT_INPUT» && !strstr", "true", "the user's error is the device's"),
     Fault(WORKER, "&& «!strstr(line, worker->name)» ?", "true", "a line names its device twice"),
     Fault(WORKER, "(!program_of(worker) || «is_greeted(worker)» ||", "true", "another program is taken for a raingauge"),
@@ -57,7 +59,7 @@ ROWS = [
     Fault(CHANNEL, "if (channel->taken_size < 0 || «channel->taken_size > channel->most_bytes»)", "false", "a size that lies is believed", lives="memory is taken as bytes come, and the look at what a worker holds ends it"),
     Fault(CHANNEL, "«channel->taken.size == channel->taken_size» && channel->taken.bytes", "true", "a part of a message is taken for all"),
     Fault(WORKER, "worker->end = «RG_LACKING»;\n    if (has_means", "RG_UNSUPPORTED", "a process that the machine refuses is a device that is absent", tests=("containers, refusals",)),
-    Fault(WORKER, "(«ended_lacking(status)» || rg_limits_low(limits));", "false", "a worker that lacks memory for a message is a driver's crash", tests=("containers, wants",)),
+    Fault(END, "        «ended_lacking(end)» || (end->verdict", "false", "a worker that lacks memory for a message is a driver's crash", tests=("containers, wants",)),
     Fault(WORKER, "rg_log_relay(level, «is_limited ? RG_FAULT_HARNESS : fault»,", "fault", "what fails under low limits is the driver's", tests=("containers, refusals",)),
     Fault(SERVE, "return «lacks» ? RG_EXIT_HARNESS", "false", "a worker without memory for a message ends as if all was done", tests=("containers, wants",)),
     Fault(LOG, "if («error == wants[i]»)", "false", "a full disk is bad usage", tests=("exit",)),

@@ -38,9 +38,7 @@ bool cartoon_rain_holds(const struct cartoon_rain *r, char *detail, size_t size)
     cartoon_spray *sprays = rg_alloc((size_t)r->params.spray_slots, sizeof(*sprays), "splashes");
     uint32_t t[CARTOON_TALLY];
     bool holds = read_all(r, drops, sprays, t);
-    if (!holds) {
-        snprintf(detail, size, "%s", rg_last_error());
-    } else {
+    if (holds) {
         const struct living n = count(r, drops, sprays);
         holds = n.falling == t[CARTOON_RELEASED] - t[CARTOON_HITS] - t[CARTOON_LEFT] &&
                 n.stuck == t[CARTOON_HITS] - t[CARTOON_FADED] &&

@@ -146,10 +146,8 @@ bool cartoon_water_holds(const struct cartoon_water *w, char *detail, size_t siz
     for (int i = 0; is_read && i < CELLS; i++)
         held += cells[i];
     free(cells);
-    if (!is_read) {
-        snprintf(detail, size, "%s", rg_last_error());
+    if (!is_read)
         return false;
-    }
     const bool holds = account[CARTOON_WATER_HIT] ==
                        held + account[CARTOON_WATER_DRIED] + account[CARTOON_WATER_RUN];
     if (!holds)

@@ -66,7 +66,7 @@ void rg_baseline_take(const struct rg_gate_cell *cell, struct rg_device *device,
         !take_work(session, row) || !rg_session_code(session, &row->code)) {
         const struct rg_failure failure = rg_failure_take();
         row->outcome = failure.outcome;
-        row->is_ours = failure.fault == RG_FAULT_INPUT || failure.fault == RG_FAULT_HARNESS;
+        row->is_ours = failure.fault != RG_FAULT_DRIVER && failure.fault != RG_FAULT_NONE;
         rg_text_copy(row->why, sizeof(row->why), failure.line);
         rg_picture_destroy(picture);
     }

@@ -20,6 +20,7 @@ static const struct {
     [RG_ENDING_CRASH] = {"crash", "error", RG_EXIT_FAIL},
     [RG_ENDING_TIMEOUT] = {"timeout", "error", RG_EXIT_FAIL},
     [RG_ENDING_ERROR] = {"error", "error", RG_EXIT_FAIL},
+    [RG_ENDING_SETUP] = {"set-up", "error", RG_EXIT_FAIL},
     [RG_ENDING_LACKING] = {"lacking", "error", RG_EXIT_HARNESS},
     [RG_ENDING_DIFFERS] = {"differs", "failure", RG_EXIT_FAIL},
     [RG_ENDING_UNEXPECTED_PASS] = {"unexpected pass", "failure", RG_EXIT_FAIL},

@@ -16,6 +16,7 @@ enum rg_ending {
     RG_ENDING_CRASH,
     RG_ENDING_TIMEOUT,
     RG_ENDING_ERROR,
+    RG_ENDING_SETUP,           // a driver is installed, and its files or settings are broken
     RG_ENDING_LACKING,         // raingauge itself lacked memory, processes, descriptors or disk
     RG_ENDING_DIFFERS,         // other pictures, states or counters
     RG_ENDING_UNEXPECTED_PASS, // it was expected to fail

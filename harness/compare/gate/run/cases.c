@@ -40,6 +40,7 @@ static enum rg_ending ending_of_outcome(enum rg_outcome outcome)
         [RG_TIMEOUT] = RG_ENDING_TIMEOUT,
         [RG_NOTHING] = RG_ENDING_NOTHING_MEASURED,
         [RG_LACKING] = RG_ENDING_LACKING,
+        [RG_SETUP] = RG_ENDING_SETUP,
     };
     return endings[outcome];
 }
@@ -68,7 +69,8 @@ static enum rg_ending ending_of_times(const struct rg_gate_case *c)
 
 static enum rg_ending ending_of(const struct rg_gate_case *c, enum rg_met met)
 {
-    const enum rg_ending own = c->agreement.outcome == RG_OK && c->is_timed
+    const enum rg_ending own = c->is_over ? RG_ENDING_INCONCLUSIVE
+                               : c->agreement.outcome == RG_OK && c->is_timed
                                    ? ending_of_times(c)
                                    : ending_of_outcome(c->agreement.outcome);
     switch (met) {

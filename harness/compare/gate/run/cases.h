@@ -24,7 +24,8 @@ struct rg_gate_request {
     struct rg_gate_left left;
     int today;          // harness/compare/gate/text/date.h
     double margin;      // 0.05 for 5 %
-    double budget_s;    // for times, shared by the pairs; no launch begins after it; 0: no limit
+    double begin_ms;    // of the command, by rg_now_ms
+    double budget_s;    // from then on, shared by the pairs; nothing begins after it; 0: no limit
     bool pictures_only; // nothing is timed
     const char *filter; // of googletest, for case names; NULL: all
     struct rg_gtest_shards shards; // of the cases that the filter selects
@@ -46,6 +47,7 @@ struct rg_gate_case {
     char driver[160];    // B's
     int64_t expectation; // of request->known; -1: none
     bool is_skipped, is_compared;
+    bool is_over;              // the time was over before it was compared
     bool is_timed, is_advised; // the times decide, or are only reported
     struct rg_agreement agreement;
     // Valid if it is timed.

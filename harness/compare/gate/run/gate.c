@@ -34,7 +34,10 @@ struct run {
     bool same_key[RG_MAX_DEVICES]; // equal to the baseline's key
     struct rg_truth truth;
     struct rg_launches yardsticks[RG_YARDSTICKS];
-    double left_ms;                  // of the budget, for this pair and later ones
+    double start_ms, end_ms;         // of the pair that runs; end 0: no limit
+    double first_ms;                 // when the first pair began
+    double look_ms;                  // until a pair's first look, the longest of all pairs
+    bool has_looked;                 // some case came as far as that, or ended without it
     struct rg_gate_journal *journal; // NULL: no journal
 };
 
@@ -288,12 +291,23 @@ static bool launch_for(struct run *r, struct rg_gate_case *c)
     return true;
 }
 
+static bool is_over(const struct run *r)
+{
+    return r->end_ms > 0 && rg_now_ms() >= r->end_ms;
+}
+
 static void compare(struct run *r, struct rg_gate_case *c)
 {
     const double start_ms = rg_now_ms();
-    const bool there = launch_for(r, c);
+    const bool over = is_over(r), there = !over && launch_for(r, c);
     rg_gate_case_expect(c, r->asked);
     c->is_compared = there && !c->is_skipped;
+    c->is_over = over && !c->is_skipped;
+    if (c->is_over)
+        c->agreement = (struct rg_agreement){.outcome = RG_UNSUPPORTED,
+                                             .pixels = NAN,
+                                             .difference = NAN,
+                                             .message = "the time was over before it was compared"};
     if (c->is_compared)
         rg_gate_agree(c, &r->truth, r->asked->pictures);
     c->seconds = (rg_now_ms() - start_ms) / 1000;
@@ -379,8 +393,13 @@ static void expect_codes(struct run *r, const struct lot *lot)
 static void tell_row(struct run *r, const struct lot *lot, int row, const struct rg_gate_rule *rule)
 {
     struct rg_gate_case *c = lot->cases[row];
+    struct rg_gate_row *found = &lot->rows[row];
+    if (lot->cells[row].is_over)
+        found->end = RG_END_OVER;
+    r->has_looked |=
+        found->end != RG_END_OVER || found->launches - found->disturbed >= rule->looks[0];
     c->seconds += lot->cells[row].seconds;
-    c->row = lot->rows[row];
+    c->row = *found;
     c->rule = *rule;
     c->times = lot->cells[row];
     if (c->is_advised)
@@ -397,7 +416,9 @@ static bool time_lot(struct run *r, const struct lot *lot, bool is_advice,
     times->cell_count = lot->count;
     times->cells = lot->cells;
     times->journal = is_advice ? NULL : r->journal; // advice is not kept
-    times->failed = false;
+    times->failed = times->is_launched = false;
+    times->launch = 0;
+    times->first_look = rule.looks[0];
     if (!is_advice)
         expect_codes(r, lot);
     const bool ok = rg_course_run(&rule, &source, RG_COURSE_SEED, lot->rows);
@@ -411,13 +432,10 @@ static bool time_all(struct run *r, struct rg_gate_case *cases, int count)
 {
     struct rg_yardstick_room room = {NULL};
     struct lot lots[2] = {{.count = 0}, {.count = 0}}; // timed cases, and advised ones
-    const int pairs_left = r->asked->baseline ? 1 : r->asked->pairs->count - cases->pair;
-    const double start_ms = rg_now_ms();
-    struct rg_gate_times times = {
-        .side_count = r->asked->baseline ? r->side_count : RG_SIDES,
-        .sides = r->asked->baseline ? r->sides : cases->sides[RG_SIDE_A],
-        .yardsticks = r->yardsticks,
-        .end_ms = r->asked->budget_s > 0 ? start_ms + fmax(r->left_ms, 0) / pairs_left : 0};
+    struct rg_gate_times times = {.side_count = r->asked->baseline ? r->side_count : RG_SIDES,
+                                  .sides = r->asked->baseline ? r->sides : cases->sides[RG_SIDE_A],
+                                  .yardsticks = r->yardsticks,
+                                  .end_ms = r->end_ms};
     bool ok = !rg_interrupted();
     for (int i = 0; ok && i < 2; i++)
         ok = make_lot(cases, count, i, &lots[i]);
@@ -430,8 +448,40 @@ static bool time_all(struct run *r, struct rg_gate_case *cases, int count)
     rg_yardsticks_close(&room);
     free_lot(&lots[0]);
     free_lot(&lots[1]);
-    r->left_ms -= rg_now_ms() - start_ms;
+    r->look_ms = fmax(r->look_ms, times.look_ms - r->start_ms);
     return ok || rg_interrupted();
+}
+
+// --- the budget ---
+
+static int pairs_of(const struct run *r)
+{
+    return r->asked->baseline ? 1 : r->asked->pairs->count;
+}
+
+// Gives a pair its share of the time that is left.
+static void begin_pair(struct run *r, int pair)
+{
+    const double now_ms = rg_now_ms();
+    const double left_ms = r->asked->begin_ms + 1e3 * r->asked->budget_s - now_ms;
+    r->start_ms = now_ms;
+    r->end_ms = r->asked->budget_s > 0 ? now_ms + fmax(left_ms, 0) / (pairs_of(r) - pair) : 0;
+}
+
+static int first_look(const struct run *r)
+{
+    return (r->asked->baseline ? rg_gate_rule_apart(1) : rg_gate_rule_of(1)).looks[0];
+}
+
+// If the time is over before the first launch, a launch is taken to last as long as comparing did.
+static void expect_look(struct run *r, const struct rg_gate_case *cases, int count)
+{
+    int compared = 0;
+    for (int i = 0; i < count; i++)
+        compared += !cases[i].is_over;
+    const double compare_ms = (rg_now_ms() - r->start_ms) * count / fmax(compared, 1);
+    if (is_over(r))
+        r->look_ms = fmax(r->look_ms, compare_ms * (1 + first_look(r)));
 }
 
 // --- the whole gate ---
@@ -440,13 +490,32 @@ static bool run_all(struct run *r)
 {
     struct rg_gate_case *cases = r->gate->cases;
     bool ok = true;
+    r->first_ms = rg_now_ms();
     for (int i = 0, end; ok && i < r->gate->case_count && !rg_interrupted(); i = end) {
+        begin_pair(r, cases[i].pair);
         for (end = i; end < r->gate->case_count && cases[end].pair == cases[i].pair; end++)
             if (!rg_interrupted())
                 compare(r, &cases[end]);
+        expect_look(r, &cases[i], end - i);
         ok = time_all(r, &cases[i], end - i);
     }
     return ok && (rg_interrupted() || rg_gate_report(r->asked, r->gate));
+}
+
+// The enum rg_exit of what was found. A budget in which no case came as far as its first look is
+// refused, since nothing could be decided.
+static int exit_of(const struct run *r)
+{
+    const struct rg_gate_request *asked = r->asked;
+    const int exit = rg_gate_exit(asked, r->gate);
+    if (exit != RG_EXIT_INCONCLUSIVE || !(asked->budget_s > 0) || r->has_looked)
+        return exit;
+    const double before_ms = r->first_ms - asked->begin_ms;
+    const double needed_s = ceil((before_ms + pairs_of(r) * r->look_ms) / 1000);
+    rg_error("--budget: the first look, after %d launches, comes about %.0f s after the start, so "
+             "that nothing is decided within %g s; give %.0fs or more, or gate fewer cells",
+             first_look(r), needed_s, asked->budget_s, needed_s);
+    return rg_exit_of_error();
 }
 
 // False if a device was ever closed badly.
@@ -473,7 +542,7 @@ static bool was_lacking(const struct run *r)
 
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
 {
-    struct run r = {.asked = request, .gate = gate, .left_ms = 1e3 * request->budget_s};
+    struct run r = {.asked = request, .gate = gate};
     rg_interrupt_watch();
     const bool is_chosen = choose(&r);
     int found = is_chosen ? look_at_sides(&r) : rg_exit_of_error();
@@ -482,9 +551,10 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
               ((!are_there && !request->baseline) || note_sides(&r));
     gate->is_told = ok && !are_there && gate->report.case_count;
     ok = ok && are_there && open_journal(&r) && run_all(&r);
-    if (are_there && !ok)
-        found = rg_exit_of_error();
-    const bool is_kept = rg_gate_journal_close(r.journal, ok && !rg_interrupted());
+    if (are_there)
+        found = !ok ? rg_exit_of_error() : rg_interrupted() ? RG_EXIT_PASS : exit_of(&r);
+    const bool is_done = ok && !rg_interrupted() && found != RG_EXIT_USAGE;
+    const bool is_kept = rg_gate_journal_close(r.journal, is_done);
     const int kept = is_kept ? RG_EXIT_PASS : rg_exit_of_error();
     if (rg_interrupted() && request->folder)
         rg_info("gate: interrupted; the same command goes on");
@@ -492,8 +562,6 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
         found = rg_exit_worse(found, RG_EXIT_FAIL);
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    if (found == RG_EXIT_PASS)
-        found = rg_gate_exit(request, gate);
     return rg_exit_worse(rg_exit_worse(found, kept),
                          was_lacking(&r) ? RG_EXIT_HARNESS : RG_EXIT_PASS);
 }

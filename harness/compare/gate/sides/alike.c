@@ -39,7 +39,7 @@ bool rg_agreement_fails(struct rg_agreement *agreement, const char *device)
 {
     const struct rg_failure failure = rg_failure_take();
     agreement->outcome = failure.outcome;
-    agreement->is_ours = failure.fault == RG_FAULT_INPUT || failure.fault == RG_FAULT_HARNESS;
+    agreement->is_ours = failure.fault != RG_FAULT_DRIVER && failure.fault != RG_FAULT_NONE;
     agreement->device = device;
     rg_text_copy(agreement->message, RG_AGREEMENT_TEXT, failure.line);
     return false;

@@ -140,11 +140,6 @@ struct rg_gate_journal *rg_gate_journal_open(const char *folder, json_t *key, bo
     return j;
 }
 
-int rg_gate_journal_count(const struct rg_gate_journal *j)
-{
-    return j->had;
-}
-
 void rg_gate_journal_expect(struct rg_gate_journal *j, const char *name, const char *code)
 {
     json_t *codes = json_object_get(j->document, "codes");

@@ -20,8 +20,6 @@
 // `key` holds all that the times depend on; the journal takes its reference. NULL, and one logged
 // line, without memory.
 struct rg_gate_journal *rg_gate_journal_open(const char *folder, json_t *key, bool fresh);
-// The number of launches in the journal when it was opened, of all rows together.
-int rg_gate_journal_count(const struct rg_gate_journal *journal);
 // Says which code runs a row now; call it before the row's launches. Drops times of other code,
 // with one logged line.
 void rg_gate_journal_expect(struct rg_gate_journal *journal, const char *name, const char *code);

@@ -15,17 +15,28 @@
 // blocks, and a disturbance of one does not move their median.
 enum { QUADS = 3 };
 
+// How long all launches from this one to the first look take, or this one alone after that.
+static double wait_ms(const struct rg_gate_times *t, int launch, double launch_ms)
+{
+    return launch_ms * (launch < t->first_look ? t->first_look - launch : 1);
+}
+
+// The first launch is no measure of others, since drivers fill their caches in it.
 bool rg_times_are_over(void *user)
 {
-    const struct rg_gate_times *t = user;
-    return rg_interrupted() || (t->end_ms > 0 && rg_now_ms() >= t->end_ms);
+    struct rg_gate_times *t = user;
+    const double now_ms = rg_now_ms(), took_ms = t->is_launched ? now_ms - t->began_ms : 0;
+    const double due_ms = now_ms + wait_ms(t, t->launch + 1, took_ms);
+    if (t->launch + 1 < t->first_look)
+        t->look_ms = fmax(t->look_ms, due_ms);
+    return rg_interrupted() || (t->end_ms > 0 && (t->launch ? due_ms : now_ms) >= t->end_ms);
 }
 
 bool rg_timed_cell_fails(struct rg_timed_cell *timed)
 {
     const struct rg_failure failure = rg_failure_take();
     timed->outcome = failure.outcome == RG_UNSUPPORTED ? RG_ERROR : failure.outcome;
-    timed->is_ours = failure.fault == RG_FAULT_INPUT || failure.fault == RG_FAULT_HARNESS;
+    timed->is_ours = failure.fault != RG_FAULT_DRIVER && failure.fault != RG_FAULT_NONE;
     rg_text_copy(timed->why, sizeof(timed->why), failure.line);
     return false;
 }
@@ -62,6 +73,7 @@ static bool start(struct rg_gate_times *t)
         rg_side_close(&t->sides[side]);
     if (t->room)
         take_yardsticks(t);
+    t->began_ms = rg_now_ms();
     t->is_launched = !t->cells->sides[RG_SIDE_A] || launch_pair(t, t->launch & 1);
     t->failed = !t->is_launched;
     return t->is_launched;
@@ -150,12 +162,24 @@ static bool time_slot(struct rg_session *session, const struct rg_slot *slot, do
 
 // --- a cell's launch ---
 
+// Whether the time has room for the cell's timings. A baseline may ask for many frames.
+static bool has_room(struct rg_gate_times *t, struct rg_timed_cell *timed, double frames_ms)
+{
+    const int frames = QUADS * timed->slot.timings * timed->slot.frames;
+    const double now_ms = rg_now_ms(), launch_ms = frames * frames_ms;
+    timed->is_over = t->end_ms > 0 && now_ms + launch_ms > t->end_ms;
+    if (timed->is_over && t->launch < t->first_look)
+        t->look_ms = fmax(t->look_ms, now_ms + wait_ms(t, t->launch, launch_ms));
+    return !timed->is_over;
+}
+
 // Runs frames that are not timed, because drivers compile in the first. Both sides get the same
 // slot, chosen by the geometric mean of their frame times, so that a slow side does not take for
-// ever and a fast one is not too short for the clock.
-static bool warm_up(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES])
+// ever and a fast one is not too short for the clock. False also if there is no room for it.
+static bool warm_up(struct rg_gate_times *t, struct rg_timed_cell *timed,
+                    struct rg_session *sessions[RG_SIDES])
 {
-    double frame_ms[RG_SIDES];
+    double frame_ms[RG_SIDES] = {0, 0};
     for (int side = 0; side < RG_SIDES; side++) {
         if (!sessions[side])
             continue;
@@ -166,7 +190,9 @@ static bool warm_up(struct rg_timed_cell *timed, struct rg_session *sessions[RG_
     if (!timed->slot.frames)
         settle(&timed->slot, sessions[RG_SIDE_A] ? sqrt(frame_ms[RG_SIDE_A] * frame_ms[RG_SIDE_B])
                                                  : frame_ms[RG_SIDE_B]);
-    return true;
+    return has_room(t, timed,
+                    sessions[RG_SIDE_A] ? 2 * (frame_ms[RG_SIDE_A] + frame_ms[RG_SIDE_B])
+                                        : frame_ms[RG_SIDE_B]);
 }
 
 static bool time_quad(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES],
@@ -203,7 +229,8 @@ static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions
     return true;
 }
 
-static bool take(struct rg_timed_cell *timed, bool b_first, struct rg_quads *quads)
+static bool take(struct rg_gate_times *t, struct rg_timed_cell *timed, bool b_first,
+                 struct rg_quads *quads)
 {
     const struct rg_gate_cell *cell = timed->cell;
     const struct rg_subject subject = {cell->technique, cell->settings, cell->width, cell->height};
@@ -221,8 +248,9 @@ static bool take(struct rg_timed_cell *timed, bool b_first, struct rg_quads *qua
                                : NULL;
         ok = sessions[number] != NULL;
     }
-    ok = (ok && warm_up(timed, sessions) && time_launch(timed, sessions, b_first, quads)) ||
-         rg_timed_cell_fails(timed);
+    ok = ok && warm_up(t, timed, sessions) && time_launch(timed, sessions, b_first, quads);
+    if (!ok && !timed->is_over)
+        rg_timed_cell_fails(timed);
     for (int side = 0; side < RG_SIDES; side++)
         rg_session_close(sessions[side]);
     timed->seconds += (rg_now_ms() - start_ms) / 1000;
@@ -234,7 +262,7 @@ bool rg_times_take(int row, bool b_first, struct rg_quads *quads, void *user)
     struct rg_gate_times *t = user;
     if (t->journal && rg_gate_journal_find(t->journal, t->cells[row].name, t->launch, quads))
         return true;
-    if ((!t->is_launched && (t->failed || !start(t))) || !take(&t->cells[row], b_first, quads))
+    if ((!t->is_launched && (t->failed || !start(t))) || !take(t, &t->cells[row], b_first, quads))
         return false;
     if (t->journal)
         rg_gate_journal_add(t->journal, t->cells[row].name, t->launch, quads);

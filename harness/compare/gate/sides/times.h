@@ -31,6 +31,7 @@ struct rg_timed_cell {
     int side;                        // the side being timed, or that was when the cell ended
     enum rg_outcome outcome;         // why the cell cannot be timed any further; OK: it can
     bool is_ours;                    // as in struct rg_agreement
+    bool is_over;                    // the time that is left has no room for it
     char why[256];
     double seconds; // spent on it
 };
@@ -43,7 +44,8 @@ struct rg_gate_times {
     struct rg_side *sides; // sides that each launch restarts: a pair's, or all that run alone
     int cell_count;
     struct rg_timed_cell *cells;    // one per row; all of a pair end if a side cannot be launched
-    double end_ms;                  // by rg_now_ms, after which no launch begins; 0: no limit
+    double end_ms;                  // by rg_now_ms, when all has to be done; 0: no limit
+    int first_look;                 // launches up to the first verdict
     struct rg_yardstick_room *room; // NULL: no yardsticks are taken
     struct rg_launches *yardsticks; // RG_YARDSTICKS of them, their times before each launch
     // Times found here by a row's name are not taken again, and new times are added; NULL: no
@@ -51,12 +53,16 @@ struct rg_gate_times {
     struct rg_gate_journal *journal;
     int launch;               // number in the course
     bool is_launched, failed; // whether the sides have been launched, and whether one failed to
+    double began_ms;          // when they were
+    double look_ms;           // when the first look is to be expected
 };
 
 // The functions of a struct rg_quad_source; `user` is a struct rg_gate_times. A launch is disturbed
 // if the kernel reports that the machine gave time to others (steal in /proc/stat).
 bool rg_times_launch(int number, void *user);
 bool rg_times_take(int row, bool b_first, struct rg_quads *quads, void *user);
+// Whether the time has no room for another launch, or before the first look for all up to it. This
+// depends on how long launches take, and not on which side took longer.
 bool rg_times_are_over(void *user);
 
 #endif

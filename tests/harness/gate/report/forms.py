@@ -191,7 +191,7 @@ def test_text_is_for_terminals_and_logs():
 def test_colours_only_add_to_text():
     cases = told.hostile()
     coloured = tell("coloured", cases).decode()
-    colours = re.findall("^\033\\[(3[123])m([a-z ]+)\033\\[0m", coloured, re.M)
+    colours = re.findall("^\033\\[(3[123])m([a-z -]+)\033\\[0m", coloured, re.M)
     same({(word, code) for code, word in colours},
          {(word, {None: "32", "skipped": "33"}.get(kind, "31")) for word, kind, _, _ in ENDINGS})
     same(re.sub("\033\\[[0-9]+m", "", coloured), tell("text", cases).decode())

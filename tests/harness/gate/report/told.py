@@ -13,6 +13,7 @@ ENDINGS = [
     ("crash", "error", "FAILED", "error"),
     ("timeout", "error", "FAILED", "error"),
     ("error", "error", "FAILED", "error"),
+    ("set-up", "error", "FAILED", "error"),
     ("lacking", "error", "FAILED", "error"),
     ("differs", "failure", "FAILED", "error"),
     ("unexpected pass", "failure", "FAILED", "error"),

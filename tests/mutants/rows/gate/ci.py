@@ -5,7 +5,7 @@ TESTS = ("command line, ci", "command line, reports")
 
 SHARDS, PARSE, FLAGS = "harness/compare/gate/report/gtest.c", "harness/commands/cli/parse.c", "harness/commands/comparing/gtest.c"
 RUN, RESULTS, CASES, HELD = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "results", "cases", "agree"))
-AGREE, SIDES = (f"harness/compare/gate/sides/{name}.c" for name in ("alike", "sides"))
+AGREE, SIDES, TIMES = (f"harness/compare/gate/sides/{name}.c" for name in ("alike", "sides", "times"))
 UNUSED = "harness/compare/gate/cells/unused.c"
 CELLS = "harness/compare/gate/cells/cells.c"
 FILE = "core/base/files/file.c"
@@ -17,7 +17,7 @@ ROWS = [
     Fault(CASES, "return «c->times.is_ours» || c->times.side != RG_SIDE_B;", "false", "a side that is no raingauge is expected to fail", tests=("command line, gates",)),
     Fault(CASES, "c->times.is_ours || «c->times.side != RG_SIDE_B»;", "false", "A's crash while it is timed is what was expected of B", tests=("command line, gates",)),
     Fault(CASES, "strcmp(device, own) != 0 : «device != own»;", "false", "A's crash is what was expected of B", tests=("command line, gates",)),
-    Fault(AGREE, "agreement->is_ours = «failure.fault == RG_FAULT_INPUT» ||", "false", "a file that is missing is an expected failure", tests=("command line, gates",)),
+    Fault(AGREE, "agreement->is_ours = failure.fault != RG_FAULT_DRIVER && «failure.fault != RG_FAULT_NONE»;", "failure.fault == RG_FAULT_SETUP", "a file that is missing is an expected failure", tests=("command line, gates",)),
     Fault(AGREE, "agreement->is_ours = «true»;", "false", "a cell without rain is an expected failure", tests=("command line, gates",)),
     Fault(CASES, "return «rg_ending_fails(own)» ? own", "own != RG_ENDING_PASS", "what has expired and is faster passes", tests=("command line, gates",)),
     Fault(FILE, "return name_a && name_b && «!strcmp(name_a, name_b)» && lead", "false", "a report replaces another whose file was not there yet", tests=("command line, gates",)),
@@ -70,7 +70,13 @@ ROWS = [
     Fault(RUN, "gate->is_told = «ok && !are_there && gate->report.case_count»;", "false", "a device that is missing leaves no report", tests=("command line, gates", "command line, ci")),
     Fault(COMMAND, "exit = rg_exit_worse(exit, «rg_exit_of_error()»); // a full disk", "RG_EXIT_FAIL", "a full disk is a regression", tests=("command line, gates",)),
     Fault(RUN, "return rg_exit_worse(rg_exit_worse(found, «kept»),", "RG_EXIT_PASS", "launches that are lost are not told of", tests=("command line, gates",)),
-    Fault(RUN, "    «r->left_ms -= rg_now_ms() - start_ms;»", ";", "each device of two builds has half of the budget that others have taken", tests=("command line, gates",)),
+    Fault(RUN, "fmax(left_ms, 0) / «(pairs_of(r) - pair)»", "1", "a device of two builds leaves nothing of the budget to the next", tests=("command line, gates",)),
+    Fault(RUN, "    if («exit != RG_EXIT_INCONCLUSIVE» ||", "true", "a budget in which nothing is decided is no bad budget", tests=("command line, gates",)),
+    Fault(RUN, "|| !(asked->budget_s > 0) || «r->has_looked»)", "false", "a gate that decides something has a bad budget", tests=("command line, gates",)),
+    Fault(RUN, "const bool over = «is_over(r)»,", "false", "cells are compared after the budget's end", tests=("command line, gates",)),
+    Fault(RUN, "const bool is_done = ok && !rg_interrupted() && «found != RG_EXIT_USAGE»;", "true", "launches within a budget that was too short are lost", tests=("command line, gates",)),
+    Fault(TIMES, "«(t->launch ? due_ms : now_ms)» >= t->end_ms);", "now_ms", "a gate that cannot decide anything goes on to its budget's end", tests=("command line, gates",)),
+    Fault(TIMES, "timed->is_over = t->end_ms > 0 && «now_ms + launch_ms > t->end_ms»;", "false", "a baseline makes a gate longer than its budget", tests=("command line, baselines",)),
     Fault("backends/gl/pass.c", "for (size_t d = i + NAME; «is_name» &&", "false", "a program of the cache is other code than the same compiled anew", tests=("command line, gates",)),
     Fault("backends/library.c", "    if («!*id»)\n", "0", "libraries without a build id are all the same", tests=("command line, gates",)),
     Fault(UNUSED, "        any = «rg_glob(row->cell, cells->cells[i].name)»;", "true", "an expectation of no cell is silent", tests=("expectations", "command line, reports")),
