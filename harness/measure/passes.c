@@ -4,7 +4,7 @@
 
 #include "harness/console/clock.h"
 #include "harness/measure/measure.h"
-#include "harness/record/stats.h"
+#include "harness/judge/stats.h"
 
 enum { MOST_FRAMES = 40 };
 

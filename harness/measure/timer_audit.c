@@ -5,7 +5,7 @@
 #include "core/base/alloc.h"
 #include "core/device/device.h"
 #include "harness/console/clock.h"
-#include "harness/record/stats.h"
+#include "harness/judge/stats.h"
 #include "kernels/probe/copy_params.h"
 
 // Large enough to exceed the caches of one core, small enough for every device.

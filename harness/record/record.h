@@ -8,7 +8,7 @@
 #include "core/base/outcome.h"
 #include "core/device/work.h"
 #include "harness/record/named.h"
-#include "harness/record/stats.h"
+#include "harness/judge/stats.h"
 
 enum {
     // Passes with their own entry; the time of all others is summed as "other".

@@ -12,7 +12,7 @@
 #include "harness/devices/workers/worker.h"
 #include "harness/devices/frames/session.h"
 #include "harness/devices/frames/calling.h"
-#include "harness/record/stats.h"
+#include "harness/judge/stats.h"
 
 enum { ROUNDS = 600 };
 enum way { BARE, HERE, WORKER, WAYS };

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "harness/compare/gate/decide/decide.h"
+#include "harness/judge/decide.h"
 #include "harness/compare/gate/sides/alike.h"
 #include "harness/compare/gate/sides/times.h"
 

@@ -11,7 +11,7 @@
 
 #include <jansson.h>
 
-#include "harness/compare/gate/decide/course.h"
+#include "harness/judge/course.h"
 
 #define RG_GATE_JOURNAL  "gate.journal"
 #define RG_GATE_LAUNCHES "launches.csv"

@@ -9,7 +9,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/devices/frames/session.h"
 #include "harness/record/named.h"
-#include "harness/record/stats.h"
+#include "harness/judge/stats.h"
 
 // A launch takes several blocks, or times of B alone. Opening a cell costs as much as several
 // blocks, and a disturbance of one does not move their median.

@@ -1,10 +1,10 @@
-// Times a gate's cells for harness/compare/gate/decide/course.h: both sides in turn, or B alone if
+// Times a gate's cells for harness/judge/course.h: both sides in turn, or B alone if
 // A's times were taken earlier.
 #ifndef RG_HARNESS_COMPARE_GATE_SIDES_TIMES_H
 #define RG_HARNESS_COMPARE_GATE_SIDES_TIMES_H
 
 #include "harness/compare/gate/cells/cells.h"
-#include "harness/compare/gate/decide/course.h"
+#include "harness/judge/course.h"
 #include "harness/compare/gate/sides/journal.h"
 #include "harness/compare/gate/sides/sides.h"
 #include "harness/measure/yardsticks.h"

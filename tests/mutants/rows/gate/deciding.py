@@ -3,9 +3,9 @@ from fault import Fault
 
 TESTS = ("verdicts of two", "verdicts apart", "course of a gate", "verdicts on traces")
 
-DECIDE, COURSE = "harness/compare/gate/decide/decide.c", "harness/compare/gate/decide/course.c"
+DECIDE, COURSE = "harness/judge/decide.c", "harness/judge/course.c"
 JOURNAL = "harness/compare/gate/sides/journal.c"
-APART, SHIFT = "harness/compare/gate/decide/apart.c", "harness/record/shift.c"
+APART, SHIFT = "harness/judge/apart.c", "harness/judge/shift.c"
 
 ROWS = [
     Fault(DECIDE, "- log(a_ms[0]) «- log(a_ms[1])») / 2;", "- log(a_ms[0])", "a quad has A's first time twice"),

@@ -9,12 +9,12 @@
 //
 // If A's times were taken earlier, there are no blocks: each launch of a side gives the logarithm
 // of a time, and the interval is Mann's and Whitney's (record/shift.h).
-#ifndef RG_HARNESS_COMPARE_GATE_DECIDE_DECIDE_H
-#define RG_HARNESS_COMPARE_GATE_DECIDE_DECIDE_H
+#ifndef RG_HARNESS_JUDGE_DECIDE_H
+#define RG_HARNESS_JUDGE_DECIDE_H
 
 #include <stdbool.h>
 
-#include "harness/record/shift.h"
+#include "harness/judge/shift.h"
 
 enum rg_verdict_of_two {
     RG_TWO_INCONCLUSIVE, // more launches could decide

@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "harness/compare/gate/decide/decide.h"
-#include "tests/harness/gate/decide/chance.h"
+#include "harness/judge/decide.h"
+#include "tests/harness/judge/chance.h"
 #include "tests/tools/expect.h"
 
 #define assert_near(value, due, within) assert_true(fabs((double)(value) - (due)) <= (within))

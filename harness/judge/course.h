@@ -1,12 +1,12 @@
 // The course of a gate: which launch times which rows in which order, when a verdict is sought, and
 // when the gate ends. It asks for times and reads no clock, so stored times can replace new ones.
-#ifndef RG_HARNESS_COMPARE_GATE_DECIDE_COURSE_H
-#define RG_HARNESS_COMPARE_GATE_DECIDE_COURSE_H
+#ifndef RG_HARNESS_JUDGE_COURSE_H
+#define RG_HARNESS_JUDGE_COURSE_H
 
 #include <stdint.h>
 
-#include "harness/compare/gate/decide/decide.h"
-#include "harness/record/stats.h"
+#include "harness/judge/decide.h"
+#include "harness/judge/stats.h"
 
 // A launch's result for a row.
 struct rg_quads {

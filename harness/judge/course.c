@@ -1,10 +1,10 @@
-#include "harness/compare/gate/decide/course.h"
+#include "harness/judge/course.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "harness/record/stats.h"
+#include "harness/judge/stats.h"
 #include "kernels/dialect/rng.h"
 
 // State of a row while it is measured.

@@ -1,4 +1,4 @@
-#include "harness/record/shift.h"
+#include "harness/judge/shift.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "harness/compare/gate/decide/course.h"
+#include "harness/judge/course.h"
 #include "tests/tools/expect.h"
 
 enum { MOST_GATES = 64, MOST_ROWS = 8, MOST_LAUNCHES = 1024 };

@@ -1,11 +1,11 @@
-#include "harness/compare/gate/decide/decide.h"
+#include "harness/judge/decide.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/compare/gate/decide/inside.h"
-#include "harness/record/stats.h"
+#include "harness/judge/inside.h"
+#include "harness/judge/stats.h"
 
 // Launches are averaged in pairs, and pairs in pairs again, if their lag-1 autocorrelation is above
 // this and above what independent launches exceed by chance in one of twenty cases.

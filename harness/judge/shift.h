@@ -1,8 +1,8 @@
 // Estimates the shift between two independent samples.
-#ifndef RG_HARNESS_RECORD_SHIFT_H
-#define RG_HARNESS_RECORD_SHIFT_H
+#ifndef RG_HARNESS_JUDGE_SHIFT_H
+#define RG_HARNESS_JUDGE_SHIFT_H
 
-#include "harness/record/stats.h"
+#include "harness/judge/stats.h"
 
 enum { RG_SHIFT_SAMPLES = 64 };
 

@@ -1,4 +1,4 @@
-#include "harness/record/stats.h"
+#include "harness/judge/stats.h"
 
 #include <math.h>
 #include <stdlib.h>

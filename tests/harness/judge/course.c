@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "harness/compare/gate/decide/course.h"
-#include "tests/harness/gate/decide/chance.h"
+#include "harness/judge/course.h"
+#include "tests/harness/judge/chance.h"
 #include "tests/tools/expect.h"
 
 enum { MOST_ROWS = 4 };

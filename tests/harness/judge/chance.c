@@ -1,4 +1,4 @@
-#include "tests/harness/gate/decide/chance.h"
+#include "tests/harness/judge/chance.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/compare/gate/decide/inside.h"
+#include "harness/judge/inside.h"
 
 // The standard error of Hodges' and Lehmann's estimate is this factor above that of a difference of
 // means, for normal noise: the root of its efficiency, 3 / pi.

@@ -1,8 +1,8 @@
 // Shared by both ways of deciding; for this folder's files alone.
-#ifndef RG_HARNESS_COMPARE_GATE_DECIDE_INSIDE_H
-#define RG_HARNESS_COMPARE_GATE_DECIDE_INSIDE_H
+#ifndef RG_HARNESS_JUDGE_INSIDE_H
+#define RG_HARNESS_JUDGE_INSIDE_H
 
-#include "harness/compare/gate/decide/decide.h"
+#include "harness/judge/decide.h"
 
 // Averages pairs until neighbours are no longer correlated; an odd one at the end is dropped.
 // Returns how many are left.
