@@ -36,6 +36,7 @@ struct rg_measure_options {
     void (*load)(void); // timed between rounds, to show drift of the machine; NULL: none
     // Reads what others take of the machine (harness/measure/others.h); NULL: that is not known.
     rg_watch *watch;
+    double end_ms; // by rg_now_ms, by when disturbed samples may be taken again; 0: no limit
     // Called with the share of the expected time of a call that has passed; NULL: not called.
     void (*progress)(double share, void *user);
     void *user;

@@ -94,7 +94,8 @@ struct rounds {
     int *first, *last;           // by job: its samples in the batch
     pid_t ours[RG_MAX_DEVICES];  // processes of the jobs' devices
     int our_count;
-    int patience; // batches that may still stay disturbed before none is taken again
+    double end_ms; // as in struct rg_measure_options
+    int patience;  // batches that may still stay disturbed before none is taken again
 };
 
 // Decides how the measurable jobs are sampled.
@@ -188,17 +189,24 @@ static void take_again(struct rounds *r)
         r->jobs[r->order[i]].record->sample_count = r->last[r->order[i]];
 }
 
+// Whether the time has room for the batch once more.
+static bool has_time(const struct rounds *r)
+{
+    const double now_ms = rg_now_ms();
+    return !rg_interrupted() && (!r->end_ms || now_ms + (now_ms - r->before.at_ms) <= r->end_ms);
+}
+
 static void end_batch(struct rounds *r)
 {
     if (!r->watch)
         return;
     bool disturbed = is_disturbed(r);
-    const bool may_retake = r->patience > 0;
-    for (int i = 0; disturbed && may_retake && i < RETAKES && !rg_interrupted(); i++) {
+    const bool is_patient = r->patience > 0;
+    for (int i = 0; disturbed && is_patient && i < RETAKES && has_time(r); i++) {
         take_again(r);
         disturbed = is_disturbed(r);
     }
-    r->patience = !disturbed ? PATIENCE : may_retake ? r->patience - 1 : 0;
+    r->patience = !disturbed ? PATIENCE : is_patient ? r->patience - 1 : 0;
     begin_batch(r);
 }
 
@@ -286,6 +294,7 @@ static void measure(struct rounds *r, const struct rg_measure_options *options)
     r->calibration = (struct rg_calibration){.load = options->load};
     rg_calibration_take(&r->calibration);
     r->watch = options->watch;
+    r->end_ms = options->end_ms;
     r->patience = PATIENCE;
     begin_batch(r);
     for (int round = 0; round < last && !rg_interrupted(); round++) {

@@ -325,6 +325,7 @@ bool rg_table_measure(struct rg_result *result, const struct rg_table *table, st
         .options = *(result->few_samples ? rg_table_few_samples() : rg_table_options(result->full)),
         .batch = {.result = result, .table = table, .kept = kept},
         .kept_ms = rg_now_ms()};
+    m.options.end_ms = deadline ? deadline->rows_ms : 0;
     m.options.progress = show_share;
     m.options.user = &m;
     if (!bar)

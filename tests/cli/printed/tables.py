@@ -4,6 +4,7 @@ import io
 import json
 import os
 import re
+import subprocess
 import tempfile
 import time
 
@@ -99,6 +100,27 @@ def check_budget(runner):
         problems.append("exit status %d, %s, %s" % (run.returncode, report.get("budget"), cells))
     if not re.search(r"the first rows of each table\n.*: cpu:reference\ntook \d+ s, of a budget of 32400 s; left out, for time:\n  nothing\n", run.stderr):
         problems.append(run.stderr)
+    return problems
+
+
+def check_busy(runner):
+    """table tells of a busy machine before it measures, and marks cells of which others took more than 5 %"""
+    problems = []
+    loops = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(2 * os.cpu_count())]
+    try:
+        for args in (TABLE + "--json", SWEEP + "--json"):
+            ran = runner.run(args.split(), env={"RG_PROBE_S": "0.3"})
+            cell = json.loads(ran.stdout)["cells"][0]["measured"]
+            if not re.match("raingauge: warning: others take [0-9]+ % of this machine's processors, .*; end them, or measure later\n", ran.stderr):
+                problems.append("not told first: %s" % ran.stderr)
+            if len(cell["taken"]) != len(cell["samples_ms"]) or cell["disturbed"] < 1 or cell["retaken"] < 1 or max(cell["taken"]) < 0.05:
+                problems.append("not noticed: %s" % cell)
+        told = runner.run(TABLE.split(), env={"RG_PROBE_S": "0"}).stderr
+        problems += ["told without a probe: %s" % told] if "others take" in told else []
+    finally:
+        for loop in loops:
+            loop.kill()
+            loop.wait()
     return problems
 
 
@@ -291,4 +313,4 @@ def check_compile(runner):
 
 
 CHECKS = [check_forms, check_table_json, check_table_files]
-LONG = [check_compile, check_budget, check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row]
+LONG = [check_compile, check_budget, check_busy, check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row]

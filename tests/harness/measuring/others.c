@@ -121,7 +121,7 @@ enum { SAMPLES = 12, JOBS = 2 };
 static struct rg_record records[JOBS];
 
 // Two jobs of samples of 50 ms, with a frame of as much before each: five of them make a batch.
-static void measure(void)
+static void measure_until(double end_ms)
 {
     static const struct fake_script scripts[JOBS] = {{.letter = 'A', .draw_ms = 50},
                                                      {.letter = 'B', .draw_ms = 50}};
@@ -130,7 +130,8 @@ static void measure(void)
                                                .sample_ms = 20,
                                                .warm_up_ms = 1,
                                                .warm_up_frames = 1,
-                                               .watch = watch};
+                                               .watch = watch,
+                                               .end_ms = end_ms > 0 ? rg_now_ms() + end_ms : 0};
     struct fake_device *fake = fake_open();
     struct rg_job jobs[JOBS];
     rg_interrupt_watch();
@@ -154,6 +155,11 @@ static void measure(void)
         rg_job_close(&jobs[i]);
     }
     assert_true(rg_device_close(&fake->pub));
+}
+
+static void measure(void)
+{
+    measure_until(0);
 }
 
 static void test_quiet(void **state)
@@ -210,6 +216,16 @@ static void test_disturbed_always(void **state)
         rg_record_mark(&records[i], mark);
         assert_string_equal(mark, "busy");
     }
+}
+
+// Within a budget there may be no time for it.
+static void test_disturbed_at_the_end(void **state)
+{
+    (void)state;
+    begin_machine(0, 1e9, 0.5);
+    measure_until(100);
+    assert_int_equal(retaken_of_all(), 0);
+    assert_int_equal(rg_record_disturbed(&records[0]), SAMPLES);
 }
 
 // Steal counts as other programs do.
@@ -282,6 +298,7 @@ int main(void)
         cmocka_unit_test(test_quiet),
         cmocka_unit_test(test_disturbed_once),
         cmocka_unit_test(test_disturbed_always),
+        cmocka_unit_test(test_disturbed_at_the_end),
         cmocka_unit_test(test_marks),
         cmocka_unit_test(test_probe),
     };
