@@ -30,8 +30,10 @@ const char *rg_limits_low(char text[RG_LIMITS_TEXT])
         if (getrlimit(limits[i].resource, &now) || now.rlim_cur >= limits[i].enough)
             continue;
         const size_t used = strlen(text);
+        // Rounded up: dash counts a file in 512 bytes and bash in 1024, and neither means 0 by 1.
+        const rlim_t units = (now.rlim_cur + limits[i].unit - 1) / limits[i].unit;
         snprintf(text + used, RG_LIMITS_TEXT - used, "%s-%c %llu", used ? ", " : "under ulimit ",
-                 limits[i].option, (unsigned long long)(now.rlim_cur / limits[i].unit));
+                 limits[i].option, (unsigned long long)units);
     }
     return *text ? text : NULL;
 }

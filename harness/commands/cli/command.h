@@ -14,13 +14,13 @@ struct rg_command {
     // Runs the command. `options` is that struct, `arguments` the remaining words, at most as many
     // as the table has operands. Returns an enum rg_exit.
     int (*run)(const void *options, const struct rg_words *arguments);
-    // The exit status for a refused command line; NULL: RG_EXIT_USAGE.
+    // The exit status for a refused command line; NULL: rg_exit_of_error.
     int (*refused)(void);
 };
 
 // Parses a command's options and arguments and runs it, or prints its help; argv[0] is the
-// command's name. Returns an enum rg_exit: bad usage, with one logged line, where the table refuses
-// something.
+// command's name. Returns an enum rg_exit: where the table refuses something, or memory for it is
+// lacking, that of the line that was logged.
 int rg_command_run(const struct rg_command *command, int argc, const char **argv);
 
 // Prints a command's usage, its description, and its options by group.

@@ -199,7 +199,7 @@ static int run(struct line *line)
     if (parsed == RUN)
         return line->command->run(line->values, &line->arguments);
     if (parsed == REFUSED)
-        return line->command->refused ? line->command->refused() : RG_EXIT_USAGE;
+        return line->command->refused ? line->command->refused() : rg_exit_of_error();
     rg_command_print_help(line->command);
     return RG_EXIT_PASS;
 }

@@ -97,7 +97,7 @@ static int bisect_list(const struct bisect_options *o, const struct rg_words *ar
     for (int i = 0; ok && i < arguments->count; i++)
         ok = rg_candidates_add(arguments->items[i], &candidates);
     ok = ok && rg_candidates_add(o->bad, &candidates) && rg_candidates_between(&candidates);
-    const int exit = ok ? search(o, &candidates, judging) : rg_bisect_status_of_usage();
+    const int exit = ok ? search(o, &candidates, judging) : rg_bisect_status_of_error();
     rg_candidates_free(&candidates);
     return exit;
 }
@@ -145,7 +145,7 @@ static int bisect(const void *values, const struct rg_words *arguments)
     if (!check(o, arguments, &judging.prints_here) ||
         !rg_duration_read(o->budget, "--budget", &judging.budget_s) ||
         !has_no_blank(o->line, judging.prints_here))
-        return rg_bisect_status_of_usage();
+        return rg_bisect_status_of_error();
     return judging.prints_here ? judge_for_git(&judging) : bisect_list(o, arguments, &judging);
 }
 
@@ -157,5 +157,5 @@ const struct rg_command rg_command_bisect = {
     .options = options,
     .options_size = sizeof(struct bisect_options),
     .run = bisect,
-    .refused = rg_bisect_status_of_usage,
+    .refused = rg_bisect_status_of_error,
 };

@@ -128,15 +128,16 @@ struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidat
 }
 
 // Only git knows this file's place, because of work trees and GIT_DIR.
-int rg_bisect_status_of_usage(void)
+int rg_bisect_status_of_error(void)
 {
     static const char *const args[] = {
         "/bin/sh", "-c", "test -e \"$(git rev-parse --git-path BISECT_START)\"", NULL};
+    const int exit = rg_exit_of_error();
     pid_t child;
     int status = -1; // if the process cannot be waited for
     if (rg_program_start(args, (const int[]){-1, -1, -1}, 3, &child))
-        return RG_EXIT_USAGE;
+        return exit;
     rg_program_wait(child, &status);
     const bool git_is_bisecting = WIFEXITED(status) && !WEXITSTATUS(status);
-    return git_is_bisecting ? rg_judgement_git(RG_JUDGED_STOP) : RG_EXIT_USAGE;
+    return git_is_bisecting ? rg_judgement_git(RG_JUDGED_STOP) : exit;
 }

@@ -50,8 +50,9 @@ struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidat
 // The exit status of a verdict inside `git bisect run`, where 1 to 127 mean bad, except 125, which
 // means skip; higher ones end the bisect (git-bisect(1)).
 int rg_judgement_git(enum rg_judgement verdict);
-// The exit status for bad usage. While git bisects the repository of the current folder it is that
-// of stop; otherwise git would take a misspelt option for a bad commit at every step.
-int rg_bisect_status_of_usage(void);
+// The exit status for an error that was logged. While git bisects the repository of the current
+// folder it is that of stop; otherwise git would take a misspelt option for a bad commit at every
+// step.
+int rg_bisect_status_of_error(void);
 
 #endif
