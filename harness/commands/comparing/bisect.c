@@ -9,7 +9,7 @@
 #include "harness/commands/cli/shared.h"
 #include "harness/compare/bisect/bisect.h"
 #include "harness/compare/bisect/git.h"
-#include "harness/compare/gate/text/shell.h"
+#include "harness/compare/text/shell.h"
 #include "harness/console/duration.h"
 #include "harness/console/interrupt.h"
 

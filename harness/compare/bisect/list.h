@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "harness/compare/gate/text/lines.h"
+#include "harness/compare/text/lines.h"
 
 struct rg_candidates {
     int64_t count, room;
@@ -14,7 +14,7 @@ struct rg_candidates {
 };
 
 // Adds the lines of a text file that are neither blank nor comments
-// (harness/compare/gate/text/lines.h), without blanks around them. `candidates` is zeroed before;
+// (harness/compare/text/lines.h), without blanks around them. `candidates` is zeroed before;
 // after any function here the caller calls rg_candidates_free.
 bool rg_candidates_read(const char *path, struct rg_candidates *candidates);
 bool rg_candidates_add(const char *name, struct rg_candidates *candidates);

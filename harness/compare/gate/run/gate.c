@@ -1,5 +1,6 @@
 #include "harness/compare/gate/run/gate.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,6 +8,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/base/text/add.h"
 #include "harness/compare/gate/cells/unused.h"
 #include "harness/compare/gate/report/texts.h"
 #include "harness/compare/gate/run/agree.h"
@@ -24,14 +26,14 @@ enum { MOST_SIDES = RG_SIDES * RG_MAX_DEVICES };
 struct run {
     const struct rg_gate_request *asked;
     struct rg_gate *gate; // one case per cell that the filter selects
-    // Pairs two by two, A first; or the sides that run alone.
+    // Of the pairs, two by two, A first. With a baseline A has no name.
     int side_count;
     struct rg_side sides[MOST_SIDES];
     struct rg_device_info infos[MOST_SIDES]; // of the sides that are there
     json_t *passport;                        // of the sides that are there
-    // For sides that run alone and are there.
-    json_t *parts[RG_MAX_DEVICES]; // of their comparison keys
-    bool same_key[RG_MAX_DEVICES]; // equal to the baseline's key
+    // Of sides that run alone and are there.
+    json_t *parts[MOST_SIDES]; // of their comparison keys
+    bool same_key[MOST_SIDES]; // equal to the baseline's key
     struct rg_truth truth;
     struct rg_launches yardsticks[RG_YARDSTICKS];
     double start_ms, end_ms;         // of the pair that runs; end 0: no limit
@@ -64,80 +66,47 @@ static bool is_chosen(struct run *r, const char *name)
            r->gate->chosen++ % r->asked->shards.total == r->asked->shards.index;
 }
 
-// Adds the case of a cell on a device; `added` is NULL if it is not chosen. False, and one logged
-// line, without memory.
-static bool add_case(struct run *r, const struct rg_gate_cell *cell, const char *device,
-                     struct rg_gate_case **added)
+// Adds a cell's case of a pair if it is chosen. False, and one logged line, without memory.
+static bool add_case(struct run *r, const struct rg_gate_cell *cell, int pair)
 {
+    const struct rg_baseline *baseline = r->asked->baseline;
+    struct rg_side *sides = &r->sides[pair * RG_SIDES];
+    const char *device = sides[RG_SIDE_B].name;
     char *name = rg_gate_case_name(cell, device);
-    *added = NULL;
-    if (name && is_chosen(r, name)) {
-        *added = &r->gate->cases[r->gate->case_count++];
-        **added = (struct rg_gate_case){.cell = cell, .name = name, .expectation = -1};
-        return true;
+    if (!name || !is_chosen(r, name)) {
+        free(name);
+        return name != NULL;
     }
-    const bool ok = name != NULL;
-    free(name);
-    return ok;
+    struct rg_gate_case *c = &r->gate->cases[r->gate->case_count++];
+    *c = (struct rg_gate_case){.cell = cell, .name = name, .expectation = -1};
+    c->pair = baseline ? 0 : pair; // all devices of a baseline are timed together
+    c->before = baseline ? rg_baseline_find(baseline, cell->name, device) : NULL;
+    for (int side = 0; side < RG_SIDES; side++) {
+        if (!sides[side].name)
+            continue;
+        c->sides[side] = &sides[side];
+        c->devices[c->device_count++] = sides[side].name;
+    }
+    return true;
 }
 
 // All pairs become sides, even those without a chosen case.
-static bool choose_of_pairs(struct run *r)
-{
-    struct rg_gate_case *c;
-    bool ok = true;
-    for (int pair = 0; pair < r->asked->pairs->count; pair++) {
-        struct rg_side *sides = &r->sides[r->side_count];
-        r->side_count += RG_SIDES;
-        for (int side = 0; side < RG_SIDES; side++)
-            sides[side].name = r->asked->pairs->all[pair].names[side];
-        for (int64_t i = 0; ok && i < r->asked->cells->count; i++) {
-            ok = add_case(r, &r->asked->cells->cells[i], sides[RG_SIDE_B].name, &c);
-            for (int side = 0; c && side < RG_SIDES; side++) {
-                c->sides[side] = &sides[side];
-                c->devices[c->device_count++] = sides[side].name;
-            }
-            if (c)
-                c->pair = pair;
-        }
-    }
-    return ok;
-}
-
-static struct rg_side *find_side(struct run *r, const char *name)
-{
-    int side = 0;
-    while (side < r->side_count && strcmp(r->sides[side].name, name) != 0)
-        side++;
-    if (side == r->side_count)
-        r->sides[r->side_count++].name = name;
-    return &r->sides[side];
-}
-
-static bool choose_of_baseline(struct run *r)
-{
-    struct rg_gate_case *c;
-    bool ok = true;
-    for (int64_t i = 0; ok && i < r->asked->baseline->count; i++) {
-        const struct rg_baseline_row *row = &r->asked->baseline->rows[i];
-        if (!rg_baseline_asks(r->asked->devices, row->device))
-            continue;
-        ok = add_case(r, rg_gate_cells_find(r->asked->cells, row->cell), row->device, &c);
-        if (!c)
-            continue;
-        c->before = row;
-        c->sides[RG_SIDE_B] = find_side(r, row->device);
-        c->devices[c->device_count++] = row->device;
-    }
-    return ok;
-}
-
 static bool choose(struct run *r)
 {
-    const int64_t count = r->asked->baseline ? r->asked->baseline->count
-                                             : r->asked->cells->count * r->asked->pairs->count;
-    r->gate->cases = rg_alloc((size_t)count, sizeof(*r->gate->cases), "gate");
-    return r->gate->cases && (r->asked->baseline ? choose_of_baseline(r) : choose_of_pairs(r));
+    const struct rg_gate_cells *cells = r->asked->cells;
+    const struct rg_gate_pairs *pairs = r->asked->pairs;
+    r->side_count = pairs->count * RG_SIDES;
+    r->gate->cases =
+        rg_alloc((size_t)(cells->count * pairs->count), sizeof(*r->gate->cases), "gate");
+    bool ok = r->gate->cases;
+    for (int i = 0; i < r->side_count; i++) {
+        const char *name = pairs->all[i / RG_SIDES].names[i % RG_SIDES];
+        r->sides[i].name = *name ? name : NULL;
+    }
+    for (int pair = 0; pair < pairs->count; pair++)
+        for (int64_t i = 0; ok && i < cells->count; i++)
+            ok = add_case(r, &cells->cells[i], pair);
+    return ok;
 }
 
 // --- sides ---
@@ -150,12 +119,14 @@ static int look_at_sides(struct run *r)
     struct rg_gate_target targets[RG_MAX_DEVICES];
     const bool are_pairs = !r->asked->baseline;
     int count = 0, target_count = 0;
-    for (; count < r->side_count && !rg_interrupted(); count++) {
-        const struct rg_device_info *info = &r->infos[count];
+    for (int i = 0; i < r->side_count && !rg_interrupted(); i++) {
+        const bool is_b = i % RG_SIDES == RG_SIDE_B;
+        const struct rg_device_info *info = &r->infos[i];
         const struct rg_side_seen *saw = &seen[count];
-        seen[count] = rg_side_look(&r->sides[count], &r->infos[count]);
-        rg_side_close(&r->sides[count]);
-        const bool is_b = !are_pairs || count % RG_SIDES == RG_SIDE_B;
+        if (!r->sides[i].name)
+            continue;
+        seen[count++] = rg_side_look(&r->sides[i], &r->infos[i]);
+        rg_side_close(&r->sides[i]);
         if (is_b)
             targets[target_count++] =
                 (struct rg_gate_target){saw->name, saw->is_open ? info->driver : NULL};
@@ -227,48 +198,36 @@ static bool note_sides(struct run *r)
 
 // --- the journal ---
 
-// Everything that the times of pairs depend on.
-static json_t *key_of_pairs(const struct run *r)
+// Everything that the times depend on, those of a baseline among it.
+static json_t *key_of(const struct run *r)
 {
-    json_t *cells = json_object(), *pairs = json_array();
-    for (int64_t i = 0; i < r->asked->cells->count; i++) {
-        char digest[RG_DIGEST_SIZE];
-        rg_digest_of_cell(&r->asked->cells->cells[i], digest);
-        json_object_set_new(cells, r->asked->cells->cells[i].name, json_string(digest));
+    const struct rg_gate_request *asked = r->asked;
+    json_t *cells = json_object(), *pairs = json_array(), *before = json_object();
+    char digest[RG_DIGEST_SIZE];
+    for (int64_t i = 0; i < asked->cells->count; i++) {
+        rg_digest_of_cell(&asked->cells->cells[i], digest);
+        json_object_set_new(cells, asked->cells->cells[i].name, json_string(digest));
     }
-    for (int i = 0; i < r->side_count; i += RG_SIDES)
-        json_array_append_new(
-            pairs, json_pack("[s, s]", r->sides[i + RG_SIDE_A].name, r->sides[i + RG_SIDE_B].name));
-    const struct rg_gtest_shards *shards = &r->asked->shards; // shards may use the same folder
-    return json_pack("{s:o, s:o, s:O, s:f, s:s, s:i, s:i}", "cells", cells, "pairs", pairs,
-                     "passport", r->passport, "margin", r->asked->margin, "filter",
-                     r->asked->filter ? r->asked->filter : "", "shard", shards->index, "shards",
+    for (int i = 0; i < asked->pairs->count; i++)
+        json_array_append_new(pairs, json_pack("[s, s]", asked->pairs->all[i].names[RG_SIDE_A],
+                                               asked->pairs->all[i].names[RG_SIDE_B]));
+    for (int i = 0; asked->baseline && i < r->gate->case_count; i++) {
+        const struct rg_launches *launches = &r->gate->cases[i].before->launches;
+        rg_digest_of(launches->ms, (size_t)launches->count * sizeof(*launches->ms), digest);
+        json_object_set_new(before, r->gate->cases[i].name, json_string(digest));
+    }
+    const struct rg_gtest_shards *shards = &asked->shards; // shards may use the same folder
+    return json_pack("{s:o, s:o, s:o, s:O, s:f, s:s, s:i, s:i}", "cells", cells, "pairs", pairs,
+                     "baseline", before, "passport", r->passport, "margin", asked->margin, "filter",
+                     asked->filter ? asked->filter : "", "shard", shards->index, "shards",
                      shards->total);
-}
-
-// Everything that the compared times depend on, the baseline's times included.
-static json_t *key_of_baseline(const struct run *r)
-{
-    json_t *was = json_object();
-    for (int i = 0; i < r->gate->case_count; i++) {
-        const struct rg_baseline_row *row = r->gate->cases[i].before;
-        char launches[RG_DIGEST_SIZE];
-        rg_digest_of(row->launches.ms, (size_t)row->launches.count * sizeof(*row->launches.ms),
-                     launches);
-        json_object_set_new(was, r->gate->cases[i].name,
-                            json_pack("[s, s]", row->settings, launches));
-    }
-    return json_pack("{s:o, s:O, s:f}", "baseline", was, "passport", r->passport, "margin",
-                     r->asked->margin);
 }
 
 static bool open_journal(struct run *r)
 {
     if (!r->asked->folder || r->asked->pictures_only)
         return true;
-    r->journal = rg_gate_journal_open(r->asked->folder,
-                                      r->asked->baseline ? key_of_baseline(r) : key_of_pairs(r),
-                                      r->asked->fresh);
+    r->journal = rg_gate_journal_open(r->asked->folder, key_of(r), r->asked->fresh);
     return r->journal;
 }
 
@@ -323,6 +282,12 @@ static void compare(struct run *r, struct rg_gate_case *c)
 
 // --- timing the cases that agree ---
 
+// How many courses share the budget and the error: one with a baseline.
+static int pairs_of(const struct run *r)
+{
+    return r->asked->baseline ? 1 : r->asked->pairs->count;
+}
+
 // Cases that are timed in one course.
 struct lot {
     int count;
@@ -375,17 +340,28 @@ static struct rg_gate_rule rule_of(const struct run *r, const struct lot *lot, b
     rule.margin = is_advice ? INFINITY : r->asked->margin;
     if (is_advice)
         rule.look_count = 1;
-    if (!r->asked->baseline)
-        rule.error /= r->asked->pairs->count;
+    rule.error /= pairs_of(r);
     return rule;
+}
+
+enum { CODE = 512 };
+// Describes the code that ran as a text that is equal for equal code.
+static void describe_code(const struct rg_agreement *agreement, char code[CODE])
+{
+    *code = 0;
+    for (int side = 0; side < RG_SIDES; side++) {
+        const struct rg_session_code *of = &agreement->code[side];
+        rg_text_add(code, CODE, ", ", "%s %016" PRIx64 " %016" PRIx64, of->program, of->libraries,
+                    of->passes.hash);
+    }
 }
 
 // Drops journal times that were taken with other code.
 static void expect_codes(struct run *r, const struct lot *lot)
 {
     for (int i = 0; r->journal && i < lot->count; i++) {
-        char code[RG_AGREEMENT_CODE];
-        rg_agreement_code(&lot->cases[i]->agreement, code);
+        char code[CODE];
+        describe_code(&lot->cases[i]->agreement, code);
         rg_gate_journal_expect(r->journal, lot->cells[i].name, code);
     }
 }
@@ -393,15 +369,16 @@ static void expect_codes(struct run *r, const struct lot *lot)
 static void tell_row(struct run *r, const struct lot *lot, int row, const struct rg_gate_rule *rule)
 {
     struct rg_gate_case *c = lot->cases[row];
-    struct rg_gate_row *found = &lot->rows[row];
-    if (lot->cells[row].is_over)
-        found->end = RG_END_OVER;
-    r->has_looked |=
-        found->end != RG_END_OVER || found->launches - found->disturbed >= rule->looks[0];
-    c->seconds += lot->cells[row].seconds;
+    const struct rg_gate_row *found = &lot->rows[row];
+    struct rg_timed_cell *cell = &lot->cells[row];
+    cell->is_over |= found->end == RG_END_OVER;
+    if (found->end != RG_END_BROKEN)
+        cell->outcome = RG_OK; // a side fell after it was decided
+    r->has_looked |= !cell->is_over || found->launches - found->disturbed >= rule->looks[0];
+    c->seconds += cell->seconds;
     c->row = *found;
     c->rule = *rule;
-    c->times = lot->cells[row];
+    c->times = *cell;
     if (c->is_advised)
         rg_gate_advise(&c->row, &c->times, r->asked->baseline->yardsticks, r->yardsticks,
                        &c->agreement);
@@ -453,11 +430,6 @@ static bool time_all(struct run *r, struct rg_gate_case *cases, int count)
 }
 
 // --- the budget ---
-
-static int pairs_of(const struct run *r)
-{
-    return r->asked->baseline ? 1 : r->asked->pairs->count;
-}
 
 // Gives a pair its share of the time that is left.
 static void begin_pair(struct run *r, int pair)
@@ -526,7 +498,7 @@ static bool close_all(struct run *r)
         rg_side_close(&r->sides[side]);
         clean = clean && !r->sides[side].was_closed_badly;
     }
-    for (int i = 0; i < RG_MAX_DEVICES; i++)
+    for (int i = 0; i < MOST_SIDES; i++)
         json_decref(r->parts[i]);
     json_decref(r->passport);
     return clean;

@@ -8,7 +8,6 @@
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/frames/session.h"
-#include "harness/record/named.h"
 #include "harness/record/stats.h"
 
 // A launch takes several blocks, or times of B alone. Opening a cell costs as much as several
@@ -34,10 +33,9 @@ bool rg_times_are_over(void *user)
 
 bool rg_timed_cell_fails(struct rg_timed_cell *timed)
 {
-    const struct rg_failure failure = rg_failure_take();
-    timed->outcome = failure.outcome == RG_UNSUPPORTED ? RG_ERROR : failure.outcome;
-    timed->is_ours = failure.fault != RG_FAULT_DRIVER && failure.fault != RG_FAULT_NONE;
-    rg_text_copy(timed->why, sizeof(timed->why), failure.line);
+    timed->outcome = rg_side_failure(&timed->is_ours, timed->why, sizeof(timed->why));
+    if (timed->outcome == RG_UNSUPPORTED)
+        timed->outcome = RG_ERROR;
     return false;
 }
 
@@ -232,8 +230,6 @@ static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions
 static bool take(struct rg_gate_times *t, struct rg_timed_cell *timed, bool b_first,
                  struct rg_quads *quads)
 {
-    const struct rg_gate_cell *cell = timed->cell;
-    const struct rg_subject subject = {cell->technique, cell->settings, cell->width, cell->height};
     struct rg_session *sessions[RG_SIDES] = {NULL, NULL};
     const double start_ms = rg_now_ms();
     bool ok = true;
@@ -243,9 +239,10 @@ static bool take(struct rg_gate_times *t, struct rg_timed_cell *timed, bool b_fi
         if (!side)
             continue;
         timed->side = number;
-        sessions[number] = side->device || rg_side_launch(side)
-                               ? rg_session_run(side->device, &subject, cell->frames)
-                               : NULL;
+        sessions[number] =
+            side->device || rg_side_launch(side)
+                ? rg_session_run(side->device, &timed->cell->subject, timed->cell->frames)
+                : NULL;
         ok = sessions[number] != NULL;
     }
     ok = ok && warm_up(t, timed, sessions) && time_launch(timed, sessions, b_first, quads);

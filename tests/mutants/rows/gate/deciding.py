@@ -51,5 +51,5 @@ ROWS = [
     Fault(JOURNAL, "if («was && !strcmp(was, code)»)\n", "was != NULL", "times that other code took are gone on with", tests=("command line, losses",)),
     Fault("harness/compare/gate/run/gate.c", "r->asked->baseline ? «lot->before» : NULL};", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, baselines",)),
     Fault(JOURNAL, "    «json_array_append_new(launches, launch_json(launch, quads));»", ";", "a launch is not kept", tests=("command line, losses",)),
-    Fault(JOURNAL, "if («json_integer_value(json_array_get(found, 0)) == launch»)", "true", "each launch is the first that was kept", tests=("command line, losses",)),
+    Fault(JOURNAL, "if (take_launch(found, &number, quads) && «number == launch»)", "true", "each launch is the first that was kept", tests=("command line, losses",)),
 ]
