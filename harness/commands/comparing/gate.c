@@ -292,17 +292,38 @@ static bool can_search(const struct gate_input *in)
     return ok;
 }
 
-// A baseline keeps the short name of a device alone, and what it stands for is said by --device.
-static bool knows_devices(const struct gate_options *o, const struct rg_baseline *baseline)
+// Each device of the baseline that is asked for is a B without an A.
+static void pair_devices(const struct gate_options *o, struct gate_input *in)
 {
-    for (int i = 0; i < baseline->device_count; i++) {
-        const char *name = baseline->devices[i].name;
-        if (!rg_backend_of(rg_device_name_full(name)) && rg_baseline_asks(o->devices.names, name))
+    for (int i = 0; i < in->baseline.device_count; i++) {
+        const char *name = in->baseline.devices[i].name;
+        if (rg_baseline_asks(o->devices.names, name))
+            snprintf(in->pairs.all[in->pairs.count++].names[RG_SIDE_B], RG_DEVICE_NAME_SIZE, "%s",
+                     name);
+    }
+}
+
+// A baseline keeps the short name of a device alone, and what it stands for is said by --device.
+static bool knows_devices(const char *path, const struct rg_gate_pairs *pairs)
+{
+    for (int i = 0; i < pairs->count; i++) {
+        const char *name = pairs->all[i].names[RG_SIDE_B];
+        if (!rg_backend_of(rg_device_name_full(name)))
             return rg_error("%s: its device '%s' is a short name, and the file does not say of "
                             "what; add --device %s=DEVICE with all that are to run",
-                            o->baseline, name, name);
+                            path, name, name);
     }
     return true;
+}
+
+static bool read_baseline(const struct gate_options *o, struct gate_input *in)
+{
+    if (!rg_baseline_read(&in->baseline, o->baseline) ||
+        !rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
+                          o->cells ? o->cells : "built-in cells", o->devices.names))
+        return false;
+    pair_devices(o, in);
+    return knows_devices(o->baseline, &in->pairs) && has_times(o, &in->baseline);
 }
 
 static bool read_input(const struct gate_options *o, struct gate_input *in)
@@ -313,23 +334,7 @@ static bool read_input(const struct gate_options *o, struct gate_input *in)
         rg_gate_warn_of_unused(&in->known, &in->cells);
         rg_gate_warn_of_days(&in->known, today());
     }
-    return is_read &&
-           (!o->baseline ||
-            (rg_baseline_read(&in->baseline, o->baseline) &&
-             rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
-                              o->cells ? o->cells : "built-in cells", o->devices.names) &&
-             knows_devices(o, &in->baseline) && has_times(o, &in->baseline)));
-}
-
-// Each device of the baseline that is asked for is a B without an A.
-static void pair_devices(const struct gate_options *o, struct gate_input *in)
-{
-    for (int i = 0; i < in->baseline.device_count; i++) {
-        const char *name = in->baseline.devices[i].name;
-        if (rg_baseline_asks(o->devices.names, name))
-            snprintf(in->pairs.all[in->pairs.count++].names[RG_SIDE_B], RG_DEVICE_NAME_SIZE, "%s",
-                     name);
-    }
+    return is_read && (!o->baseline || read_baseline(o, in));
 }
 
 static int gate(const void *values, const struct rg_words *arguments)
@@ -344,7 +349,6 @@ static int gate(const void *values, const struct rg_words *arguments)
     int exit = find_pairs(o, arguments, &in.pairs);
     if (exit == RG_EXIT_PASS && !read_input(o, &in))
         exit = rg_exit_of_error();
-    pair_devices(o, &in);
     if (exit == RG_EXIT_PASS)
         exit = rg_exit_worse(o->gtest.list ? list_cases(o, &in) : run(o, &in), in.pairs.left_out);
     rg_baseline_free(&in.baseline);

@@ -1,6 +1,5 @@
 #include "harness/compare/gate/run/gate.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,10 +7,10 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/base/text/add.h"
 #include "harness/compare/gate/cells/unused.h"
 #include "harness/compare/gate/report/texts.h"
 #include "harness/compare/gate/run/agree.h"
+#include "harness/compare/gate/run/timing.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
@@ -19,29 +18,6 @@
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
-
-enum { MOST_SIDES = RG_SIDES * RG_MAX_DEVICES };
-
-// A gate while it runs.
-struct run {
-    const struct rg_gate_request *asked;
-    struct rg_gate *gate; // one case per cell that the filter selects
-    // Of the pairs, two by two, A first. With a baseline A has no name.
-    int side_count;
-    struct rg_side sides[MOST_SIDES];
-    struct rg_device_info infos[MOST_SIDES]; // of the sides that are there
-    json_t *passport;                        // of the sides that are there
-    // Of sides that run alone and are there.
-    json_t *parts[MOST_SIDES]; // of their comparison keys
-    bool same_key[MOST_SIDES]; // equal to the baseline's key
-    struct rg_truth truth;
-    struct rg_launches yardsticks[RG_YARDSTICKS];
-    double start_ms, end_ms;         // of the pair that runs; end 0: no limit
-    double first_ms;                 // when the first pair began
-    double look_ms;                  // until a pair's first look, the longest of all pairs
-    bool has_looked;                 // some case came as far as that, or ended without it
-    struct rg_gate_journal *journal; // NULL: no journal
-};
 
 // --- choosing cells ---
 
@@ -58,7 +34,7 @@ char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
 }
 
 // Whether the filter selects a case of this name, and the shard includes it.
-static bool is_chosen(struct run *r, const char *name)
+static bool is_chosen(struct rg_running_gate *r, const char *name)
 {
     char gtest[RG_GTEST_NAME];
     rg_gtest_name(name, gtest);
@@ -67,7 +43,7 @@ static bool is_chosen(struct run *r, const char *name)
 }
 
 // Adds a cell's case of a pair if it is chosen. False, and one logged line, without memory.
-static bool add_case(struct run *r, const struct rg_gate_cell *cell, int pair)
+static bool add_case(struct rg_running_gate *r, const struct rg_gate_cell *cell, int pair)
 {
     const struct rg_baseline *baseline = r->asked->baseline;
     struct rg_side *sides = &r->sides[pair * RG_SIDES];
@@ -91,7 +67,7 @@ static bool add_case(struct run *r, const struct rg_gate_cell *cell, int pair)
 }
 
 // All pairs become sides, even those without a chosen case.
-static bool choose(struct run *r)
+static bool choose(struct rg_running_gate *r)
 {
     const struct rg_gate_cells *cells = r->asked->cells;
     const struct rg_gate_pairs *pairs = r->asked->pairs;
@@ -113,9 +89,9 @@ static bool choose(struct run *r)
 
 // Launches each side once. Names of pairs must be valid, the two of a pair distinct, and required
 // devices there; any other missing side only ends its cases. Returns an enum rg_exit.
-static int look_at_sides(struct run *r)
+static int look_at_sides(struct rg_running_gate *r)
 {
-    struct rg_side_seen seen[MOST_SIDES];
+    struct rg_side_seen seen[RG_GATE_MOST_SIDES];
     struct rg_gate_target targets[RG_MAX_DEVICES];
     const bool are_pairs = !r->asked->baseline;
     int count = 0, target_count = 0;
@@ -142,9 +118,9 @@ static int look_at_sides(struct run *r)
 }
 
 // Describes what the report's numbers depend on: the machine, and the sides that are there.
-static bool set_passport(struct run *r)
+static bool set_passport(struct rg_running_gate *r)
 {
-    struct rg_device_info there[MOST_SIDES];
+    struct rg_device_info there[RG_GATE_MOST_SIDES];
     int count = 0;
     for (int side = 0; side < r->side_count; side++)
         if (*r->infos[side].name)
@@ -158,7 +134,7 @@ static bool set_passport(struct run *r)
 
 // Finds out whether the times of a side that runs alone can be compared with the baseline's, and
 // writes the reason to `out`.
-static void compare_key(struct run *r, int side, FILE *out)
+static void compare_key(struct rg_running_gate *r, int side, FILE *out)
 {
     const struct rg_baseline_device *was =
         rg_baseline_device(r->asked->baseline, r->sides[side].name);
@@ -178,7 +154,7 @@ static void compare_key(struct run *r, int side, FILE *out)
 }
 
 // Notes which driver each side runs, to be printed above the results.
-static bool note_sides(struct run *r)
+static bool note_sides(struct rg_running_gate *r)
 {
     size_t size;
     char line[RG_DRIVER_LINE];
@@ -199,7 +175,7 @@ static bool note_sides(struct run *r)
 // --- the journal ---
 
 // Everything that the times depend on, those of a baseline among it.
-static json_t *key_of(const struct run *r)
+static json_t *key_of(const struct rg_running_gate *r)
 {
     const struct rg_gate_request *asked = r->asked;
     json_t *cells = json_object(), *pairs = json_array(), *before = json_object();
@@ -223,7 +199,7 @@ static json_t *key_of(const struct run *r)
                      shards->total);
 }
 
-static bool open_journal(struct run *r)
+static bool open_journal(struct rg_running_gate *r)
 {
     if (!r->asked->folder || r->asked->pictures_only)
         return true;
@@ -234,7 +210,7 @@ static bool open_journal(struct run *r)
 // --- comparing ---
 
 // Makes the case's sides, and no others, run; a failure ends the case.
-static bool launch_for(struct run *r, struct rg_gate_case *c)
+static bool launch_for(struct rg_running_gate *r, struct rg_gate_case *c)
 {
     for (int i = 0; i < r->side_count; i++)
         if (&r->sides[i] != c->sides[RG_SIDE_A] && &r->sides[i] != c->sides[RG_SIDE_B])
@@ -250,12 +226,12 @@ static bool launch_for(struct run *r, struct rg_gate_case *c)
     return true;
 }
 
-static bool is_over(const struct run *r)
+static bool is_over(const struct rg_running_gate *r)
 {
     return r->end_ms > 0 && rg_now_ms() >= r->end_ms;
 }
 
-static void compare(struct run *r, struct rg_gate_case *c)
+static void compare(struct rg_running_gate *r, struct rg_gate_case *c)
 {
     const double start_ms = rg_now_ms();
     const bool over = is_over(r), there = !over && launch_for(r, c);
@@ -280,173 +256,25 @@ static void compare(struct run *r, struct rg_gate_case *c)
     }
 }
 
-// --- timing the cases that agree ---
-
-// How many courses share the budget and the error: one with a baseline.
-static int pairs_of(const struct run *r)
-{
-    return r->asked->baseline ? 1 : r->asked->pairs->count;
-}
-
-// Cases that are timed in one course.
-struct lot {
-    int count;
-    struct rg_gate_case **cases;
-    struct rg_timed_cell *cells;
-    struct rg_gate_sample *before; // with a baseline
-    struct rg_gate_row *rows;
-};
-
-static void free_lot(struct lot *lot)
-{
-    free(lot->cases);
-    free(lot->cells);
-    free(lot->before);
-    free(lot->rows);
-}
-
-// Chooses the advised cases, or the timed ones, from `count` cases.
-static bool make_lot(struct rg_gate_case *cases, int count, bool is_advice, struct lot *lot)
-{
-    const size_t room = (size_t)count;
-    lot->cases = rg_alloc(room, sizeof(struct rg_gate_case *), "gate");
-    lot->cells = rg_alloc(room, sizeof(*lot->cells), "gate");
-    lot->before = rg_alloc(room, sizeof(*lot->before), "gate");
-    lot->rows = rg_alloc(room, sizeof(*lot->rows), "gate");
-    if (!lot->cases || !lot->cells || !lot->before || !lot->rows)
-        return false;
-    for (struct rg_gate_case *c = cases; c < cases + count; c++) {
-        const int row = lot->count;
-        if (is_advice ? !c->is_advised : !c->is_timed)
-            continue;
-        lot->count++;
-        lot->cases[row] = c;
-        lot->cells[row] = (struct rg_timed_cell){
-            .cell = c->cell, .name = c->name, .sides = {c->sides[RG_SIDE_A], c->sides[RG_SIDE_B]}};
-        if (!c->before)
-            continue;
-        lot->cells[row].side = RG_SIDE_B;
-        lot->cells[row].slot = c->before->slot;
-        lot->before[row] = rg_baseline_sample(&c->before->launches);
-    }
-    return true;
-}
-
-// Advice takes one look, and no change matters to it: it is reported and decides nothing.
-static struct rg_gate_rule rule_of(const struct run *r, const struct lot *lot, bool is_advice)
-{
-    struct rg_gate_rule rule =
-        r->asked->baseline ? rg_gate_rule_apart(lot->count) : rg_gate_rule_of(lot->count);
-    rule.margin = is_advice ? INFINITY : r->asked->margin;
-    if (is_advice)
-        rule.look_count = 1;
-    rule.error /= pairs_of(r);
-    return rule;
-}
-
-enum { CODE = 512 };
-// Describes the code that ran as a text that is equal for equal code.
-static void describe_code(const struct rg_agreement *agreement, char code[CODE])
-{
-    *code = 0;
-    for (int side = 0; side < RG_SIDES; side++) {
-        const struct rg_session_code *of = &agreement->code[side];
-        rg_text_add(code, CODE, ", ", "%s %016" PRIx64 " %016" PRIx64, of->program, of->libraries,
-                    of->passes.hash);
-    }
-}
-
-// Drops journal times that were taken with other code.
-static void expect_codes(struct run *r, const struct lot *lot)
-{
-    for (int i = 0; r->journal && i < lot->count; i++) {
-        char code[CODE];
-        describe_code(&lot->cases[i]->agreement, code);
-        rg_gate_journal_expect(r->journal, lot->cells[i].name, code);
-    }
-}
-
-static void tell_row(struct run *r, const struct lot *lot, int row, const struct rg_gate_rule *rule)
-{
-    struct rg_gate_case *c = lot->cases[row];
-    const struct rg_gate_row *found = &lot->rows[row];
-    struct rg_timed_cell *cell = &lot->cells[row];
-    cell->is_over |= found->end == RG_END_OVER;
-    if (found->end != RG_END_BROKEN)
-        cell->outcome = RG_OK; // a side fell after it was decided
-    r->has_looked |= !cell->is_over || found->launches - found->disturbed >= rule->looks[0];
-    c->seconds += cell->seconds;
-    c->row = *found;
-    c->rule = *rule;
-    c->times = *cell;
-    if (c->is_advised)
-        rg_gate_advise(&c->row, &c->times, r->asked->baseline->yardsticks, r->yardsticks,
-                       &c->agreement);
-}
-
-static bool time_lot(struct run *r, const struct lot *lot, bool is_advice,
-                     struct rg_gate_times *times)
-{
-    const struct rg_gate_rule rule = rule_of(r, lot, is_advice);
-    const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, times,
-                                          r->asked->baseline ? lot->before : NULL};
-    times->cell_count = lot->count;
-    times->cells = lot->cells;
-    times->journal = is_advice ? NULL : r->journal; // advice is not kept
-    times->failed = times->is_launched = false;
-    times->launch = 0;
-    times->first_look = rule.looks[0];
-    if (!is_advice)
-        expect_codes(r, lot);
-    const bool ok = rg_course_run(&rule, &source, RG_COURSE_SEED, lot->rows);
-    for (int i = 0; ok && i < lot->count; i++)
-        tell_row(r, lot, i, &rule);
-    return ok;
-}
-
-// Times the cases of a pair, or all that run alone.
-static bool time_all(struct run *r, struct rg_gate_case *cases, int count)
-{
-    struct rg_yardstick_room room = {NULL};
-    struct lot lots[2] = {{.count = 0}, {.count = 0}}; // timed cases, and advised ones
-    struct rg_gate_times times = {.side_count = r->asked->baseline ? r->side_count : RG_SIDES,
-                                  .sides = r->asked->baseline ? r->sides : cases->sides[RG_SIDE_A],
-                                  .yardsticks = r->yardsticks,
-                                  .end_ms = r->end_ms};
-    bool ok = !rg_interrupted();
-    for (int i = 0; ok && i < 2; i++)
-        ok = make_lot(cases, count, i, &lots[i]);
-    if (ok && r->asked->baseline && lots[0].count + lots[1].count) {
-        ok = rg_yardsticks_open(&room);
-        times.room = &room;
-    }
-    for (int i = 0; ok && i < 2; i++)
-        ok = !lots[i].count || time_lot(r, &lots[i], i, &times);
-    rg_yardsticks_close(&room);
-    free_lot(&lots[0]);
-    free_lot(&lots[1]);
-    r->look_ms = fmax(r->look_ms, times.look_ms - r->start_ms);
-    return ok || rg_interrupted();
-}
-
 // --- the budget ---
 
 // Gives a pair its share of the time that is left.
-static void begin_pair(struct run *r, int pair)
+static void begin_pair(struct rg_running_gate *r, int pair)
 {
     const double now_ms = rg_now_ms();
     const double left_ms = r->asked->begin_ms + 1e3 * r->asked->budget_s - now_ms;
     r->start_ms = now_ms;
-    r->end_ms = r->asked->budget_s > 0 ? now_ms + fmax(left_ms, 0) / (pairs_of(r) - pair) : 0;
+    r->end_ms =
+        r->asked->budget_s > 0 ? now_ms + fmax(left_ms, 0) / (rg_gate_courses(r) - pair) : 0;
 }
 
-static int first_look(const struct run *r)
+static int first_look(const struct rg_running_gate *r)
 {
     return (r->asked->baseline ? rg_gate_rule_apart(1) : rg_gate_rule_of(1)).looks[0];
 }
 
 // If the time is over before the first launch, a launch is taken to last as long as comparing did.
-static void expect_look(struct run *r, const struct rg_gate_case *cases, int count)
+static void expect_look(struct rg_running_gate *r, const struct rg_gate_case *cases, int count)
 {
     int compared = 0;
     for (int i = 0; i < count; i++)
@@ -458,7 +286,7 @@ static void expect_look(struct run *r, const struct rg_gate_case *cases, int cou
 
 // --- the whole gate ---
 
-static bool run_all(struct run *r)
+static bool run_all(struct rg_running_gate *r)
 {
     struct rg_gate_case *cases = r->gate->cases;
     bool ok = true;
@@ -469,21 +297,21 @@ static bool run_all(struct run *r)
             if (!rg_interrupted())
                 compare(r, &cases[end]);
         expect_look(r, &cases[i], end - i);
-        ok = time_all(r, &cases[i], end - i);
+        ok = rg_gate_time(r, &cases[i], end - i);
     }
     return ok && (rg_interrupted() || rg_gate_report(r->asked, r->gate));
 }
 
 // The enum rg_exit of what was found. A budget in which no case came as far as its first look is
 // refused, since nothing could be decided.
-static int exit_of(const struct run *r)
+static int exit_of(const struct rg_running_gate *r)
 {
     const struct rg_gate_request *asked = r->asked;
     const int exit = rg_gate_exit(asked, r->gate);
     if (exit != RG_EXIT_INCONCLUSIVE || !(asked->budget_s > 0) || r->has_looked)
         return exit;
     const double before_ms = r->first_ms - asked->begin_ms;
-    const double needed_s = ceil((before_ms + pairs_of(r) * r->look_ms) / 1000);
+    const double needed_s = ceil((before_ms + rg_gate_courses(r) * r->look_ms) / 1000);
     rg_error("--budget: the first look, after %d launches, comes about %.0f s after the start, so "
              "that nothing is decided within %g s; give %.0fs or more, or gate fewer cells",
              first_look(r), needed_s, asked->budget_s, needed_s);
@@ -491,20 +319,20 @@ static int exit_of(const struct run *r)
 }
 
 // False if a device was ever closed badly.
-static bool close_all(struct run *r)
+static bool close_all(struct rg_running_gate *r)
 {
     bool clean = rg_truth_close(&r->truth);
     for (int side = 0; side < r->side_count; side++) {
         rg_side_close(&r->sides[side]);
         clean = clean && !r->sides[side].was_closed_badly;
     }
-    for (int i = 0; i < MOST_SIDES; i++)
+    for (int i = 0; i < RG_GATE_MOST_SIDES; i++)
         json_decref(r->parts[i]);
     json_decref(r->passport);
     return clean;
 }
 
-static bool was_lacking(const struct run *r)
+static bool was_lacking(const struct rg_running_gate *r)
 {
     bool any = false;
     for (int side = 0; side < r->side_count; side++)
@@ -514,7 +342,7 @@ static bool was_lacking(const struct run *r)
 
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
 {
-    struct run r = {.asked = request, .gate = gate};
+    struct rg_running_gate r = {.asked = request, .gate = gate};
     rg_interrupt_watch();
     const bool is_chosen = choose(&r);
     int found = is_chosen ? look_at_sides(&r) : rg_exit_of_error();

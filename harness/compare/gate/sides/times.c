@@ -20,6 +20,17 @@ static double wait_ms(const struct rg_gate_times *t, int launch, double launch_m
     return launch_ms * (launch < t->first_look ? t->first_look - launch : 1);
 }
 
+// Whether the time has room for so much more of a cell; else the cell is over.
+static bool has_room(struct rg_gate_times *t, struct rg_timed_cell *timed, double more_ms)
+{
+    const double now_ms = rg_now_ms();
+    timed->is_over = t->end_ms > 0 && now_ms + more_ms >= t->end_ms;
+    if (timed->is_over && t->launch < t->first_look)
+        t->look_ms =
+            fmax(t->look_ms, now_ms + wait_ms(t, t->launch, fmax(more_ms, now_ms - t->began_ms)));
+    return !timed->is_over;
+}
+
 // The first launch is no measure of others, since drivers fill their caches in it.
 bool rg_times_are_over(void *user)
 {
@@ -160,17 +171,6 @@ static bool time_slot(struct rg_session *session, const struct rg_slot *slot, do
 
 // --- a cell's launch ---
 
-// Whether the time has room for the cell's timings. A baseline may ask for many frames.
-static bool has_room(struct rg_gate_times *t, struct rg_timed_cell *timed, double frames_ms)
-{
-    const int frames = QUADS * timed->slot.timings * timed->slot.frames;
-    const double now_ms = rg_now_ms(), launch_ms = frames * frames_ms;
-    timed->is_over = t->end_ms > 0 && now_ms + launch_ms > t->end_ms;
-    if (timed->is_over && t->launch < t->first_look)
-        t->look_ms = fmax(t->look_ms, now_ms + wait_ms(t, t->launch, launch_ms));
-    return !timed->is_over;
-}
-
 // Runs frames that are not timed, because drivers compile in the first. Both sides get the same
 // slot, chosen by the geometric mean of their frame times, so that a slow side does not take for
 // ever and a fast one is not too short for the clock. False also if there is no room for it.
@@ -188,9 +188,10 @@ static bool warm_up(struct rg_gate_times *t, struct rg_timed_cell *timed,
     if (!timed->slot.frames)
         settle(&timed->slot, sessions[RG_SIDE_A] ? sqrt(frame_ms[RG_SIDE_A] * frame_ms[RG_SIDE_B])
                                                  : frame_ms[RG_SIDE_B]);
-    return has_room(t, timed,
-                    sessions[RG_SIDE_A] ? 2 * (frame_ms[RG_SIDE_A] + frame_ms[RG_SIDE_B])
-                                        : frame_ms[RG_SIDE_B]);
+    // A baseline may ask for many frames.
+    const double frames_ms =
+        sessions[RG_SIDE_A] ? 2 * (frame_ms[RG_SIDE_A] + frame_ms[RG_SIDE_B]) : frame_ms[RG_SIDE_B];
+    return has_room(t, timed, QUADS * timed->slot.timings * timed->slot.frames * frames_ms);
 }
 
 static bool time_quad(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES],
@@ -259,7 +260,9 @@ bool rg_times_take(int row, bool b_first, struct rg_quads *quads, void *user)
     struct rg_gate_times *t = user;
     if (t->journal && rg_gate_journal_find(t->journal, t->cells[row].name, t->launch, quads))
         return true;
-    if ((!t->is_launched && (t->failed || !start(t))) || !take(t, &t->cells[row], b_first, quads))
+    if (!t->is_launched && (t->failed || !start(t)))
+        return false;
+    if (!has_room(t, &t->cells[row], 0) || !take(t, &t->cells[row], b_first, quads))
         return false;
     if (t->journal)
         rg_gate_journal_add(t->journal, t->cells[row].name, t->launch, quads);
