@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <jansson.h>
 #include <limits.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +12,7 @@
 
 #include "core/base/doing.h"
 #include "core/base/files/file.h"
+#include "core/base/text/add.h"
 
 // State of a walk over an API's drivers.
 struct walk {
@@ -28,17 +28,6 @@ struct walk {
     char broken[512];  // why the first broken driver fails, preferring a named one; "": none
     char foreign[512]; // the same for a driver for another kind of processor
 };
-
-// Appends to a line.
-__attribute__((format(printf, 3, 4))) static void add(char *why, size_t size, const char *format,
-                                                      ...)
-{
-    va_list args;
-    va_start(args, format);
-    const size_t used = strlen(why);
-    vsnprintf(why + used, size - used, format, args);
-    va_end(args);
-}
 
 static bool ends_with(const char *text, const char *ending)
 {
@@ -112,7 +101,7 @@ static void examine_library(struct walk *walk, const char *path, const char *nam
     if (*fault)
         note(walk, path, fault, is_failing);
     else if (strlen(walk->sound) + strlen(path) + 1 < sizeof(walk->sound))
-        add(walk->sound, sizeof(walk->sound), "%s%s", *walk->sound ? ":" : "", path);
+        rg_text_add(walk->sound, sizeof(walk->sound), ":", "%s", path);
     if (library)
         dlclose(library);
 }
@@ -306,12 +295,12 @@ static int judge_none(const struct walk *walk, const char *instead, enum rg_mani
 {
     const char *broken = *walk->broken ? walk->broken : walk->foreign;
     if (*broken) {
-        add(why, why_size, ": %s", broken);
+        rg_text_add(why, why_size, "", ": %s", broken);
         return end_of(walk);
     }
     if (walk->named_by) {
-        add(why, why_size, "; %s names a driver that gives no device here: name another",
-            walk->named_by);
+        rg_text_add(why, why_size, "",
+                    "; %s names a driver that gives no device here: name another", walk->named_by);
         return RG_LIST_BROKEN;
     }
     if (state == RG_MANIFEST_BROKEN)
@@ -319,13 +308,13 @@ static int judge_none(const struct walk *walk, const char *instead, enum rg_mani
     if (state == RG_MANIFEST_FAILED || (state == RG_MANIFEST_UNCLEAR && walk->devices))
         return RG_LIST_FAILED;
     if (instead)
-        add(why, why_size, "; %s=%.100s names no driver: unset it, or name one", instead,
-            getenv(instead));
+        rg_text_add(why, why_size, "", "; %s=%.100s names no driver: unset it, or name one",
+                    instead, getenv(instead));
     else if (walk->drivers)
-        add(why, why_size, "; the drivers that are installed serve no other device");
+        rg_text_add(why, why_size, "", "; the drivers that are installed serve no other device");
     else
-        add(why, why_size, "; install the Debian package %s, which brings one",
-            walk->rules->package);
+        rg_text_add(why, why_size, "", "; install the Debian package %s, which brings one",
+                    walk->rules->package);
     return 0;
 }
 

@@ -357,7 +357,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(drivers_are_silent),
     };
     reason = argc > 1 ? argv[1] : NULL;
-    kind = argc > 2 && !strcmp(argv[2], "fails") ? RG_FAULT_DRIVER : RG_FAULT_NONE;
+    kind = argc > 2 && !strcmp(argv[2], "broken") ? RG_FAULT_SETUP : RG_FAULT_NONE;
     cmocka_set_message_output(CM_OUTPUT_TAP);
     rg_log_listen(count_line, NULL);
     noise = tmpfile();

@@ -205,7 +205,7 @@ static void drivers_that_are_named_and_are_not_there_fail(void **state)
         unsetenv("VK_DRIVER_FILES");
     free(kept);
     assert_null(device);
-    assert_int_equal(rg_failure_take().fault, RG_FAULT_DRIVER);
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_SETUP);
     assert_int_equal(errors, 1);
     assert_non_null(strstr(rg_last_error(), "VK_ERROR_INCOMPATIBLE_DRIVER"));
     assert_non_null(

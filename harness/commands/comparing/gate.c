@@ -29,8 +29,7 @@ struct gate_options {
     char *cells;                     // a file; NULL: the built-in ones
     double margin_percent;           // 0: not given
     char *budget;                    // "2m"; NULL: none
-    struct rg_words known[3];        // files of expectations, of Mesa's fails, of Mesa's flakes
-    struct rg_words skips;           // of Mesa's skips
+    struct rg_words known[RG_FORMS]; // files of expectations, of Mesa's fails, flakes and skips
     struct rg_reports_asked reports;
     char *pictures; // a folder for those that differ; NULL: beside the file of JUnit
     struct rg_gtest_asked gtest;
@@ -82,7 +81,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXTS, "flakes", .argument = "FILE", .about = "the same as Mesa's *-flakes.txt",
      .offset = AT(known[RG_FORM_FLAKES]), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXTS, "skips", .argument = "FILE", .about = "the same as Mesa's *-skips.txt",
-     .offset = AT(skips), .names = RG_NAMES_FILE},
+     .offset = AT(known[RG_FORM_SKIPS]), .names = RG_NAMES_FILE},
     {RG_OPTION_FLAG, "update",
      .about = "writes the files of --expectations and --fails anew where they are not true of this "
               "run; `git diff` shows what changed",
@@ -103,20 +102,12 @@ static const struct rg_option options[] = {
 
 // --- inputs ---
 
-// The expectation files of a format.
-static const struct rg_words *files_of(const struct gate_options *o, int form)
-{
-    return form == RG_FORM_SKIPS ? &o->skips : &o->known[form];
-}
-
 static bool read_known(const struct gate_options *o, struct rg_known *known)
 {
     bool ok = true;
-    for (int form = RG_FORM_OWN; form <= RG_FORM_SKIPS; form++) {
-        const struct rg_words *files = files_of(o, form);
-        for (int i = 0; ok && i < files->count; i++)
-            ok = rg_known_add(known, files->items[i], (enum rg_known_form)form);
-    }
+    for (int form = RG_FORM_OWN; form < RG_FORMS; form++)
+        for (int i = 0; ok && i < o->known[form].count; i++)
+            ok = rg_known_add(known, o->known[form].items[i], (enum rg_known_form)form);
     return ok;
 }
 
@@ -154,9 +145,6 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
     bool ok = true;
     for (int i = 0; ok && i < in->pairs.count; i++)
         ok = add_names(&in->cells, in->pairs.all[i].names[RG_SIDE_B], &report);
-    for (int i = 0; ok && i < in->baseline.device_count; i++)
-        ok = !rg_baseline_asks(o->devices.names, in->baseline.devices[i].name) ||
-             add_names(&in->cells, in->baseline.devices[i].name, &report);
     if (ok)
         rg_gtest_list(stdout, &report, o->gtest.filter ? o->gtest.filter : "*");
     rg_report_free(&report);
@@ -168,11 +156,9 @@ static bool spares_inputs(const struct gate_options *o, const struct rg_gate_out
 {
     bool ok =
         rg_gate_outputs_spare(outputs, o->cells) && rg_gate_outputs_spare(outputs, o->baseline);
-    for (int form = RG_FORM_OWN; ok && form <= RG_FORM_SKIPS; form++) {
-        const struct rg_words *files = files_of(o, form);
-        for (int i = 0; ok && i < files->count; i++)
-            ok = rg_gate_outputs_spare(outputs, files->items[i]);
-    }
+    for (int form = RG_FORM_OWN; form < RG_FORMS; form++)
+        for (int i = 0; ok && i < o->known[form].count; i++)
+            ok = rg_gate_outputs_spare(outputs, o->known[form].items[i]);
     return ok;
 }
 
@@ -234,7 +220,6 @@ static int run(const struct gate_options *o, const struct gate_input *in)
     struct rg_gate_request request = {.cells = &in->cells,
                                       .pairs = &in->pairs,
                                       .baseline = o->baseline ? &in->baseline : NULL,
-                                      .devices = o->devices.names,
                                       .known = &in->known,
                                       .require = o->devices.require,
                                       .left = left_of(o, in),
@@ -307,17 +292,38 @@ static bool can_search(const struct gate_input *in)
     return ok;
 }
 
-// A baseline keeps the short name of a device alone, and what it stands for is said by --device.
-static bool knows_devices(const struct gate_options *o, const struct rg_baseline *baseline)
+// Each device of the baseline that is asked for is a B without an A.
+static void pair_devices(const struct gate_options *o, struct gate_input *in)
 {
-    for (int i = 0; i < baseline->device_count; i++) {
-        const char *name = baseline->devices[i].name;
-        if (!rg_backend_of(rg_device_name_full(name)) && rg_baseline_asks(o->devices.names, name))
+    for (int i = 0; i < in->baseline.device_count; i++) {
+        const char *name = in->baseline.devices[i].name;
+        if (rg_baseline_asks(o->devices.names, name))
+            snprintf(in->pairs.all[in->pairs.count++].names[RG_SIDE_B], RG_DEVICE_NAME_SIZE, "%s",
+                     name);
+    }
+}
+
+// A baseline keeps the short name of a device alone, and what it stands for is said by --device.
+static bool knows_devices(const char *path, const struct rg_gate_pairs *pairs)
+{
+    for (int i = 0; i < pairs->count; i++) {
+        const char *name = pairs->all[i].names[RG_SIDE_B];
+        if (!rg_backend_of(rg_device_name_full(name)))
             return rg_error("%s: its device '%s' is a short name, and the file does not say of "
                             "what; add --device %s=DEVICE with all that are to run",
-                            o->baseline, name, name);
+                            path, name, name);
     }
     return true;
+}
+
+static bool read_baseline(const struct gate_options *o, struct gate_input *in)
+{
+    if (!rg_baseline_read(&in->baseline, o->baseline) ||
+        !rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
+                          o->cells ? o->cells : "built-in cells", o->devices.names))
+        return false;
+    pair_devices(o, in);
+    return knows_devices(o->baseline, &in->pairs) && has_times(o, &in->baseline);
 }
 
 static bool read_input(const struct gate_options *o, struct gate_input *in)
@@ -328,12 +334,7 @@ static bool read_input(const struct gate_options *o, struct gate_input *in)
         rg_gate_warn_of_unused(&in->known, &in->cells);
         rg_gate_warn_of_days(&in->known, today());
     }
-    return is_read &&
-           (!o->baseline ||
-            (rg_baseline_read(&in->baseline, o->baseline) &&
-             rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
-                              o->cells ? o->cells : "built-in cells", o->devices.names) &&
-             knows_devices(o, &in->baseline) && has_times(o, &in->baseline)));
+    return is_read && (!o->baseline || read_baseline(o, in));
 }
 
 static int gate(const void *values, const struct rg_words *arguments)

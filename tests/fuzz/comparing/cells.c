@@ -8,9 +8,9 @@
 static bool is_sound(const struct rg_gate_cells *cells, int64_t i)
 {
     const struct rg_gate_cell *cell = &cells->cells[i];
-    bool sound = *cell->name && cell->technique && cell->settings && cell->assignments &&
-                 cell->width > 0 && cell->height > 0 && cell->frames >= 0 &&
-                 cell->line > (i ? cell[-1].line : 0);
+    bool sound = *cell->name && cell->subject.technique && cell->subject.settings &&
+                 cell->assignments && cell->subject.width > 0 && cell->subject.height > 0 &&
+                 cell->frames >= 0 && cell->line > (i ? cell[-1].line : 0);
     for (int64_t k = 0; k < i; k++)
         sound = sound && strcmp(cell->name, cells->cells[k].name) != 0;
     return sound;

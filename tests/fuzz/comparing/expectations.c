@@ -24,8 +24,9 @@ static void ask(const struct rg_known *known)
             rg_known_row(known, results[i].cell, results[i].device, results[i].driver, TODAY);
         if (row < -1 || row >= known->count)
             fuzz_complain("a row that is not there");
-        const enum rg_met met = rg_known_judge(known, row, &results[i], TODAY);
-        if ((met == RG_MET_NOTHING) != (row < 0) || !rg_met_name(met))
+        const struct rg_judged judged =
+            rg_known_judge(known, row, &results[i], rg_ending_of(results[i].outcome), TODAY);
+        if (judged.applies != (row >= 0) || judged.applies != (*rg_judged_word(&judged) != 0))
             fuzz_complain("a verdict that cannot be");
         rg_known_skips(known, row, TODAY);
     }

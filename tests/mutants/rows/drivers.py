@@ -17,6 +17,11 @@ OF_CL = ("device suite, kernels, opencl", "device suite, images, opencl", "openc
 MANIFESTS, OF_FAILING = "backends/manifests.c", ("command line, failing",)
 
 ROWS = [
+    Fault(MANIFESTS, "return walk->is_failing ? RG_LIST_FAILED : «RG_LIST_BROKEN»;", "RG_LIST_FAILED", "a file that is broken is the driver's fault", tests=OF_FAILING),
+    Fault(MANIFESTS, "name another\", walk->named_by);\n        return «RG_LIST_BROKEN»;", "RG_LIST_FAILED", "a variable that names a driver without a device is the driver's fault", tests=OF_FAILING),
+    Fault("backends/opencl/api/search.c", "        note(search, «RG_MANIFEST_BROKEN»,\n             \"no OpenCL device: PoCL cannot", "RG_MANIFEST_FAILED", "a cache that takes no files is PoCL's fault", tests=OF_FAILING),
+    Fault("backends/gl/api/drivers.c", "add_linker_error(why, why_size)) {\n        state = «RG_MANIFEST_BROKEN»;", "RG_MANIFEST_FAILED", "a library of Mesa's that is damaged is Mesa's fault", tests=OF_FAILING),
+    Fault("core/device/device.c", "(count == RG_LIST_BROKEN ? «rg_setup_error» : rg_driver_error)", "rg_driver_error", "what is broken is told as an error of a driver's", tests=OF_FAILING),
     Fault(MANIFESTS, "return walk.is_named_broken ? «end_of(&walk)» : count;", "count", "a named driver that fails beside a good one is passed over", tests=OF_FAILING),
     Fault(MANIFESTS, "if («walk->named_by»)", "false", "a named driver without a device is absent", tests=OF_FAILING),
     Fault(MANIFESTS, "if («*broken»)", "false", "a driver that cannot be loaded is absent", tests=OF_FAILING),

@@ -7,7 +7,7 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
-#include "harness/compare/gate/text/shell.h"
+#include "harness/compare/text/shell.h"
 #include "harness/devices/names.h"
 
 // --- rows and devices ---

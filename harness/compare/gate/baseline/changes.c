@@ -1,31 +1,15 @@
 // Prints the changes between a baseline and the one before it.
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
+#include "core/base/text/add.h"
 #include "harness/compare/gate/baseline/baseline.h"
 #include "harness/record/passport/key.h"
 
-// The changes of a cell, in one line.
-struct line {
-    char text[1024];
-    size_t used;
-};
-
-__attribute__((format(printf, 2, 3))) static void put(struct line *line, const char *format, ...)
-{
-    va_list args;
-    if (line->used && line->used < sizeof(line->text))
-        line->used +=
-            (size_t)snprintf(line->text + line->used, sizeof(line->text) - line->used, ", ");
-    if (line->used >= sizeof(line->text))
-        return;
-    va_start(args, format);
-    line->used +=
-        (size_t)vsnprintf(line->text + line->used, sizeof(line->text) - line->used, format, args);
-    va_end(args);
-}
+// Appends to the changes of a cell, in one line.
+enum { LINE = 1024 };
+#define PUT(line, ...) rg_text_add(line, LINE, ", ", __VA_ARGS__)
 
 // --- a cell ---
 
@@ -37,17 +21,17 @@ static const char *find_state(const struct rg_baseline_row *row, const char *nam
     return NULL;
 }
 
-static void put_states(struct line *line, const struct rg_baseline_row *then,
+static void put_states(char line[LINE], const struct rg_baseline_row *then,
                        const struct rg_baseline_row *now)
 {
     for (int i = 0; i < now->state_count; i++) {
         const char *was = find_state(then, now->states[i].name);
         if (!was || strcmp(was, now->states[i].digest) != 0)
-            put(line, "%s state '%s'", was ? "another" : "a new", now->states[i].name);
+            PUT(line, "%s state '%s'", was ? "another" : "a new", now->states[i].name);
     }
     for (int i = 0; i < then->state_count; i++)
         if (!find_state(now, then->states[i].name))
-            put(line, "no state '%s'", then->states[i].name);
+            PUT(line, "no state '%s'", then->states[i].name);
 }
 
 static const struct rg_count *find_counter(const struct rg_counters *counters, const char *name)
@@ -58,59 +42,59 @@ static const struct rg_count *find_counter(const struct rg_counters *counters, c
     return NULL;
 }
 
-static void put_counters(struct line *line, const struct rg_counters *then,
+static void put_counters(char line[LINE], const struct rg_counters *then,
                          const struct rg_counters *now)
 {
     for (int i = 0; i < now->count; i++) {
         const struct rg_count *is = &now->counters[i], *was = find_counter(then, is->name);
         if (!was)
-            put(line, "a new counter '%s'", is->name);
+            PUT(line, "a new counter '%s'", is->name);
         else if (was->value != is->value)
-            put(line, "'%s' %" PRId64 " and not %" PRId64, is->name, is->value, was->value);
+            PUT(line, "'%s' %" PRId64 " and not %" PRId64, is->name, is->value, was->value);
     }
     for (int i = 0; i < then->count; i++)
         if (!find_counter(now, then->counters[i].name))
-            put(line, "no counter '%s'", then->counters[i].name);
+            PUT(line, "no counter '%s'", then->counters[i].name);
 }
 
-static void put_work(struct line *line, const struct rg_tally *then, const struct rg_tally *now)
+static void put_work(char line[LINE], const struct rg_tally *then, const struct rg_tally *now)
 {
     for (int i = 0; i < RG_TALLY_FIELDS; i++) {
         int64_t was, is;
         memcpy(&was, (const char *)then + rg_tally_fields[i].offset, sizeof(was));
         memcpy(&is, (const char *)now + rg_tally_fields[i].offset, sizeof(is));
         if (was != is)
-            put(line, "%" PRId64 " %s a frame and not %" PRId64, is, rg_tally_fields[i].name, was);
+            PUT(line, "%" PRId64 " %s a frame and not %" PRId64, is, rg_tally_fields[i].name, was);
     }
 }
 
 // `rows`: the number of cells among which a gate shares its error.
-static void put_times(struct line *line, int rows, const struct rg_launches *then,
+static void put_times(char line[LINE], int rows, const struct rg_launches *then,
                       const struct rg_launches *now)
 {
     struct rg_gate_rule rule = rg_gate_rule_apart(rows);
     rule.look_count = 1;
     const struct rg_gate_sample was = rg_baseline_sample(then), is = rg_baseline_sample(now);
     if (!then->count != !now->count)
-        put(line, now->count ? "timed now" : "not timed any more");
+        PUT(line, now->count ? "timed now" : "not timed any more");
     if (!then->count || !now->count)
         return;
     const struct rg_gate_decision d = rg_gate_decide_apart(&rule, &was, is.logs, is.count);
     if (d.verdict == RG_TWO_REGRESSED || d.verdict == RG_TWO_IMPROVED)
-        put(line, "%.3g ms a frame and not %.3g", rg_launches_median(now),
+        PUT(line, "%.3g ms a frame and not %.3g", rg_launches_median(now),
             rg_launches_median(then));
 }
 
-static void put_row(struct line *line, const struct rg_baseline_row *then,
+static void put_row(char line[LINE], const struct rg_baseline_row *then,
                     const struct rg_baseline_row *now, bool same_key, int rows)
 {
     if (strcmp(then->settings, now->settings) != 0)
-        put(line, "other settings");
+        PUT(line, "other settings");
     if (then->outcome != now->outcome)
-        put(line, "%s and not %s%s%s", rg_outcome_name(now->outcome),
+        PUT(line, "%s and not %s%s%s", rg_outcome_name(now->outcome),
             rg_outcome_name(then->outcome), *now->why ? ": " : "", now->why);
     if (strcmp(then->picture, now->picture) != 0)
-        put(line, "another picture");
+        PUT(line, "another picture");
     put_states(line, then, now);
     put_counters(line, &then->counters, &now->counters);
     put_work(line, &then->work, &now->work);
@@ -148,14 +132,14 @@ static int print_row(const struct rg_baseline *then, const struct rg_baseline *n
                      const struct rg_baseline_row *row, FILE *out)
 {
     const struct rg_baseline_row *was = rg_baseline_find(then, row->cell, row->device);
-    struct line line = {.used = 0};
+    char line[LINE] = "";
     if (was)
-        put_row(&line, was, row, has_same_key(then, now, row->device), (int)now->count);
+        put_row(line, was, row, has_same_key(then, now, row->device), (int)now->count);
     else
-        put(&line, "new");
-    if (!line.used)
+        PUT(line, "new");
+    if (!*line)
         return 0;
-    fprintf(out, "%c %s.%s: %s\n", was ? '~' : '+', row->cell, row->device, line.text);
+    fprintf(out, "%c %s.%s: %s\n", was ? '~' : '+', row->cell, row->device, line);
     return 1;
 }
 

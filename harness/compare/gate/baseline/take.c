@@ -6,11 +6,6 @@
 #include "core/base/log.h"
 #include "harness/devices/frames/frame.h"
 
-static struct rg_subject subject_of(const struct rg_gate_cell *cell)
-{
-    return (struct rg_subject){cell->technique, cell->settings, cell->width, cell->height};
-}
-
 // --- everything but times ---
 
 static bool take_picture(struct rg_session *session, struct rg_baseline_row *row,
@@ -55,19 +50,15 @@ static bool take_work(struct rg_session *session, struct rg_baseline_row *row)
 void rg_baseline_take(const struct rg_gate_cell *cell, struct rg_device *device,
                       struct rg_baseline_row *row, struct rg_picture *picture)
 {
-    const struct rg_subject subject = subject_of(cell);
     snprintf(row->cell, sizeof(row->cell), "%s", cell->name);
-    snprintf(row->technique, sizeof(row->technique), "%s", cell->technique->name);
+    snprintf(row->technique, sizeof(row->technique), "%s", cell->subject.technique->name);
     snprintf(row->device, sizeof(row->device), "%s", device->info.name);
     rg_digest_of_cell(cell, row->settings);
     *picture = (struct rg_picture){0};
-    struct rg_session *session = rg_session_run(device, &subject, cell->frames);
+    struct rg_session *session = rg_session_run(device, &cell->subject, cell->frames);
     if (!session || !take_picture(session, row, picture) || !take_states(session, row) ||
         !take_work(session, row) || !rg_session_code(session, &row->code)) {
-        const struct rg_failure failure = rg_failure_take();
-        row->outcome = failure.outcome;
-        row->is_ours = failure.fault != RG_FAULT_DRIVER && failure.fault != RG_FAULT_NONE;
-        rg_text_copy(row->why, sizeof(row->why), failure.line);
+        row->outcome = rg_side_failure(&row->is_ours, row->why, sizeof(row->why));
         rg_picture_destroy(picture);
     }
     rg_session_close(session);
@@ -88,13 +79,12 @@ bool rg_truth_holds(struct rg_truth *truth, const struct rg_gate_cell *cell,
                     const struct rg_device *device, const struct rg_picture *picture,
                     struct rg_agreement *agreement)
 {
-    const struct rg_subject subject = subject_of(cell);
     struct rg_drawn due = {truth_name, {0}};
     const struct rg_drawn drawn = {device->info.name, *picture};
     if (!rg_alike_has_room(cell, agreement))
         return false;
     if (!rg_truth_open(truth) ||
-        !rg_frame_draw(truth->device, &subject, cell->frames, &due.picture))
+        !rg_frame_draw(truth->device, &cell->subject, cell->frames, &due.picture))
         return rg_agreement_fails(agreement, truth_name);
     const bool holds =
         rg_alike_pictures(cell, truth->device, rg_tier_owed(&device->info, &truth->device->info),

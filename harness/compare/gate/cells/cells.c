@@ -10,7 +10,7 @@
 #include "core/base/array.h"
 #include "core/base/log.h"
 #include "core/base/text/place.h"
-#include "harness/compare/gate/text/lines.h"
+#include "harness/compare/text/lines.h"
 
 enum { MAX_SIZE_PX = 16384, MAX_FRAMES = 100000 };
 
@@ -34,8 +34,8 @@ static bool take_name(struct rg_gate_cell *cell, const char *name)
 
 static bool take_technique(struct rg_gate_cell *cell, const char *name)
 {
-    cell->technique = rg_technique_find(name);
-    return cell->technique ||
+    cell->subject.technique = rg_technique_find(name);
+    return cell->subject.technique ||
            rg_error("technique '%.80s': unknown; `raingauge list techniques` prints them", name);
 }
 
@@ -53,11 +53,12 @@ static int number(const char *text, char end, int most, const char **rest)
 static bool take_size(struct rg_gate_cell *cell, const char *text)
 {
     const char *rest;
-    cell->width = number(text, 'x', MAX_SIZE_PX, &rest);
-    cell->height = cell->width > 0 ? number(rest, 0, MAX_SIZE_PX, &rest) : -1;
-    return cell->height > 0 || rg_error("size '%.80s': write WIDTHxHEIGHT of 1 to %d pixels, as in "
-                                        "128x96",
-                                        text, MAX_SIZE_PX);
+    cell->subject.width = number(text, 'x', MAX_SIZE_PX, &rest);
+    cell->subject.height = cell->subject.width > 0 ? number(rest, 0, MAX_SIZE_PX, &rest) : -1;
+    return cell->subject.height > 0 ||
+           rg_error("size '%.80s': write WIDTHxHEIGHT of 1 to %d pixels, as in "
+                    "128x96",
+                    text, MAX_SIZE_PX);
 }
 
 static bool take_frames(struct rg_gate_cell *cell, const char *text)
@@ -94,8 +95,9 @@ static bool has_keys_once(const char *assignments)
 
 static bool take_settings(struct rg_gate_cell *cell, const char *assignments)
 {
-    cell->settings = rg_settings_create(cell->technique);
-    if (!cell->settings)
+    void *settings = rg_settings_create(cell->subject.technique);
+    cell->subject.settings = settings;
+    if (!settings)
         return false;
     cell->assignments = strdup(assignments);
     for (char *c = cell->assignments; c && *c; c++)
@@ -103,7 +105,7 @@ static bool take_settings(struct rg_gate_cell *cell, const char *assignments)
             *c = ' ';
     if (!cell->assignments)
         return rg_harness_error("no memory");
-    return rg_params_set_all(cell->technique->params, cell->settings, cell->assignments) &&
+    return rg_params_set_all(cell->subject.technique->params, settings, cell->assignments) &&
            has_keys_once(cell->assignments);
 }
 
@@ -145,48 +147,44 @@ static bool take_line(struct rg_gate_cells *cells, char *text, int line)
     return take_fields(cell, rg_line_skip(text)) && is_alone(cells, cell);
 }
 
-static bool take_lines(struct rg_gate_cells *cells, const struct rg_lines *lines)
+// Takes the lines if they could be read, and frees them.
+static bool take_lines(struct rg_gate_cells *cells, struct rg_lines *lines, bool are_read)
 {
-    char place[512];
-    bool ok = true;
-    for (int64_t i = 0; i < lines->count && ok; i++) {
-        if (rg_line_is_empty(&lines->lines[i]))
-            continue;
-        snprintf(place, sizeof(place), "%.400s:%lld", lines->name, (long long)i + 1);
+    char place[RG_LINES_PLACE], *text;
+    bool ok = are_read;
+    for (int64_t i = -1; ok && (text = rg_lines_next(lines, &i, place));) {
         rg_log_place(place);
-        ok = take_line(cells, lines->lines[i].text, (int)i + 1);
+        ok = take_line(cells, text, (int)i + 1);
         rg_log_place(NULL);
     }
-    return ok && (cells->count || rg_error("%s: no cell in it; write NAME TECHNIQUE SIZE FRAMES "
-                                           "[KEY=VALUE]... lines",
-                                           lines->name));
+    ok = ok && (cells->count || rg_error("%s: no cell in it; write NAME TECHNIQUE SIZE FRAMES "
+                                         "[KEY=VALUE]... lines",
+                                         lines->name));
+    rg_lines_free(lines);
+    return ok;
 }
 
 bool rg_gate_cells_of(const char *name, const char *text, size_t size, struct rg_gate_cells *cells)
 {
-    *cells = (struct rg_gate_cells){.count = 0};
     struct rg_lines lines;
-    const bool ok = rg_lines_of(name, text, size, &lines) && take_lines(cells, &lines);
-    rg_lines_free(&lines);
-    return ok;
+    *cells = (struct rg_gate_cells){.count = 0};
+    return take_lines(cells, &lines, rg_lines_of(name, text, size, &lines));
 }
 
 bool rg_gate_cells_read(const char *path, struct rg_gate_cells *cells)
 {
+    struct rg_lines lines;
     if (!path)
         return rg_gate_cells_of("built-in cells", rg_gate_cells_text, strlen(rg_gate_cells_text),
                                 cells);
     *cells = (struct rg_gate_cells){.count = 0};
-    struct rg_lines lines;
-    const bool ok = rg_lines_read(path, &lines) && take_lines(cells, &lines);
-    rg_lines_free(&lines);
-    return ok;
+    return take_lines(cells, &lines, rg_lines_read(path, &lines));
 }
 
 void rg_gate_cells_free(struct rg_gate_cells *cells)
 {
     for (int64_t i = 0; i < cells->count; i++) {
-        free(cells->cells[i].settings);
+        free((void *)cells->cells[i].subject.settings);
         free(cells->cells[i].assignments);
     }
     free(cells->cells);
@@ -202,13 +200,13 @@ void rg_digest_of(const void *bytes, size_t size, char digest[RG_DIGEST_SIZE])
 
 void rg_digest_of_cell(const struct rg_gate_cell *cell, char digest[RG_DIGEST_SIZE])
 {
-    const struct rg_param_table *table = cell->technique->params;
+    const struct rg_param_table *table = cell->subject.technique->params;
     char line[RG_PATH_SIZE + 128], value[RG_PATH_SIZE];
-    snprintf(line, sizeof(line), "%s %dx%d %d", cell->technique->name, cell->width, cell->height,
-             cell->frames);
+    snprintf(line, sizeof(line), "%s %dx%d %d", cell->subject.technique->name, cell->subject.width,
+             cell->subject.height, cell->frames);
     uint64_t hash = XXH3_64bits(line, strlen(line));
     for (int i = 0; i < table->count; i++) {
-        rg_params_text(&table->rows[i], cell->settings, value, sizeof(value));
+        rg_params_text(&table->rows[i], cell->subject.settings, value, sizeof(value));
         snprintf(line, sizeof(line), "%s=%s", table->rows[i].name, value);
         hash = XXH3_64bits_withSeed(line, strlen(line), hash);
     }

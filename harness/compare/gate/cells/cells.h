@@ -3,18 +3,16 @@
 #ifndef RG_HARNESS_COMPARE_GATE_CELLS_CELLS_H
 #define RG_HARNESS_COMPARE_GATE_CELLS_CELLS_H
 
-#include "core/techniques/technique.h"
+#include "harness/devices/frames/subject.h"
 
 enum { RG_GATE_NAME_SIZE = 64, RG_GATE_CELLS = 4096 };
 
 struct rg_gate_cell {
     char name[RG_GATE_NAME_SIZE]; // "streaks/rain"; unique
-    const struct rg_technique *technique;
-    void *settings;    // checked, with all defaults; owned
-    char *assignments; // "key=value key=value" as written in the file; owned
-    int width, height; // px
-    int frames;        // simulated before the compared picture
-    int line;          // in the file, from 1
+    struct rg_subject subject;    // its settings, checked and with all defaults, are owned
+    char *assignments;            // "key=value key=value" as written in the file; owned
+    int frames;                   // simulated before the compared picture
+    int line;                     // in the file, from 1
 };
 
 struct rg_gate_cells {

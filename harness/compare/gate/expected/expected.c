@@ -13,18 +13,6 @@ static void drop_rows(struct rg_known *expected, int64_t from)
     expected->count = from;
 }
 
-// Takes ownership of the lines, whether it succeeds or not.
-static bool add(struct rg_known *expected, struct rg_lines lines, enum rg_known_form form)
-{
-    const int64_t before = expected->count;
-    expected->files[expected->file_count++] = (struct rg_known_file){form, lines};
-    if (form == RG_FORM_OWN ? rg_known_read_own(expected) : rg_known_read_mesa(expected, form))
-        return true;
-    drop_rows(expected, before);
-    rg_lines_free(&expected->files[--expected->file_count].lines);
-    return false;
-}
-
 static bool has_place(const struct rg_known *expected, const char *name)
 {
     const int most = (int)(sizeof(expected->files) / sizeof(expected->files[0]));
@@ -32,15 +20,27 @@ static bool has_place(const struct rg_known *expected, const char *name)
            rg_error("%s: more than %d files of expectations; join some", name, most);
 }
 
+// Takes ownership of the lines, whether it succeeds or not.
+static bool add(struct rg_known *expected, bool are_read, struct rg_lines lines,
+                enum rg_known_form form)
+{
+    const int64_t before = expected->count;
+    expected->files[expected->file_count++] = (struct rg_known_file){form, lines};
+    if (are_read &&
+        (form == RG_FORM_OWN ? rg_known_read_own(expected) : rg_known_read_mesa(expected, form)))
+        return true;
+    drop_rows(expected, before);
+    rg_lines_free(&expected->files[--expected->file_count].lines);
+    return false;
+}
+
 bool rg_known_add(struct rg_known *expected, const char *path, enum rg_known_form form)
 {
     struct rg_lines lines;
     if (!has_place(expected, path))
         return false;
-    if (rg_lines_read(path, &lines))
-        return add(expected, lines, form);
-    rg_lines_free(&lines);
-    return false;
+    const bool are_read = rg_lines_read(path, &lines);
+    return add(expected, are_read, lines, form);
 }
 
 bool rg_known_add_text(struct rg_known *expected, const char *name, const char *text, size_t size,
@@ -49,10 +49,8 @@ bool rg_known_add_text(struct rg_known *expected, const char *name, const char *
     struct rg_lines lines;
     if (!has_place(expected, name))
         return false;
-    if (rg_lines_of(name, text, size, &lines))
-        return add(expected, lines, form);
-    rg_lines_free(&lines);
-    return false;
+    const bool are_read = rg_lines_of(name, text, size, &lines);
+    return add(expected, are_read, lines, form);
 }
 
 void rg_known_free(struct rg_known *expected)

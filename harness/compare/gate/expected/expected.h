@@ -6,7 +6,8 @@
 #include <stdio.h>
 
 #include "core/base/outcome.h"
-#include "harness/compare/gate/text/lines.h"
+#include "harness/compare/gate/report/report.h"
+#include "harness/compare/text/lines.h"
 #include "harness/compare/gate/text/regex.h"
 
 enum rg_known_form {
@@ -15,6 +16,7 @@ enum rg_known_form {
     RG_FORM_FLAKES, // Mesa's *-flakes.txt: regular expressions
     RG_FORM_SKIPS,  // Mesa's *-skips.txt: regular expressions
 };
+enum { RG_FORMS = RG_FORM_SKIPS + 1 };
 
 enum rg_known_kind { RG_EXPECT_SKIP, RG_EXPECT_FLAKE, RG_EXPECT_FAIL };
 
@@ -72,15 +74,12 @@ struct rg_known_result {
     bool is_foreign;   // the failure is not this device's driver's, so expectations do not apply
 };
 
-// How a result compares with its expectation.
-enum rg_met {
-    RG_MET_NOTHING,   // no expectation applies; the result's own outcome counts
-    RG_MET_EXPECTED,  // it fails, as expected
-    RG_MET_FIXED,     // it passes although it was expected to fail
-    RG_MET_DIFFERENT, // it fails, but with another outcome or outside the envelope
-    RG_MET_EXPIRED,   // the expectation is past its `until` day
-    RG_MET_FLAKY,     // quarantined: the result is reported and decides nothing
-    RG_MET_SKIPPED,   // it was not supposed to run
+// How a case ends by its expectation: as an expected failure where it fails as expected, as an
+// unexpected pass where it does not fail, as a flake in quarantine, skipped, or as without one.
+struct rg_judged {
+    enum rg_ending ending;
+    bool applies;    // there is an expectation of this result
+    bool is_expired; // which is past its `until` day
 };
 
 // Adds a file. A refused file adds nothing: false, and one logged line "FILE:LINE: what; mend".
@@ -104,14 +103,12 @@ int64_t rg_known_row(const struct rg_known *expected, const char *cell, const ch
 // Whether a row forbids running its cell on this day; false for row -1.
 bool rg_known_skips(const struct rg_known *expected, int64_t row, int today);
 
-// How a result compares with its row, -1 for none, on this day.
-enum rg_met rg_known_judge(const struct rg_known *expected, int64_t row,
-                           const struct rg_known_result *result, int today);
-// "none", "expected", "fixed", "fails differently", "expired", "flaky", "skipped".
-const char *rg_met_name(enum rg_met met);
-// Whether the gate fails because of this result. Without an expectation a wrong or broken outcome
-// fails, and an unsupported one does not.
-bool rg_met_fails(enum rg_met met, enum rg_outcome outcome);
+// How a result that would have ended as `own` ends by its row, -1 for none, on this day.
+struct rg_judged rg_known_judge(const struct rg_known *expected, int64_t row,
+                                const struct rg_known_result *result, enum rg_ending own,
+                                int today);
+// "expected", "fixed", "fails differently", "expired", "flaky", "skipped"; "" if none applies.
+const char *rg_judged_word(const struct rg_judged *judged);
 
 // Rewrites a file so that it is true of these results. Rows whose failure is fixed are removed;
 // rows that fail differently get the new evidence; expired rows get 90 more days, or are removed if

@@ -4,22 +4,15 @@
 #include "harness/compare/gate/expected/inside.h"
 #include "harness/compare/gate/text/glob.h"
 
-const char *rg_met_name(enum rg_met met)
+const char *rg_judged_word(const struct rg_judged *judged)
 {
-    static const char *const names[] = {
-        [RG_MET_NOTHING] = "none",    [RG_MET_EXPECTED] = "expected",
-        [RG_MET_FIXED] = "fixed",     [RG_MET_DIFFERENT] = "fails differently",
-        [RG_MET_EXPIRED] = "expired", [RG_MET_FLAKY] = "flaky",
-        [RG_MET_SKIPPED] = "skipped",
-    };
-    return names[met];
-}
-
-bool rg_met_fails(enum rg_met met, enum rg_outcome outcome)
-{
-    if (met == RG_MET_NOTHING)
-        return outcome == RG_FAIL || rg_outcome_is_broken(outcome);
-    return met == RG_MET_FIXED || met == RG_MET_DIFFERENT || met == RG_MET_EXPIRED;
+    return !judged->applies                               ? ""
+           : judged->is_expired                           ? "expired"
+           : judged->ending == RG_ENDING_SKIPPED          ? "skipped"
+           : judged->ending == RG_ENDING_FLAKE            ? "flaky"
+           : judged->ending == RG_ENDING_EXPECTED_FAILURE ? "expected"
+           : judged->ending == RG_ENDING_UNEXPECTED_PASS  ? "fixed"
+                                                          : "fails differently";
 }
 
 static bool is_of(const char *pattern, const char *text)
@@ -88,26 +81,28 @@ static bool is_as_expected(const struct rg_expectation *row, const struct rg_kno
            (!row->values[RG_FIELD_DIFFERENCE] || is_in(&row->difference, result->difference));
 }
 
-enum rg_met rg_known_judge(const struct rg_known *expected, int64_t index,
-                           const struct rg_known_result *result, int today)
+struct rg_judged rg_known_judge(const struct rg_known *expected, int64_t index,
+                                const struct rg_known_result *result, enum rg_ending own, int today)
 {
+    const struct rg_judged alone = {own, false, false};
+    // What has expired fails even if it is faster or inconclusive.
+    const enum rg_ending fails = rg_ending_fails(own) ? own : RG_ENDING_UNEXPECTED_PASS;
     if (index < 0)
-        return RG_MET_NOTHING;
+        return alone;
     const struct rg_expectation *row = &expected->rows[index];
     const bool is_over = today > row->until;
     if (row->kind == RG_EXPECT_SKIP && !is_over)
-        return RG_MET_SKIPPED;
+        return (struct rg_judged){RG_ENDING_SKIPPED, true, false};
     if (result->outcome == RG_UNSUPPORTED) // neither passed nor failed
-        return RG_MET_NOTHING;
+        return alone;
     if (result->is_foreign) // of another driver than the device has
-        return RG_MET_NOTHING;
-    if (row->kind == RG_EXPECT_SKIP)
-        return RG_MET_EXPIRED;
+        return alone;
     if (row->kind == RG_EXPECT_FAIL && result->outcome == RG_OK)
-        return RG_MET_FIXED;
+        return (struct rg_judged){RG_ENDING_UNEXPECTED_PASS, true, false};
     if (is_over)
-        return RG_MET_EXPIRED;
+        return (struct rg_judged){fails, true, true};
     if (result->outcome != RG_OK && !is_as_expected(row, result))
-        return RG_MET_DIFFERENT;
-    return row->kind == RG_EXPECT_FLAKE ? RG_MET_FLAKY : RG_MET_EXPECTED;
+        return (struct rg_judged){fails, true, false};
+    return (struct rg_judged){
+        row->kind == RG_EXPECT_FLAKE ? RG_ENDING_FLAKE : RG_ENDING_EXPECTED_FAILURE, true, false};
 }

@@ -16,9 +16,9 @@ struct mend {
     const char *end; // line end of the file
     const struct rg_known_result *results;
     int64_t count;
-    int64_t *rows;    // by result
-    enum rg_met *met; // by result
-    FILE *out;        // into *text
+    int64_t *rows;            // by result
+    struct rg_judged *judged; // by result
+    FILE *out;                // into *text
     char **text;
     size_t *size;
 };
@@ -40,12 +40,18 @@ static void widen(struct rg_envelope *envelope, double value)
     envelope->most = fmax(envelope->most, value);
 }
 
-static void count_result(struct summary *s, const struct rg_known_result *result, enum rg_met met)
+static bool is_fixed(const struct rg_judged *judged)
 {
-    s->fixed += met == RG_MET_FIXED;
-    s->wrong += met == RG_MET_DIFFERENT || met == RG_MET_EXPIRED;
-    s->unknown += met == RG_MET_NOTHING || !result->driver;
-    s->has_expired = s->has_expired || met == RG_MET_EXPIRED;
+    return judged->applies && !judged->is_expired && judged->ending == RG_ENDING_UNEXPECTED_PASS;
+}
+
+static void count_result(struct summary *s, const struct rg_known_result *result,
+                         const struct rg_judged *judged)
+{
+    s->fixed += is_fixed(judged);
+    s->wrong += judged->applies && !is_fixed(judged) && rg_ending_fails(judged->ending);
+    s->unknown += !judged->applies || !result->driver;
+    s->has_expired = s->has_expired || judged->is_expired;
     if (result->outcome == RG_OK || result->outcome == RG_UNSUPPORTED || result->is_foreign)
         return;
     s->failing++;
@@ -62,7 +68,7 @@ static bool is_fixed_behind(const struct mend *m, int64_t row, int64_t result)
 {
     const struct rg_expectation *r = &m->expected->rows[row];
     const struct rg_known_result *of = &m->results[result];
-    return m->met[result] == RG_MET_FIXED && m->rows[result] < row && r->kind == RG_EXPECT_FAIL &&
+    return is_fixed(&m->judged[result]) && m->rows[result] < row && r->kind == RG_EXPECT_FAIL &&
            rg_known_holds(m->expected, r, of->cell, of->device, of->driver, m->today);
 }
 
@@ -83,7 +89,7 @@ static struct summary sum_up(const struct mend *m, int64_t row, int64_t only)
     struct summary s = {.pixels = r->pixels, .difference = r->difference};
     for (int64_t i = 0; i < m->count; i++)
         if ((is_of_row(m, row, i) || is_fixed_behind(m, row, i)) && (only < 0 || i == only))
-            count_result(&s, &m->results[i], m->met[i]);
+            count_result(&s, &m->results[i], &m->judged[i]);
     if (s.unknown)
         s.outcomes |= r->outcomes;
     return s;
@@ -168,8 +174,8 @@ static void write_narrowed(const struct mend *m, int64_t index, int64_t result)
 // Whether a result keeps a row of its own after the row is split.
 static bool stays(const struct mend *m, int64_t row, int64_t result)
 {
-    const bool has_passed = m->met[result] == RG_MET_FIXED || (m->met[result] == RG_MET_EXPIRED &&
-                                                               m->results[result].outcome == RG_OK);
+    const bool has_passed = is_fixed(&m->judged[result]) ||
+                            (m->judged[result].is_expired && m->results[result].outcome == RG_OK);
     return is_of_row(m, row, result) && !has_passed;
 }
 
@@ -234,8 +240,9 @@ static int64_t write_row(const struct mend *m, int64_t index)
 
 static bool is_new(const struct mend *m, int64_t i)
 {
+    const enum rg_outcome outcome = m->results[i].outcome;
     return m->rows[i] < 0 && !m->results[i].is_foreign &&
-           rg_met_fails(m->met[i], m->results[i].outcome);
+           (outcome == RG_FAIL || rg_outcome_is_broken(outcome));
 }
 
 // Appends them after the last line.
@@ -258,13 +265,14 @@ static void write_new(const struct mend *m)
 static bool judge_all(struct mend *m)
 {
     m->rows = rg_alloc((size_t)m->count, sizeof(*m->rows), "expectations");
-    m->met = rg_alloc((size_t)m->count, sizeof(*m->met), "expectations");
-    for (int64_t i = 0; m->rows && m->met && i < m->count; i++) {
+    m->judged = rg_alloc((size_t)m->count, sizeof(*m->judged), "expectations");
+    for (int64_t i = 0; m->rows && m->judged && i < m->count; i++) {
         const struct rg_known_result *r = &m->results[i];
         m->rows[i] = rg_known_row(m->expected, r->cell, r->device, r->driver, m->today);
-        m->met[i] = rg_known_judge(m->expected, m->rows[i], r, m->today);
+        m->judged[i] =
+            rg_known_judge(m->expected, m->rows[i], r, rg_ending_of(r->outcome), m->today);
     }
-    return m->rows && m->met;
+    return m->rows && m->judged;
 }
 
 static void write_all(const struct mend *m, bool adds_new)
@@ -311,7 +319,7 @@ bool rg_known_mend(const struct rg_known *expected, int file, const struct rg_kn
     ok = ok && ((m.out && !fclose(m.out)) ||
                 rg_harness_error("%s: no memory to mend it; close other programs", lines->name));
     free(m.rows);
-    free(m.met);
+    free(m.judged);
     if (!ok || (size == lines->size && !memcmp(*text, lines->raw, size))) {
         free(*text);
         *text = NULL;

@@ -68,15 +68,10 @@ bool rg_known_read_mesa(struct rg_known *expected, enum rg_known_form form)
 {
     const struct rg_lines *lines = &expected->files[expected->file_count - 1].lines;
     const enum rg_known_kind kind = form == RG_FORM_SKIPS ? RG_EXPECT_SKIP : RG_EXPECT_FLAKE;
-    char place[512];
+    char place[RG_LINES_PLACE], *text;
     bool ok = true;
-    for (int64_t i = 0; i < lines->count && ok; i++) {
-        char *text = lines->lines[i].text;
-        snprintf(place, sizeof(place), "%.400s:%lld", lines->name, (long long)i + 1);
-        if (rg_line_is_empty(&lines->lines[i]))
-            continue;
+    for (int64_t i = -1; ok && (text = rg_lines_next(lines, &i, place));)
         ok = form == RG_FORM_FAILS ? take_fail(place, expected, text, i)
                                    : take_regex(place, expected, text, kind, i);
-    }
     return ok;
 }

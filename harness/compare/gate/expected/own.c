@@ -156,13 +156,10 @@ bool rg_known_read_own(struct rg_known *expected)
 {
     const struct rg_lines *lines = &expected->files[expected->file_count - 1].lines;
     const int64_t first = expected->count;
-    char place[512];
+    char place[RG_LINES_PLACE], *text;
     bool ok = true;
-    for (int64_t i = 0; i < lines->count && ok; i++) {
-        snprintf(place, sizeof(place), "%.400s:%lld", lines->name, (long long)i + 1);
-        ok = rg_line_is_empty(&lines->lines[i]) ||
-             take_line(expected, place, first, i, lines->lines[i].text);
-    }
+    for (int64_t i = -1; ok && (text = rg_lines_next(lines, &i, place));)
+        ok = take_line(expected, place, first, i, text);
     for (int64_t i = first; i < expected->count && ok; i++)
         ok = is_whole(lines->name, &expected->rows[i]) &&
              has_pictures(lines->name, &expected->rows[i]);

@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/base/text/add.h"
 #include "harness/compare/gate/expected/inside.h"
 #include "harness/compare/gate/text/date.h"
 
@@ -27,12 +28,10 @@ void rg_known_write_field(FILE *out, int field, const char *value, const char *e
 
 void rg_known_write_outcomes(unsigned outcomes, char *text, size_t size)
 {
-    size_t used = 0;
     *text = 0;
     for (int i = 0; i < RG_OUTCOME_COUNT; i++)
         if (outcomes & 1U << i)
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " " : "",
-                                     rg_outcome_name((enum rg_outcome)i));
+            rg_text_add(text, size, " ", "%s", rg_outcome_name((enum rg_outcome)i));
 }
 
 static void write_number(FILE *out, int field, double value, const char *end)

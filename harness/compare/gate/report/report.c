@@ -9,6 +9,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/array.h"
+#include "core/base/text/add.h"
 #include "core/image/files/temporary.h"
 #include "harness/compare/gate/report/texts.h"
 #include "harness/console/exit.h"
@@ -34,6 +35,22 @@ static const struct {
     [RG_ENDING_IMPROVED] = {"improved", NULL, RG_EXIT_PASS},
     [RG_ENDING_PASS] = {"pass", NULL, RG_EXIT_PASS},
 };
+
+enum rg_ending rg_ending_of(enum rg_outcome outcome)
+{
+    static const enum rg_ending of[RG_OUTCOME_COUNT] = {
+        [RG_OK] = RG_ENDING_PASS,
+        [RG_FAIL] = RG_ENDING_DIFFERS,
+        [RG_UNSUPPORTED] = RG_ENDING_UNSUPPORTED,
+        [RG_ERROR] = RG_ENDING_ERROR,
+        [RG_CRASH] = RG_ENDING_CRASH,
+        [RG_TIMEOUT] = RG_ENDING_TIMEOUT,
+        [RG_NOTHING] = RG_ENDING_NOTHING_MEASURED,
+        [RG_LACKING] = RG_ENDING_LACKING,
+        [RG_SETUP] = RG_ENDING_SETUP,
+    };
+    return of[outcome];
+}
 
 const char *rg_ending_name(enum rg_ending ending)
 {
@@ -131,15 +148,12 @@ static const char *keep_measured(struct rg_report *report, const struct rg_repor
     enum { MEASURED = 160 };
     const struct rg_bounded *ratio = &found->ratio;
     char text[MEASURED] = "";
-    int length = 0;
     if (isfinite(ratio->value))
-        length = snprintf(text, MEASURED, "ratio %.4g", ratio->value);
-    if (length && isfinite(ratio->low) && isfinite(ratio->high))
-        length += snprintf(text + length, (size_t)(MEASURED - length), " (%.4g to %.4g)",
-                           ratio->low, ratio->high);
-    if (length && isfinite(found->smallest_visible))
-        snprintf(text + length, (size_t)(MEASURED - length), ", would have seen %.3g %%",
-                 100 * found->smallest_visible);
+        rg_text_add(text, MEASURED, "", "ratio %.4g", ratio->value);
+    if (*text && isfinite(ratio->low) && isfinite(ratio->high))
+        rg_text_add(text, MEASURED, " ", "(%.4g to %.4g)", ratio->low, ratio->high);
+    if (*text && isfinite(found->smallest_visible))
+        rg_text_add(text, MEASURED, ", ", "would have seen %.3g %%", 100 * found->smallest_visible);
     return keep_text(report, text, true);
 }
 
@@ -214,15 +228,15 @@ bool rg_report_write(const struct rg_report *report, rg_report_writer form, cons
 
 void rg_report_summary(const struct rg_report *report, char text[RG_REPORT_SUMMARY])
 {
-    int length = snprintf(text, RG_REPORT_SUMMARY, "%d case%s", report->case_count,
-                          report->case_count == 1 ? "" : "s");
+    snprintf(text, RG_REPORT_SUMMARY, "%d case%s", report->case_count,
+             report->case_count == 1 ? "" : "s");
     for (int i = 0; i < RG_ENDING_COUNT; i++) {
         const int count = rg_report_count(report, (enum rg_ending)i);
         if (count)
-            length += snprintf(text + length, RG_REPORT_SUMMARY - (size_t)length, ", %d %s", count,
-                               rg_ending_name((enum rg_ending)i));
+            rg_text_add(text, RG_REPORT_SUMMARY, ", ", "%d %s", count,
+                        rg_ending_name((enum rg_ending)i));
     }
     if (report->idle_count)
-        snprintf(text + length, RG_REPORT_SUMMARY - (size_t)length, "; %d of them compared nothing",
-                 report->idle_count);
+        rg_text_add(text, RG_REPORT_SUMMARY, "; ", "%d of them compared nothing",
+                    report->idle_count);
 }

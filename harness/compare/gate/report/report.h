@@ -11,6 +11,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "core/base/outcome.h"
+
 // How a case ended, worst first, so that a reader of three lines sees the worst.
 enum rg_ending {
     RG_ENDING_CRASH,
@@ -32,6 +34,8 @@ enum rg_ending {
 };
 enum { RG_ENDING_COUNT = RG_ENDING_PASS + 1 };
 
+// The ending of a case of which nothing is expected, and that no time decides.
+enum rg_ending rg_ending_of(enum rg_outcome outcome);
 // "unexpected pass": the same words in all forms.
 const char *rg_ending_name(enum rg_ending ending);
 // JUnit's element: "failure" for a wrong result, "error" for no result, "skipped" for none that

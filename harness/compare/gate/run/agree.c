@@ -1,9 +1,11 @@
 #include "harness/compare/gate/run/agree.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "core/base/text/add.h"
+#include "harness/compare/blame/blame.h"
 
 // A cell's result on a side, or in a baseline.
 struct left {
@@ -12,17 +14,7 @@ struct left {
 };
 
 // Appends a remark to the message.
-__attribute__((format(printf, 2, 3))) static void say(struct rg_agreement *agreement,
-                                                      const char *format, ...)
-{
-    const size_t used = strlen(agreement->message), room = RG_AGREEMENT_TEXT - used;
-    const int gap = used ? snprintf(agreement->message + used, room, "; ") : 0;
-    va_list args;
-    va_start(args, format);
-    if ((size_t)gap < room)
-        vsnprintf(agreement->message + used + gap, room - (size_t)gap, format, args);
-    va_end(args);
-}
+#define SAY(agreement, ...) rg_text_add((agreement)->message, RG_AGREEMENT_TEXT, "; ", __VA_ARGS__)
 
 // --- cells that did not run ---
 
@@ -87,7 +79,7 @@ static bool has_its_picture(struct rg_gate_case *c, const struct left *now, stru
     if (!rg_truth_holds(truth, c->cell, c->sides[RG_SIDE_B]->device, &now->picture, &c->agreement))
         return false;
     if (!is_same)
-        say(&c->agreement,
+        SAY(&c->agreement,
             "the picture is another than the baseline's, and holds %s against cpu:reference as it "
             "draws now",
             rg_tier_name(rg_tier_owed(info_of(c, RG_SIDE_B), &truth->device->info)));
@@ -125,11 +117,58 @@ static bool have_alike_states(struct rg_gate_case *c, const struct rg_baseline_r
     return true;
 }
 
+static bool have_alike_counters(const struct rg_counters *a, const struct rg_counters *b,
+                                struct rg_agreement *agreement)
+{
+    if (a->count != b->count)
+        return rg_agreement_differs(agreement, "there are %d and %d counters", a->count, b->count);
+    for (int i = 0; i < a->count; i++) {
+        const struct rg_count *one = &a->counters[i], *other = &b->counters[i];
+        if (strcmp(one->name, other->name) != 0)
+            return rg_agreement_differs(agreement, "a counter is '%s' and '%s'", one->name,
+                                        other->name);
+        if (one->value != other->value)
+            return rg_agreement_differs(agreement, "the counter '%s' is %lld and %lld", one->name,
+                                        (long long)one->value, (long long)other->value);
+    }
+    return true;
+}
+
+// Compares all counted work but the number of dispatches, which depends on the API. Work that a
+// device cannot count is ignored.
+static bool have_alike_work(const struct rg_tally *a, const struct rg_tally *b,
+                            struct rg_agreement *agreement)
+{
+    for (int i = 0; i < RG_TALLY_FIELDS; i++) {
+        const struct rg_tally_field *field = &rg_tally_fields[i];
+        int64_t counts[2];
+        memcpy(&counts[0], (const char *)a + field->offset, sizeof(int64_t));
+        memcpy(&counts[1], (const char *)b + field->offset, sizeof(int64_t));
+        if (strcmp(field->name, "dispatches") && counts[0] >= 0 && counts[1] >= 0 &&
+            counts[0] != counts[1])
+            return rg_agreement_differs(agreement, "a frame has %lld and %lld %s",
+                                        (long long)counts[0], (long long)counts[1], field->name);
+    }
+    return true;
+}
+
 static bool have_alike_counts(struct rg_gate_case *c, const struct rg_baseline_row *before,
                               const struct rg_baseline_row *now)
 {
-    return rg_alike_counters(&before->counters, &now->counters, &c->agreement) &&
-           rg_alike_work(&before->work, &now->work, &c->agreement);
+    return have_alike_counters(&before->counters, &now->counters, &c->agreement) &&
+           have_alike_work(&before->work, &now->work, &c->agreement);
+}
+
+// Finds the first stage after which the device's bits differ from the truth's, and names it in the
+// details. False if that could not be found out.
+static bool find_stage(struct rg_gate_case *c, struct rg_device *truth)
+{
+    const struct rg_digest_run run = {c->cell->subject, c->cell->frames};
+    struct rg_blame blame;
+    const bool ok = rg_blame_find(&run, c->sides[RG_SIDE_B]->device, truth, &blame);
+    if (ok && blame.found)
+        snprintf(c->agreement.details, RG_AGREEMENT_TEXT, "%s", blame.text);
+    return ok;
 }
 
 // A baseline has no stages, but cpu:reference can be run now. If it `holds` the device's picture, a
@@ -137,9 +176,7 @@ static bool have_alike_counts(struct rg_gate_case *c, const struct rg_baseline_r
 static void blame(struct rg_gate_case *c, struct rg_truth *truth, bool holds)
 {
     struct rg_agreement *found = &c->agreement;
-    if (rg_truth_open(truth) &&
-        rg_agreement_blame(c->cell, c->sides[RG_SIDE_B]->device, truth->device, found) && holds &&
-        !*found->details)
+    if (rg_truth_open(truth) && find_stage(c, truth->device) && holds && !*found->details)
         snprintf(found->details, RG_AGREEMENT_TEXT,
                  "cpu:reference leaves the same bits behind every stage now: what has changed is "
                  "what raingauge computes, and not how the device does");
@@ -150,7 +187,7 @@ static void hold_against_before(struct rg_gate_case *c, const struct left *now,
 {
     const bool holds = has_its_picture(c, now, truth);
     if (!did_run(c->before->outcome))
-        say(&c->agreement,
+        SAY(&c->agreement,
             "the baseline has it as %s, and no states, counters or times to hold it against; "
             "`raingauge baseline --update` has it anew",
             rg_outcome_name(c->before->outcome));
@@ -168,8 +205,7 @@ static void hold_against_a(struct rg_gate_case *c, const struct left *a, const s
                            have_alike_counts(c, &a->row, &b->row);
     found->has_code = are_alike || found->outcome == RG_FAIL;
     if (found->outcome == RG_FAIL)
-        rg_agreement_blame(c->cell, c->sides[RG_SIDE_B]->device, c->sides[RG_SIDE_A]->device,
-                           found);
+        find_stage(c, c->sides[RG_SIDE_A]->device);
 }
 
 void rg_gate_agree(struct rg_gate_case *c, struct rg_truth *truth, const char *folder)
@@ -196,7 +232,6 @@ void rg_gate_advise(const struct rg_gate_row *row, const struct rg_timed_cell *t
                     struct rg_agreement *agreement)
 {
     double least = INFINITY, most = 0;
-    size_t used = 0;
     if (timed->outcome != RG_OK) {
         agreement->outcome = timed->outcome;
         agreement->is_ours = timed->is_ours;
@@ -210,15 +245,14 @@ void rg_gate_advise(const struct rg_gate_row *row, const struct rg_timed_cell *t
             continue;
         least = fmin(least, ratio);
         most = fmax(most, ratio);
-        if (used < RG_AGREEMENT_TEXT)
-            used += (size_t)snprintf(agreement->details + used, RG_AGREEMENT_TEXT - used,
-                                     "%s%s takes %.2f times as long: %.2f by it", used ? "\n" : "",
-                                     rg_yardstick_name((enum rg_yardstick)i), slower, ratio);
+        rg_text_add(agreement->details, RG_AGREEMENT_TEXT, "\n",
+                    "%s takes %.2f times as long: %.2f by it",
+                    rg_yardstick_name((enum rg_yardstick)i), slower, ratio);
     }
     if (!row->decision.units)
-        say(agreement, "advisory: no time was taken");
+        SAY(agreement, "advisory: no time was taken");
     else if (most > 0)
-        say(agreement,
+        SAY(agreement,
             "advisory, for its key is another: a frame takes %.2f times as long (%.3g ms, %.3g ms "
             "before), and %.2f to %.2f times by the yardsticks",
             row->decision.ratio, row->b_ms.median, row->a_ms.median, least, most);

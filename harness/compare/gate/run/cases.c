@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "harness/compare/gate/text/shell.h"
+#include "harness/compare/text/shell.h"
 #include "harness/devices/names.h"
 
 const char *rg_gate_case_device(const struct rg_gate_case *c)
@@ -29,27 +29,10 @@ bool rg_gate_case_was_compared(const struct rg_gate_case *c)
 
 // --- endings ---
 
-static enum rg_ending ending_of_outcome(enum rg_outcome outcome)
-{
-    static const enum rg_ending endings[RG_OUTCOME_COUNT] = {
-        [RG_OK] = RG_ENDING_PASS,
-        [RG_FAIL] = RG_ENDING_DIFFERS,
-        [RG_UNSUPPORTED] = RG_ENDING_UNSUPPORTED,
-        [RG_ERROR] = RG_ENDING_ERROR,
-        [RG_CRASH] = RG_ENDING_CRASH,
-        [RG_TIMEOUT] = RG_ENDING_TIMEOUT,
-        [RG_NOTHING] = RG_ENDING_NOTHING_MEASURED,
-        [RG_LACKING] = RG_ENDING_LACKING,
-        [RG_SETUP] = RG_ENDING_SETUP,
-    };
-    return endings[outcome];
-}
-
 // Whether it agreed, but its timing was cut short.
 static bool broke_off(const struct rg_gate_case *c)
 {
-    return c->agreement.outcome == RG_OK && c->is_timed && c->row.end == RG_END_BROKEN &&
-           c->times.outcome != RG_OK;
+    return c->agreement.outcome == RG_OK && c->is_timed && c->times.outcome != RG_OK;
 }
 
 static enum rg_ending ending_of_times(const struct rg_gate_case *c)
@@ -61,44 +44,30 @@ static enum rg_ending ending_of_times(const struct rg_gate_case *c)
         [RG_TWO_IMPROVED] = RG_ENDING_IMPROVED,
     };
     if (broke_off(c))
-        return ending_of_outcome(c->times.outcome);
-    if (!c->row.decision.units && c->row.end != RG_END_OVER)
+        return rg_ending_of(c->times.outcome);
+    if (!c->row.decision.units && !c->times.is_over)
         return RG_ENDING_NOTHING_MEASURED;
     return endings[c->row.decision.verdict];
 }
 
-static enum rg_ending ending_of(const struct rg_gate_case *c, enum rg_met met)
+// As if nothing were expected.
+static enum rg_ending own_ending(const struct rg_gate_case *c)
 {
-    const enum rg_ending own = c->is_over ? RG_ENDING_INCONCLUSIVE
-                               : c->agreement.outcome == RG_OK && c->is_timed
-                                   ? ending_of_times(c)
-                                   : ending_of_outcome(c->agreement.outcome);
-    switch (met) {
-    case RG_MET_SKIPPED:
-        return RG_ENDING_SKIPPED;
-    case RG_MET_FLAKY:
-        return RG_ENDING_FLAKE;
-    case RG_MET_EXPECTED:
-        return RG_ENDING_EXPECTED_FAILURE;
-    case RG_MET_FIXED:
-        return RG_ENDING_UNEXPECTED_PASS;
-    case RG_MET_DIFFERENT:
-    case RG_MET_EXPIRED: // fails, even if it is faster or inconclusive
-        return rg_ending_fails(own) ? own : RG_ENDING_UNEXPECTED_PASS;
-    default:
-        return own;
-    }
+    if (c->is_over)
+        return RG_ENDING_INCONCLUSIVE;
+    return c->agreement.outcome == RG_OK && c->is_timed ? ending_of_times(c)
+                                                        : rg_ending_of(c->agreement.outcome);
 }
 
 // --- messages ---
 
 static const char *why_open(const struct rg_gate_case *c)
 {
+    if (c->times.is_over)
+        return "the time was over before it was decided";
     switch (c->row.end) {
     case RG_END_LOOKS:
         return "the interval allows both after the last launch that was planned";
-    case RG_END_OVER:
-        return "the time was over before it was decided";
     case RG_END_DISTURBED:
         return "the machine gave its time to others in most launches";
     case RG_END_UNCONFIRMED:
@@ -187,8 +156,8 @@ static const char *whole_name(const char *name, char whole[WHOLE])
 static void put_command(FILE *out, const struct rg_gate_cell *cell, const char *a, const char *b)
 {
     char devices[2 * WHOLE], whole_a[WHOLE], whole_b[WHOLE];
-    fprintf(out, "raingauge diff %s --size %dx%d --frame %d", cell->technique->name, cell->width,
-            cell->height, cell->frames);
+    fprintf(out, "raingauge diff %s --size %dx%d --frame %d", cell->subject.technique->name,
+            cell->subject.width, cell->subject.height, cell->frames);
     for (const char *word = cell->assignments; *(word += strspn(word, " "));) {
         const size_t length = strcspn(word, " ");
         fputs(" --set ", out);
@@ -235,7 +204,7 @@ static char *make_details(const struct rg_gate_case *c)
     return text;
 }
 
-static void put_message(const struct rg_gate_case *c, enum rg_met met, char *text, size_t size)
+static void put_message(const struct rg_gate_case *c, const char *word, char *text, size_t size)
 {
     char own[RG_AGREEMENT_TEXT + 360], times[300] = "";
     const char *device = c->agreement.device, *said = c->agreement.message;
@@ -243,8 +212,7 @@ static void put_message(const struct rg_gate_case *c, enum rg_met met, char *tex
         put_times(c, times, sizeof(times));
     snprintf(own, sizeof(own), "%s%s%s%s%s", device ? device : "", device ? ": " : "", said,
              *said && *times ? "; " : "", times);
-    snprintf(text, size, "%s%s%s", met == RG_MET_NOTHING ? "" : rg_met_name(met),
-             met != RG_MET_NOTHING && *own ? ": " : "", own);
+    snprintf(text, size, "%s%s%s", word, *word && *own ? ": " : "", own);
 }
 
 static void put_measures(const struct rg_gate_case *c, struct rg_report_case *told)
@@ -296,18 +264,16 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
                                  .pixels = c->agreement.pixels,
                                  .difference = c->agreement.difference,
                                  .is_foreign = is_foreign(c)};
-    const enum rg_met met =
-        c->is_skipped ? RG_MET_SKIPPED
-                      : rg_known_judge(request->known, c->expectation, result, request->today);
-    const enum rg_ending ending = ending_of(c, met);
-    put_message(c, met, c->message, sizeof(c->message));
+    const struct rg_judged judged =
+        rg_known_judge(request->known, c->expectation, result, own_ending(c), request->today);
+    put_message(c, rg_judged_word(&judged), c->message, sizeof(c->message));
     c->details = make_details(c);
     *told = (struct rg_report_case){.name = c->name,
-                                    .technique = c->cell->technique->name,
+                                    .technique = c->cell->subject.technique->name,
                                     .devices = c->devices,
                                     .device_count = c->device_count,
                                     .seconds = c->seconds,
-                                    .ending = ending,
+                                    .ending = judged.ending,
                                     .message = c->message,
                                     .details = c->details};
     put_measures(c, told);

@@ -13,11 +13,10 @@
 // Owns nothing.
 struct rg_gate_request {
     const struct rg_gate_cells *cells;
-    // B is compared with the A of each pair, one pair after the other, or with a baseline, whose
-    // cells are those above (rg_baseline_fits).
+    // B is compared with the A of each pair, one pair after the other; or all with a baseline,
+    // whose cells are those above (rg_baseline_fits).
     const struct rg_gate_pairs *pairs;
-    const struct rg_baseline *baseline; // NULL: the gate compares pairs
-    const char *devices;                // of the baseline, with commas; NULL: all
+    const struct rg_baseline *baseline; // NULL: both sides of each pair run
     const struct rg_known *known;       // the expectations
     const char *require;                // devices or backends that must be there; NULL: none
     // Devices that could have been gated too; expectations of theirs stay.

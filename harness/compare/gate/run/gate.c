@@ -10,6 +10,7 @@
 #include "harness/compare/gate/cells/unused.h"
 #include "harness/compare/gate/report/texts.h"
 #include "harness/compare/gate/run/agree.h"
+#include "harness/compare/gate/run/timing.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
@@ -17,29 +18,6 @@
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
-
-enum { MOST_SIDES = RG_SIDES * RG_MAX_DEVICES };
-
-// A gate while it runs.
-struct run {
-    const struct rg_gate_request *asked;
-    struct rg_gate *gate; // one case per cell that the filter selects
-    // Pairs two by two, A first; or the sides that run alone.
-    int side_count;
-    struct rg_side sides[MOST_SIDES];
-    struct rg_device_info infos[MOST_SIDES]; // of the sides that are there
-    json_t *passport;                        // of the sides that are there
-    // For sides that run alone and are there.
-    json_t *parts[RG_MAX_DEVICES]; // of their comparison keys
-    bool same_key[RG_MAX_DEVICES]; // equal to the baseline's key
-    struct rg_truth truth;
-    struct rg_launches yardsticks[RG_YARDSTICKS];
-    double start_ms, end_ms;         // of the pair that runs; end 0: no limit
-    double first_ms;                 // when the first pair began
-    double look_ms;                  // until a pair's first look, the longest of all pairs
-    bool has_looked;                 // some case came as far as that, or ended without it
-    struct rg_gate_journal *journal; // NULL: no journal
-};
 
 // --- choosing cells ---
 
@@ -56,7 +34,7 @@ char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
 }
 
 // Whether the filter selects a case of this name, and the shard includes it.
-static bool is_chosen(struct run *r, const char *name)
+static bool is_chosen(struct rg_running_gate *r, const char *name)
 {
     char gtest[RG_GTEST_NAME];
     rg_gtest_name(name, gtest);
@@ -64,98 +42,67 @@ static bool is_chosen(struct run *r, const char *name)
            r->gate->chosen++ % r->asked->shards.total == r->asked->shards.index;
 }
 
-// Adds the case of a cell on a device; `added` is NULL if it is not chosen. False, and one logged
-// line, without memory.
-static bool add_case(struct run *r, const struct rg_gate_cell *cell, const char *device,
-                     struct rg_gate_case **added)
+// Adds a cell's case of a pair if it is chosen. False, and one logged line, without memory.
+static bool add_case(struct rg_running_gate *r, const struct rg_gate_cell *cell, int pair)
 {
+    const struct rg_baseline *baseline = r->asked->baseline;
+    struct rg_side *sides = &r->sides[pair * RG_SIDES];
+    const char *device = sides[RG_SIDE_B].name;
     char *name = rg_gate_case_name(cell, device);
-    *added = NULL;
-    if (name && is_chosen(r, name)) {
-        *added = &r->gate->cases[r->gate->case_count++];
-        **added = (struct rg_gate_case){.cell = cell, .name = name, .expectation = -1};
-        return true;
+    if (!name || !is_chosen(r, name)) {
+        free(name);
+        return name != NULL;
     }
-    const bool ok = name != NULL;
-    free(name);
-    return ok;
+    struct rg_gate_case *c = &r->gate->cases[r->gate->case_count++];
+    *c = (struct rg_gate_case){.cell = cell, .name = name, .expectation = -1};
+    c->pair = baseline ? 0 : pair; // all devices of a baseline are timed together
+    c->before = baseline ? rg_baseline_find(baseline, cell->name, device) : NULL;
+    for (int side = 0; side < RG_SIDES; side++) {
+        if (!sides[side].name)
+            continue;
+        c->sides[side] = &sides[side];
+        c->devices[c->device_count++] = sides[side].name;
+    }
+    return true;
 }
 
 // All pairs become sides, even those without a chosen case.
-static bool choose_of_pairs(struct run *r)
+static bool choose(struct rg_running_gate *r)
 {
-    struct rg_gate_case *c;
-    bool ok = true;
-    for (int pair = 0; pair < r->asked->pairs->count; pair++) {
-        struct rg_side *sides = &r->sides[r->side_count];
-        r->side_count += RG_SIDES;
-        for (int side = 0; side < RG_SIDES; side++)
-            sides[side].name = r->asked->pairs->all[pair].names[side];
-        for (int64_t i = 0; ok && i < r->asked->cells->count; i++) {
-            ok = add_case(r, &r->asked->cells->cells[i], sides[RG_SIDE_B].name, &c);
-            for (int side = 0; c && side < RG_SIDES; side++) {
-                c->sides[side] = &sides[side];
-                c->devices[c->device_count++] = sides[side].name;
-            }
-            if (c)
-                c->pair = pair;
-        }
+    const struct rg_gate_cells *cells = r->asked->cells;
+    const struct rg_gate_pairs *pairs = r->asked->pairs;
+    r->side_count = pairs->count * RG_SIDES;
+    r->gate->cases =
+        rg_alloc((size_t)(cells->count * pairs->count), sizeof(*r->gate->cases), "gate");
+    bool ok = r->gate->cases;
+    for (int i = 0; i < r->side_count; i++) {
+        const char *name = pairs->all[i / RG_SIDES].names[i % RG_SIDES];
+        r->sides[i].name = *name ? name : NULL;
     }
+    for (int pair = 0; pair < pairs->count; pair++)
+        for (int64_t i = 0; ok && i < cells->count; i++)
+            ok = add_case(r, &cells->cells[i], pair);
     return ok;
-}
-
-static struct rg_side *find_side(struct run *r, const char *name)
-{
-    int side = 0;
-    while (side < r->side_count && strcmp(r->sides[side].name, name) != 0)
-        side++;
-    if (side == r->side_count)
-        r->sides[r->side_count++].name = name;
-    return &r->sides[side];
-}
-
-static bool choose_of_baseline(struct run *r)
-{
-    struct rg_gate_case *c;
-    bool ok = true;
-    for (int64_t i = 0; ok && i < r->asked->baseline->count; i++) {
-        const struct rg_baseline_row *row = &r->asked->baseline->rows[i];
-        if (!rg_baseline_asks(r->asked->devices, row->device))
-            continue;
-        ok = add_case(r, rg_gate_cells_find(r->asked->cells, row->cell), row->device, &c);
-        if (!c)
-            continue;
-        c->before = row;
-        c->sides[RG_SIDE_B] = find_side(r, row->device);
-        c->devices[c->device_count++] = row->device;
-    }
-    return ok;
-}
-
-static bool choose(struct run *r)
-{
-    const int64_t count = r->asked->baseline ? r->asked->baseline->count
-                                             : r->asked->cells->count * r->asked->pairs->count;
-    r->gate->cases = rg_alloc((size_t)count, sizeof(*r->gate->cases), "gate");
-    return r->gate->cases && (r->asked->baseline ? choose_of_baseline(r) : choose_of_pairs(r));
 }
 
 // --- sides ---
 
 // Launches each side once. Names of pairs must be valid, the two of a pair distinct, and required
 // devices there; any other missing side only ends its cases. Returns an enum rg_exit.
-static int look_at_sides(struct run *r)
+static int look_at_sides(struct rg_running_gate *r)
 {
-    struct rg_side_seen seen[MOST_SIDES];
+    struct rg_side_seen seen[RG_GATE_MOST_SIDES];
     struct rg_gate_target targets[RG_MAX_DEVICES];
     const bool are_pairs = !r->asked->baseline;
     int count = 0, target_count = 0;
-    for (; count < r->side_count && !rg_interrupted(); count++) {
-        const struct rg_device_info *info = &r->infos[count];
+    for (int i = 0; i < r->side_count && !rg_interrupted(); i++) {
+        const bool is_b = i % RG_SIDES == RG_SIDE_B;
+        const struct rg_device_info *info = &r->infos[i];
         const struct rg_side_seen *saw = &seen[count];
-        seen[count] = rg_side_look(&r->sides[count], &r->infos[count]);
-        rg_side_close(&r->sides[count]);
-        const bool is_b = !are_pairs || count % RG_SIDES == RG_SIDE_B;
+        if (!r->sides[i].name)
+            continue;
+        seen[count++] = rg_side_look(&r->sides[i], &r->infos[i]);
+        rg_side_close(&r->sides[i]);
         if (is_b)
             targets[target_count++] =
                 (struct rg_gate_target){saw->name, saw->is_open ? info->driver : NULL};
@@ -171,9 +118,9 @@ static int look_at_sides(struct run *r)
 }
 
 // Describes what the report's numbers depend on: the machine, and the sides that are there.
-static bool set_passport(struct run *r)
+static bool set_passport(struct rg_running_gate *r)
 {
-    struct rg_device_info there[MOST_SIDES];
+    struct rg_device_info there[RG_GATE_MOST_SIDES];
     int count = 0;
     for (int side = 0; side < r->side_count; side++)
         if (*r->infos[side].name)
@@ -187,7 +134,7 @@ static bool set_passport(struct run *r)
 
 // Finds out whether the times of a side that runs alone can be compared with the baseline's, and
 // writes the reason to `out`.
-static void compare_key(struct run *r, int side, FILE *out)
+static void compare_key(struct rg_running_gate *r, int side, FILE *out)
 {
     const struct rg_baseline_device *was =
         rg_baseline_device(r->asked->baseline, r->sides[side].name);
@@ -207,7 +154,7 @@ static void compare_key(struct run *r, int side, FILE *out)
 }
 
 // Notes which driver each side runs, to be printed above the results.
-static bool note_sides(struct run *r)
+static bool note_sides(struct rg_running_gate *r)
 {
     size_t size;
     char line[RG_DRIVER_LINE];
@@ -227,55 +174,43 @@ static bool note_sides(struct run *r)
 
 // --- the journal ---
 
-// Everything that the times of pairs depend on.
-static json_t *key_of_pairs(const struct run *r)
+// Everything that the times depend on, those of a baseline among it.
+static json_t *key_of(const struct rg_running_gate *r)
 {
-    json_t *cells = json_object(), *pairs = json_array();
-    for (int64_t i = 0; i < r->asked->cells->count; i++) {
-        char digest[RG_DIGEST_SIZE];
-        rg_digest_of_cell(&r->asked->cells->cells[i], digest);
-        json_object_set_new(cells, r->asked->cells->cells[i].name, json_string(digest));
+    const struct rg_gate_request *asked = r->asked;
+    json_t *cells = json_object(), *pairs = json_array(), *before = json_object();
+    char digest[RG_DIGEST_SIZE];
+    for (int64_t i = 0; i < asked->cells->count; i++) {
+        rg_digest_of_cell(&asked->cells->cells[i], digest);
+        json_object_set_new(cells, asked->cells->cells[i].name, json_string(digest));
     }
-    for (int i = 0; i < r->side_count; i += RG_SIDES)
-        json_array_append_new(
-            pairs, json_pack("[s, s]", r->sides[i + RG_SIDE_A].name, r->sides[i + RG_SIDE_B].name));
-    const struct rg_gtest_shards *shards = &r->asked->shards; // shards may use the same folder
-    return json_pack("{s:o, s:o, s:O, s:f, s:s, s:i, s:i}", "cells", cells, "pairs", pairs,
-                     "passport", r->passport, "margin", r->asked->margin, "filter",
-                     r->asked->filter ? r->asked->filter : "", "shard", shards->index, "shards",
+    for (int i = 0; i < asked->pairs->count; i++)
+        json_array_append_new(pairs, json_pack("[s, s]", asked->pairs->all[i].names[RG_SIDE_A],
+                                               asked->pairs->all[i].names[RG_SIDE_B]));
+    for (int i = 0; asked->baseline && i < r->gate->case_count; i++) {
+        const struct rg_launches *launches = &r->gate->cases[i].before->launches;
+        rg_digest_of(launches->ms, (size_t)launches->count * sizeof(*launches->ms), digest);
+        json_object_set_new(before, r->gate->cases[i].name, json_string(digest));
+    }
+    const struct rg_gtest_shards *shards = &asked->shards; // shards may use the same folder
+    return json_pack("{s:o, s:o, s:o, s:O, s:f, s:s, s:i, s:i}", "cells", cells, "pairs", pairs,
+                     "baseline", before, "passport", r->passport, "margin", asked->margin, "filter",
+                     asked->filter ? asked->filter : "", "shard", shards->index, "shards",
                      shards->total);
 }
 
-// Everything that the compared times depend on, the baseline's times included.
-static json_t *key_of_baseline(const struct run *r)
-{
-    json_t *was = json_object();
-    for (int i = 0; i < r->gate->case_count; i++) {
-        const struct rg_baseline_row *row = r->gate->cases[i].before;
-        char launches[RG_DIGEST_SIZE];
-        rg_digest_of(row->launches.ms, (size_t)row->launches.count * sizeof(*row->launches.ms),
-                     launches);
-        json_object_set_new(was, r->gate->cases[i].name,
-                            json_pack("[s, s]", row->settings, launches));
-    }
-    return json_pack("{s:o, s:O, s:f}", "baseline", was, "passport", r->passport, "margin",
-                     r->asked->margin);
-}
-
-static bool open_journal(struct run *r)
+static bool open_journal(struct rg_running_gate *r)
 {
     if (!r->asked->folder || r->asked->pictures_only)
         return true;
-    r->journal = rg_gate_journal_open(r->asked->folder,
-                                      r->asked->baseline ? key_of_baseline(r) : key_of_pairs(r),
-                                      r->asked->fresh);
+    r->journal = rg_gate_journal_open(r->asked->folder, key_of(r), r->asked->fresh);
     return r->journal;
 }
 
 // --- comparing ---
 
 // Makes the case's sides, and no others, run; a failure ends the case.
-static bool launch_for(struct run *r, struct rg_gate_case *c)
+static bool launch_for(struct rg_running_gate *r, struct rg_gate_case *c)
 {
     for (int i = 0; i < r->side_count; i++)
         if (&r->sides[i] != c->sides[RG_SIDE_A] && &r->sides[i] != c->sides[RG_SIDE_B])
@@ -291,12 +226,12 @@ static bool launch_for(struct run *r, struct rg_gate_case *c)
     return true;
 }
 
-static bool is_over(const struct run *r)
+static bool is_over(const struct rg_running_gate *r)
 {
     return r->end_ms > 0 && rg_now_ms() >= r->end_ms;
 }
 
-static void compare(struct run *r, struct rg_gate_case *c)
+static void compare(struct rg_running_gate *r, struct rg_gate_case *c)
 {
     const double start_ms = rg_now_ms();
     const bool over = is_over(r), there = !over && launch_for(r, c);
@@ -321,160 +256,25 @@ static void compare(struct run *r, struct rg_gate_case *c)
     }
 }
 
-// --- timing the cases that agree ---
-
-// Cases that are timed in one course.
-struct lot {
-    int count;
-    struct rg_gate_case **cases;
-    struct rg_timed_cell *cells;
-    struct rg_gate_sample *before; // with a baseline
-    struct rg_gate_row *rows;
-};
-
-static void free_lot(struct lot *lot)
-{
-    free(lot->cases);
-    free(lot->cells);
-    free(lot->before);
-    free(lot->rows);
-}
-
-// Chooses the advised cases, or the timed ones, from `count` cases.
-static bool make_lot(struct rg_gate_case *cases, int count, bool is_advice, struct lot *lot)
-{
-    const size_t room = (size_t)count;
-    lot->cases = rg_alloc(room, sizeof(struct rg_gate_case *), "gate");
-    lot->cells = rg_alloc(room, sizeof(*lot->cells), "gate");
-    lot->before = rg_alloc(room, sizeof(*lot->before), "gate");
-    lot->rows = rg_alloc(room, sizeof(*lot->rows), "gate");
-    if (!lot->cases || !lot->cells || !lot->before || !lot->rows)
-        return false;
-    for (struct rg_gate_case *c = cases; c < cases + count; c++) {
-        const int row = lot->count;
-        if (is_advice ? !c->is_advised : !c->is_timed)
-            continue;
-        lot->count++;
-        lot->cases[row] = c;
-        lot->cells[row] = (struct rg_timed_cell){
-            .cell = c->cell, .name = c->name, .sides = {c->sides[RG_SIDE_A], c->sides[RG_SIDE_B]}};
-        if (!c->before)
-            continue;
-        lot->cells[row].side = RG_SIDE_B;
-        lot->cells[row].slot = c->before->slot;
-        lot->before[row] = rg_baseline_sample(&c->before->launches);
-    }
-    return true;
-}
-
-// Advice takes one look, and no change matters to it: it is reported and decides nothing.
-static struct rg_gate_rule rule_of(const struct run *r, const struct lot *lot, bool is_advice)
-{
-    struct rg_gate_rule rule =
-        r->asked->baseline ? rg_gate_rule_apart(lot->count) : rg_gate_rule_of(lot->count);
-    rule.margin = is_advice ? INFINITY : r->asked->margin;
-    if (is_advice)
-        rule.look_count = 1;
-    if (!r->asked->baseline)
-        rule.error /= r->asked->pairs->count;
-    return rule;
-}
-
-// Drops journal times that were taken with other code.
-static void expect_codes(struct run *r, const struct lot *lot)
-{
-    for (int i = 0; r->journal && i < lot->count; i++) {
-        char code[RG_AGREEMENT_CODE];
-        rg_agreement_code(&lot->cases[i]->agreement, code);
-        rg_gate_journal_expect(r->journal, lot->cells[i].name, code);
-    }
-}
-
-static void tell_row(struct run *r, const struct lot *lot, int row, const struct rg_gate_rule *rule)
-{
-    struct rg_gate_case *c = lot->cases[row];
-    struct rg_gate_row *found = &lot->rows[row];
-    if (lot->cells[row].is_over)
-        found->end = RG_END_OVER;
-    r->has_looked |=
-        found->end != RG_END_OVER || found->launches - found->disturbed >= rule->looks[0];
-    c->seconds += lot->cells[row].seconds;
-    c->row = *found;
-    c->rule = *rule;
-    c->times = lot->cells[row];
-    if (c->is_advised)
-        rg_gate_advise(&c->row, &c->times, r->asked->baseline->yardsticks, r->yardsticks,
-                       &c->agreement);
-}
-
-static bool time_lot(struct run *r, const struct lot *lot, bool is_advice,
-                     struct rg_gate_times *times)
-{
-    const struct rg_gate_rule rule = rule_of(r, lot, is_advice);
-    const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, times,
-                                          r->asked->baseline ? lot->before : NULL};
-    times->cell_count = lot->count;
-    times->cells = lot->cells;
-    times->journal = is_advice ? NULL : r->journal; // advice is not kept
-    times->failed = times->is_launched = false;
-    times->launch = 0;
-    times->first_look = rule.looks[0];
-    if (!is_advice)
-        expect_codes(r, lot);
-    const bool ok = rg_course_run(&rule, &source, RG_COURSE_SEED, lot->rows);
-    for (int i = 0; ok && i < lot->count; i++)
-        tell_row(r, lot, i, &rule);
-    return ok;
-}
-
-// Times the cases of a pair, or all that run alone.
-static bool time_all(struct run *r, struct rg_gate_case *cases, int count)
-{
-    struct rg_yardstick_room room = {NULL};
-    struct lot lots[2] = {{.count = 0}, {.count = 0}}; // timed cases, and advised ones
-    struct rg_gate_times times = {.side_count = r->asked->baseline ? r->side_count : RG_SIDES,
-                                  .sides = r->asked->baseline ? r->sides : cases->sides[RG_SIDE_A],
-                                  .yardsticks = r->yardsticks,
-                                  .end_ms = r->end_ms};
-    bool ok = !rg_interrupted();
-    for (int i = 0; ok && i < 2; i++)
-        ok = make_lot(cases, count, i, &lots[i]);
-    if (ok && r->asked->baseline && lots[0].count + lots[1].count) {
-        ok = rg_yardsticks_open(&room);
-        times.room = &room;
-    }
-    for (int i = 0; ok && i < 2; i++)
-        ok = !lots[i].count || time_lot(r, &lots[i], i, &times);
-    rg_yardsticks_close(&room);
-    free_lot(&lots[0]);
-    free_lot(&lots[1]);
-    r->look_ms = fmax(r->look_ms, times.look_ms - r->start_ms);
-    return ok || rg_interrupted();
-}
-
 // --- the budget ---
 
-static int pairs_of(const struct run *r)
-{
-    return r->asked->baseline ? 1 : r->asked->pairs->count;
-}
-
 // Gives a pair its share of the time that is left.
-static void begin_pair(struct run *r, int pair)
+static void begin_pair(struct rg_running_gate *r, int pair)
 {
     const double now_ms = rg_now_ms();
     const double left_ms = r->asked->begin_ms + 1e3 * r->asked->budget_s - now_ms;
     r->start_ms = now_ms;
-    r->end_ms = r->asked->budget_s > 0 ? now_ms + fmax(left_ms, 0) / (pairs_of(r) - pair) : 0;
+    r->end_ms =
+        r->asked->budget_s > 0 ? now_ms + fmax(left_ms, 0) / (rg_gate_courses(r) - pair) : 0;
 }
 
-static int first_look(const struct run *r)
+static int first_look(const struct rg_running_gate *r)
 {
     return (r->asked->baseline ? rg_gate_rule_apart(1) : rg_gate_rule_of(1)).looks[0];
 }
 
 // If the time is over before the first launch, a launch is taken to last as long as comparing did.
-static void expect_look(struct run *r, const struct rg_gate_case *cases, int count)
+static void expect_look(struct rg_running_gate *r, const struct rg_gate_case *cases, int count)
 {
     int compared = 0;
     for (int i = 0; i < count; i++)
@@ -486,7 +286,7 @@ static void expect_look(struct run *r, const struct rg_gate_case *cases, int cou
 
 // --- the whole gate ---
 
-static bool run_all(struct run *r)
+static bool run_all(struct rg_running_gate *r)
 {
     struct rg_gate_case *cases = r->gate->cases;
     bool ok = true;
@@ -497,21 +297,21 @@ static bool run_all(struct run *r)
             if (!rg_interrupted())
                 compare(r, &cases[end]);
         expect_look(r, &cases[i], end - i);
-        ok = time_all(r, &cases[i], end - i);
+        ok = rg_gate_time(r, &cases[i], end - i);
     }
     return ok && (rg_interrupted() || rg_gate_report(r->asked, r->gate));
 }
 
 // The enum rg_exit of what was found. A budget in which no case came as far as its first look is
 // refused, since nothing could be decided.
-static int exit_of(const struct run *r)
+static int exit_of(const struct rg_running_gate *r)
 {
     const struct rg_gate_request *asked = r->asked;
     const int exit = rg_gate_exit(asked, r->gate);
     if (exit != RG_EXIT_INCONCLUSIVE || !(asked->budget_s > 0) || r->has_looked)
         return exit;
     const double before_ms = r->first_ms - asked->begin_ms;
-    const double needed_s = ceil((before_ms + pairs_of(r) * r->look_ms) / 1000);
+    const double needed_s = ceil((before_ms + rg_gate_courses(r) * r->look_ms) / 1000);
     rg_error("--budget: the first look, after %d launches, comes about %.0f s after the start, so "
              "that nothing is decided within %g s; give %.0fs or more, or gate fewer cells",
              first_look(r), needed_s, asked->budget_s, needed_s);
@@ -519,20 +319,20 @@ static int exit_of(const struct run *r)
 }
 
 // False if a device was ever closed badly.
-static bool close_all(struct run *r)
+static bool close_all(struct rg_running_gate *r)
 {
     bool clean = rg_truth_close(&r->truth);
     for (int side = 0; side < r->side_count; side++) {
         rg_side_close(&r->sides[side]);
         clean = clean && !r->sides[side].was_closed_badly;
     }
-    for (int i = 0; i < RG_MAX_DEVICES; i++)
+    for (int i = 0; i < RG_GATE_MOST_SIDES; i++)
         json_decref(r->parts[i]);
     json_decref(r->passport);
     return clean;
 }
 
-static bool was_lacking(const struct run *r)
+static bool was_lacking(const struct rg_running_gate *r)
 {
     bool any = false;
     for (int side = 0; side < r->side_count; side++)
@@ -542,7 +342,7 @@ static bool was_lacking(const struct run *r)
 
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
 {
-    struct run r = {.asked = request, .gate = gate};
+    struct rg_running_gate r = {.asked = request, .gate = gate};
     rg_interrupt_watch();
     const bool is_chosen = choose(&r);
     int found = is_chosen ? look_at_sides(&r) : rg_exit_of_error();

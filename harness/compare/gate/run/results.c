@@ -31,7 +31,8 @@ static bool make_results(const struct rg_gate_request *asked, struct rg_gate *ga
 }
 
 // Adds a failing case, as for a missing device, if a required device has cells but none was
-// compared or failed. Unsupported cells are left out, since they do not pass anyway.
+// compared, failed or left out for want of time. Unsupported cells do not count: they do not pass
+// anyway.
 static void hold_required(struct rg_gate *gate, const char *name)
 {
     bool any = false, is_told = false;
@@ -43,7 +44,8 @@ static void hold_required(struct rg_gate *gate, const char *name)
                 rg_device_is_of(c->devices[d], name) && ending != RG_ENDING_UNSUPPORTED;
             any = any || is_of;
             is_told =
-                is_told || (is_of && (rg_gate_case_was_compared(c) || rg_ending_fails(ending)));
+                is_told ||
+                (is_of && (rg_gate_case_was_compared(c) || c->is_over || rg_ending_fails(ending)));
         }
     }
     if (!any || is_told)

@@ -1,29 +1,13 @@
 #include "harness/compare/gate/sides/alike.h"
 
-#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/image/compare/compare.h"
-#include "harness/compare/blame/blame.h"
 #include "harness/compare/gate/pictures/pictures.h"
 #include "harness/devices/frames/frame.h"
-#include "harness/record/named.h"
-
-void rg_agreement_code(const struct rg_agreement *agreement, char code[RG_AGREEMENT_CODE])
-{
-    size_t used = 0;
-    *code = 0;
-    for (int side = 0; side < RG_SIDES; side++) {
-        const struct rg_session_code *of = &agreement->code[side];
-        used += (size_t)snprintf(code + used, RG_AGREEMENT_CODE - used,
-                                 "%s%s %016" PRIx64 " %016" PRIx64, side ? ", " : "", of->program,
-                                 of->libraries, of->passes.hash);
-    }
-}
 
 bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ...)
 {
@@ -37,24 +21,10 @@ bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ..
 
 bool rg_agreement_fails(struct rg_agreement *agreement, const char *device)
 {
-    const struct rg_failure failure = rg_failure_take();
-    agreement->outcome = failure.outcome;
-    agreement->is_ours = failure.fault != RG_FAULT_DRIVER && failure.fault != RG_FAULT_NONE;
+    agreement->outcome =
+        rg_side_failure(&agreement->is_ours, agreement->message, RG_AGREEMENT_TEXT);
     agreement->device = device;
-    rg_text_copy(agreement->message, RG_AGREEMENT_TEXT, failure.line);
     return false;
-}
-
-bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *device,
-                        struct rg_device *truth, struct rg_agreement *agreement)
-{
-    const struct rg_digest_run run = {{cell->technique, cell->settings, cell->width, cell->height},
-                                      cell->frames};
-    struct rg_blame blame;
-    const bool ok = rg_blame_find(&run, device, truth, &blame);
-    if (ok && blame.found)
-        snprintf(agreement->details, RG_AGREEMENT_TEXT, "%s", blame.text);
-    return ok;
 }
 
 // A cell without rain would pass whatever a device draws. This is the cell's fault, not a
@@ -62,10 +32,9 @@ bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *devic
 static bool shows_nothing(const struct rg_gate_cell *cell, struct rg_device *device,
                           struct rg_agreement *agreement)
 {
-    const struct rg_subject subject = {cell->technique, cell->settings, cell->width, cell->height};
     agreement->outcome = RG_NOTHING;
     agreement->is_ours = true;
-    rg_frame_tell_dry(device, &subject, cell->frames, 1, "FRAMES", agreement->message);
+    rg_frame_tell_dry(device, &cell->subject, cell->frames, 1, "FRAMES", agreement->message);
     return false;
 }
 
@@ -85,10 +54,11 @@ bool rg_alike_has_room(const struct rg_gate_cell *cell, struct rg_agreement *agr
 {
     enum { PICTURES = 5 }; // three, a worker's copy of the third, and the comparison's planes
     char begin[64];
-    const int64_t bytes = rg_pictures_bytes(cell->width, cell->height, PICTURES);
+    const int64_t bytes = rg_pictures_bytes(cell->subject.width, cell->subject.height, PICTURES);
     if (rg_memory_allows(bytes))
         return true;
-    snprintf(begin, sizeof(begin), "a comparison of %dx%d pixels", cell->width, cell->height);
+    snprintf(begin, sizeof(begin), "a comparison of %dx%d pixels", cell->subject.width,
+             cell->subject.height);
     rg_memory_refuse(begin, bytes, "a cell with a smaller picture");
     return rg_agreement_fails(agreement, NULL);
 }
@@ -97,10 +67,9 @@ bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device
                        const struct rg_drawn *a, const struct rg_drawn *b,
                        struct rg_agreement *agreement)
 {
-    const struct rg_subject subject = {cell->technique, cell->settings, cell->width, cell->height};
     struct rg_picture dry = {0};
     struct rg_comparison c = {0};
-    if (!rg_frame_draw_dry(device, &subject, cell->frames, &dry))
+    if (!rg_frame_draw_dry(device, &cell->subject, cell->frames, &dry))
         return rg_agreement_fails(agreement, a->name);
     bool ok = rg_compare(&a->picture, a->name, &b->picture, b->name, &dry,
                          &(struct rg_compare_options){0}, &c);
@@ -119,37 +88,4 @@ bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device
     rg_comparison_destroy(&c);
     rg_picture_destroy(&dry);
     return ok;
-}
-
-bool rg_alike_counters(const struct rg_counters *a, const struct rg_counters *b,
-                       struct rg_agreement *agreement)
-{
-    if (a->count != b->count)
-        return rg_agreement_differs(agreement, "there are %d and %d counters", a->count, b->count);
-    for (int i = 0; i < a->count; i++) {
-        const struct rg_count *one = &a->counters[i], *other = &b->counters[i];
-        if (strcmp(one->name, other->name) != 0)
-            return rg_agreement_differs(agreement, "a counter is '%s' and '%s'", one->name,
-                                        other->name);
-        if (one->value != other->value)
-            return rg_agreement_differs(agreement, "the counter '%s' is %lld and %lld", one->name,
-                                        (long long)one->value, (long long)other->value);
-    }
-    return true;
-}
-
-bool rg_alike_work(const struct rg_tally *a, const struct rg_tally *b,
-                   struct rg_agreement *agreement)
-{
-    for (int i = 0; i < RG_TALLY_FIELDS; i++) {
-        const struct rg_tally_field *field = &rg_tally_fields[i];
-        int64_t counts[2];
-        memcpy(&counts[0], (const char *)a + field->offset, sizeof(int64_t));
-        memcpy(&counts[1], (const char *)b + field->offset, sizeof(int64_t));
-        if (strcmp(field->name, "dispatches") && counts[0] >= 0 && counts[1] >= 0 &&
-            counts[0] != counts[1])
-            return rg_agreement_differs(agreement, "a frame has %lld and %lld %s",
-                                        (long long)counts[0], (long long)counts[1], field->name);
-    }
-    return true;
 }

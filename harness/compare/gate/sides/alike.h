@@ -1,4 +1,4 @@
-// Compares two runs of a cell: its picture by a tier, its counters and the work of a frame exactly.
+// Compares the pictures of two runs of a cell by a tier.
 #ifndef RG_HARNESS_COMPARE_GATE_SIDES_ALIKE_H
 #define RG_HARNESS_COMPARE_GATE_SIDES_ALIKE_H
 
@@ -32,20 +32,11 @@ struct rg_agreement {
         difference; // count of differing pixels, largest difference of a channel; NAN: not compared
 };
 
-enum { RG_AGREEMENT_CODE = 512 };
-// Describes the code that ran as a text that is equal for equal code.
-void rg_agreement_code(const struct rg_agreement *agreement, char code[RG_AGREEMENT_CODE]);
-
 // Ends the agreement with a difference. False.
 bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 // Ends the agreement with the last error, which happened on `device`. False.
 bool rg_agreement_fails(struct rg_agreement *agreement, const char *device);
-
-// Finds the first stage after which the device's bits differ from the truth's, and names it in the
-// details. False if that could not be found out.
-bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *device,
-                        struct rg_device *truth, struct rg_agreement *agreement);
 
 // A cell's picture and the device that drew it.
 struct rg_drawn {
@@ -55,8 +46,8 @@ struct rg_drawn {
 // Whether memory suffices for both pictures, for one without rain, and to compare them.
 bool rg_alike_has_room(const struct rg_gate_cell *cell, struct rg_agreement *agreement);
 // Compares b with a by the tier that they owe each other. The picture without rain, which shows
-// where it rains, is drawn on `device`, the one of a. Each of these functions returns whether the
-// two are equivalent, and has ended the agreement if they are not.
+// where it rains, is drawn on `device`, the one of a. Returns whether they are equivalent, and has
+// ended the agreement if they are not.
 bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device, enum rg_tier owed,
                        const struct rg_drawn *a, const struct rg_drawn *b,
                        struct rg_agreement *agreement);
@@ -65,11 +56,5 @@ struct rg_counters {
     int count;
     struct rg_count counters[RG_MAX_COUNTERS];
 };
-bool rg_alike_counters(const struct rg_counters *a, const struct rg_counters *b,
-                       struct rg_agreement *agreement);
-// Compares all counted work but the number of dispatches, which depends on the API. Work that a
-// device cannot count is ignored.
-bool rg_alike_work(const struct rg_tally *a, const struct rg_tally *b,
-                   struct rg_agreement *agreement);
 
 #endif

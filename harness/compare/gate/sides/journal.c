@@ -35,23 +35,14 @@ static json_t *launch_json(int number, const struct rg_quads *quads)
                      quads->is_disturbed);
 }
 
-static struct rg_quads quads_of(const json_t *launch)
+// Reads a launch. False if it is none.
+static bool take_launch(json_t *launch, json_int_t *number, struct rg_quads *quads)
 {
-    return (struct rg_quads){.log = json_number_value(json_array_get(launch, 1)),
-                             .a_ms = json_number_value(json_array_get(launch, 2)),
-                             .b_ms = json_number_value(json_array_get(launch, 3)),
-                             .is_disturbed = json_is_true(json_array_get(launch, 4))};
-}
-
-static bool is_launch(const json_t *launch)
-{
-    bool ok = json_array_size(launch) == 5 && json_is_integer(json_array_get(launch, 0)) &&
-              json_is_boolean(json_array_get(launch, 4));
-    for (size_t i = 1; ok && i < 4; i++)
-        ok = json_is_number(json_array_get(launch, i));
-    const struct rg_quads quads = quads_of(launch);
-    return ok && json_integer_value(json_array_get(launch, 0)) >= 0 && quads.a_ms >= 0 &&
-           quads.b_ms > 0;
+    int is_disturbed = 0;
+    const bool ok = !json_unpack(launch, "[I, F, F, F, b!]", number, &quads->log, &quads->a_ms,
+                                 &quads->b_ms, &is_disturbed);
+    quads->is_disturbed = is_disturbed;
+    return ok && *number >= 0 && quads->a_ms >= 0 && quads->b_ms > 0;
 }
 
 // --- the document ---
@@ -70,12 +61,14 @@ static int count_launches(json_t *document)
     const char *name;
     json_t *row, *launch;
     size_t i;
+    struct rg_quads quads;
+    json_int_t number;
     int count = 0;
     json_object_foreach(json_object_get(document, "rows"), name, row)
     {
         json_array_foreach(row, i, launch)
         {
-            if (!is_launch(launch))
+            if (!take_launch(launch, &number, &quads))
                 return -1;
             count++;
         }
@@ -171,12 +164,11 @@ bool rg_gate_journal_find(const struct rg_gate_journal *j, const char *name, int
 {
     json_t *found;
     size_t i;
+    json_int_t number;
     json_array_foreach(json_object_get(rows_of(j), name), i, found)
     {
-        if (json_integer_value(json_array_get(found, 0)) == launch) {
-            *quads = quads_of(found);
+        if (take_launch(found, &number, quads) && number == launch)
             return true;
-        }
     }
     return false;
 }
@@ -194,13 +186,15 @@ void rg_gate_journal_add(struct rg_gate_journal *j, const char *name, int launch
 // --- the end ---
 
 // A launch of B alone, compared with a baseline, has no ratio and no time of A.
-static void put_launch(const char *name, const json_t *launch, FILE *file)
+static void put_launch(const char *name, json_t *launch, FILE *file)
 {
-    const struct rg_quads quads = quads_of(launch);
+    struct rg_quads quads;
+    json_int_t number;
+    take_launch(launch, &number, &quads);
     fprintf(file, "\"");
     for (const char *c = name; *c; c++)
         fprintf(file, *c == '"' ? "\"\"" : "%c", *c);
-    fprintf(file, "\",%" JSON_INTEGER_FORMAT ",", json_integer_value(json_array_get(launch, 0)));
+    fprintf(file, "\",%" JSON_INTEGER_FORMAT ",", number);
     if (quads.a_ms > 0)
         fprintf(file, "%.9g,%.9g", quads.log, quads.a_ms);
     else

@@ -5,7 +5,8 @@
 #include "harness/compare/gate/sides/sides.h"
 
 struct rg_gate_pair {
-    char names[RG_SIDES][RG_DEVICE_NAME_SIZE]; // as an argument of --device for one device
+    // As an argument of --device for one device. A's is "" if a baseline takes its place.
+    char names[RG_SIDES][RG_DEVICE_NAME_SIZE];
 };
 
 struct rg_gate_pairs {

@@ -22,6 +22,14 @@ void rg_side_close(struct rg_side *side)
     side->device = NULL;
 }
 
+enum rg_outcome rg_side_failure(bool *is_ours, char *why, size_t size)
+{
+    const struct rg_failure failure = rg_failure_take();
+    *is_ours = failure.fault != RG_FAULT_DRIVER && failure.fault != RG_FAULT_NONE;
+    rg_text_copy(why, size, failure.line);
+    return failure.outcome;
+}
+
 struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *info)
 {
     struct rg_side_seen seen = {side->name, true, true, rg_side_launch(side), ""};

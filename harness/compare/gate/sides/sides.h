@@ -20,6 +20,10 @@ struct rg_side {
 bool rg_side_launch(struct rg_side *side);
 void rg_side_close(struct rg_side *side);
 
+// Takes the failure that was just met: writes its line to `why`, and whether it is of raingauge,
+// its input or the machine's set-up, so that nothing of a driver's expectations applies.
+enum rg_outcome rg_side_failure(bool *is_ours, char *why, size_t size);
+
 // The result of a first launch.
 struct rg_side_seen {
     const char *name; // not owned

@@ -21,6 +21,17 @@ static double wait_ms(const struct rg_gate_times *t, int launch, double launch_m
     return launch_ms * (launch < t->first_look ? t->first_look - launch : 1);
 }
 
+// Whether the time has room for so much more of a cell; else the cell is over.
+static bool has_room(struct rg_gate_times *t, struct rg_timed_cell *timed, double more_ms)
+{
+    const double now_ms = rg_now_ms();
+    timed->is_over = t->end_ms > 0 && now_ms + more_ms >= t->end_ms;
+    if (timed->is_over && t->launch < t->first_look)
+        t->look_ms =
+            fmax(t->look_ms, now_ms + wait_ms(t, t->launch, fmax(more_ms, now_ms - t->began_ms)));
+    return !timed->is_over;
+}
+
 // The first launch is no measure of others, since drivers fill their caches in it.
 bool rg_times_are_over(void *user)
 {
@@ -34,10 +45,9 @@ bool rg_times_are_over(void *user)
 
 bool rg_timed_cell_fails(struct rg_timed_cell *timed)
 {
-    const struct rg_failure failure = rg_failure_take();
-    timed->outcome = failure.outcome == RG_UNSUPPORTED ? RG_ERROR : failure.outcome;
-    timed->is_ours = failure.fault != RG_FAULT_DRIVER && failure.fault != RG_FAULT_NONE;
-    rg_text_copy(timed->why, sizeof(timed->why), failure.line);
+    timed->outcome = rg_side_failure(&timed->is_ours, timed->why, sizeof(timed->why));
+    if (timed->outcome == RG_UNSUPPORTED)
+        timed->outcome = RG_ERROR;
     return false;
 }
 
@@ -162,17 +172,6 @@ static bool time_slot(struct rg_session *session, const struct rg_slot *slot, do
 
 // --- a cell's launch ---
 
-// Whether the time has room for the cell's timings. A baseline may ask for many frames.
-static bool has_room(struct rg_gate_times *t, struct rg_timed_cell *timed, double frames_ms)
-{
-    const int frames = QUADS * timed->slot.timings * timed->slot.frames;
-    const double now_ms = rg_now_ms(), launch_ms = frames * frames_ms;
-    timed->is_over = t->end_ms > 0 && now_ms + launch_ms > t->end_ms;
-    if (timed->is_over && t->launch < t->first_look)
-        t->look_ms = fmax(t->look_ms, now_ms + wait_ms(t, t->launch, launch_ms));
-    return !timed->is_over;
-}
-
 // Runs frames that are not timed, because drivers compile in the first. Both sides get the same
 // slot, chosen by the geometric mean of their frame times, so that a slow side does not take for
 // ever and a fast one is not too short for the clock. False also if there is no room for it.
@@ -190,9 +189,10 @@ static bool warm_up(struct rg_gate_times *t, struct rg_timed_cell *timed,
     if (!timed->slot.frames)
         settle(&timed->slot, sessions[RG_SIDE_A] ? sqrt(frame_ms[RG_SIDE_A] * frame_ms[RG_SIDE_B])
                                                  : frame_ms[RG_SIDE_B]);
-    return has_room(t, timed,
-                    sessions[RG_SIDE_A] ? 2 * (frame_ms[RG_SIDE_A] + frame_ms[RG_SIDE_B])
-                                        : frame_ms[RG_SIDE_B]);
+    // A baseline may ask for many frames.
+    const double frames_ms =
+        sessions[RG_SIDE_A] ? 2 * (frame_ms[RG_SIDE_A] + frame_ms[RG_SIDE_B]) : frame_ms[RG_SIDE_B];
+    return has_room(t, timed, QUADS * timed->slot.timings * timed->slot.frames * frames_ms);
 }
 
 static bool time_quad(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES],
@@ -232,8 +232,6 @@ static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions
 static bool take(struct rg_gate_times *t, struct rg_timed_cell *timed, bool b_first,
                  struct rg_quads *quads)
 {
-    const struct rg_gate_cell *cell = timed->cell;
-    const struct rg_subject subject = {cell->technique, cell->settings, cell->width, cell->height};
     struct rg_session *sessions[RG_SIDES] = {NULL, NULL};
     const double start_ms = rg_now_ms();
     bool ok = true;
@@ -243,9 +241,10 @@ static bool take(struct rg_gate_times *t, struct rg_timed_cell *timed, bool b_fi
         if (!side)
             continue;
         timed->side = number;
-        sessions[number] = side->device || rg_side_launch(side)
-                               ? rg_session_run(side->device, &subject, cell->frames)
-                               : NULL;
+        sessions[number] =
+            side->device || rg_side_launch(side)
+                ? rg_session_run(side->device, &timed->cell->subject, timed->cell->frames)
+                : NULL;
         ok = sessions[number] != NULL;
     }
     ok = ok && warm_up(t, timed, sessions) && time_launch(timed, sessions, b_first, quads);
@@ -262,7 +261,9 @@ bool rg_times_take(int row, bool b_first, struct rg_quads *quads, void *user)
     struct rg_gate_times *t = user;
     if (t->journal && rg_gate_journal_find(t->journal, t->cells[row].name, t->launch, quads))
         return true;
-    if ((!t->is_launched && (t->failed || !start(t))) || !take(t, &t->cells[row], b_first, quads))
+    if (!t->is_launched && (t->failed || !start(t)))
+        return false;
+    if (!has_room(t, &t->cells[row], 0) || !take(t, &t->cells[row], b_first, quads))
         return false;
     if (t->journal)
         rg_gate_journal_add(t->journal, t->cells[row].name, t->launch, quads);

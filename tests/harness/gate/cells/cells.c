@@ -35,8 +35,8 @@ static bool read_text(const char *text, struct rg_gate_cells *cells)
 static double seed_of(const struct rg_gate_cell *cell)
 {
     char text[64];
-    rg_params_text(rg_params_find(cell->technique->params, "seed"), cell->settings, text,
-                   sizeof(text));
+    rg_params_text(rg_params_find(cell->subject.technique->params, "seed"), cell->subject.settings,
+                   text, sizeof(text));
     return atof(text);
 }
 
@@ -50,14 +50,14 @@ static void cells_have_what_their_lines_say(void **state)
     assert_int_equal(cells.count, 2);
     const struct rg_gate_cell *a = &cells.cells[0], *b = a + 1;
     assert_string_equal(a->name, "a/b");
-    assert_string_equal(a->technique->name, "raster");
-    assert_int_equal(a->width * 1000 + a->height, 128096);
+    assert_string_equal(a->subject.technique->name, "raster");
+    assert_int_equal(a->subject.width * 1000 + a->subject.height, 128096);
     assert_int_equal(a->frames, 10);
     assert_int_equal(a->line, 3);
     assert_string_equal(a->assignments, "seed=7 billboards=5");
     assert_equals(seed_of(a), 7);
     assert_string_equal(b->name, "c.d-e_f");
-    assert_int_equal(b->height, 16384);
+    assert_int_equal(b->subject.height, 16384);
     assert_int_equal(b->frames, 0);
     assert_string_equal(b->assignments, "");
     assert_equals(seed_of(b), 1);
@@ -149,12 +149,12 @@ static void the_built_in_cells_are_of_all_techniques(void **state)
     for (int i = 0; rg_techniques[i]; i++) {
         int count = 0;
         for (int64_t c = 0; c < cells.count; c++)
-            count += cells.cells[c].technique == rg_techniques[i];
+            count += cells.cells[c].subject.technique == rg_techniques[i];
         if (count < 1 || count > 2)
             fail_msg("%s has %d cells", rg_techniques[i]->name, count);
     }
     for (int64_t c = 0; c < cells.count; c++)
-        assert_true(cells.cells[c].width <= 128 && cells.cells[c].frames >= 1);
+        assert_true(cells.cells[c].subject.width <= 128 && cells.cells[c].frames >= 1);
     rg_gate_cells_free(&cells);
 }
 

@@ -49,7 +49,7 @@ ROWS = [
     Fault(JOURNAL, "} else if («!json_equal(json_object_get(found, \"key\"), key)») {", "false", "what another gate kept is gone on with", tests=("command line, losses",)),
     Fault(JOURNAL, "if (!found || «count < 0») {", "false", "a journal that is none is gone on with", tests=("command line, losses",), lives="its checksum tells one that was damaged before"),
     Fault(JOURNAL, "if («was && !strcmp(was, code)»)\n", "was != NULL", "times that other code took are gone on with", tests=("command line, losses",)),
-    Fault("harness/compare/gate/run/gate.c", "r->asked->baseline ? «lot->before» : NULL};", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, baselines",)),
+    Fault("harness/compare/gate/run/timing.c", "r->asked->baseline ? «lot->before» : NULL};", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, baselines",)),
     Fault(JOURNAL, "    «json_array_append_new(launches, launch_json(launch, quads));»", ";", "a launch is not kept", tests=("command line, losses",)),
-    Fault(JOURNAL, "if («json_integer_value(json_array_get(found, 0)) == launch»)", "true", "each launch is the first that was kept", tests=("command line, losses",)),
+    Fault(JOURNAL, "if (take_launch(found, &number, quads) && «number == launch»)", "true", "each launch is the first that was kept", tests=("command line, losses",)),
 ]

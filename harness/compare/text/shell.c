@@ -1,4 +1,4 @@
-#include "harness/compare/gate/text/shell.h"
+#include "harness/compare/text/shell.h"
 
 #include <ctype.h>
 #include <stdbool.h>

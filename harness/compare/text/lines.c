@@ -1,4 +1,4 @@
-#include "harness/compare/gate/text/lines.h"
+#include "harness/compare/text/lines.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -38,6 +38,16 @@ bool rg_line_is_empty(const struct rg_line *line)
 {
     const char *text = rg_line_skip(line->text);
     return !*text || *text == '#';
+}
+
+char *rg_lines_next(const struct rg_lines *lines, int64_t *at, char place[RG_LINES_PLACE])
+{
+    while (++*at < lines->count && rg_line_is_empty(&lines->lines[*at]))
+        ;
+    if (*at >= lines->count)
+        return NULL;
+    snprintf(place, RG_LINES_PLACE, "%.400s:%lld", lines->name, (long long)*at + 1);
+    return lines->lines[*at].text;
 }
 
 static bool is_clean(const struct rg_lines *lines, const char *text, size_t length)

@@ -1,6 +1,6 @@
 // Words of a shell command line.
-#ifndef RG_HARNESS_COMPARE_GATE_TEXT_SHELL_H
-#define RG_HARNESS_COMPARE_GATE_TEXT_SHELL_H
+#ifndef RG_HARNESS_COMPARE_TEXT_SHELL_H
+#define RG_HARNESS_COMPARE_TEXT_SHELL_H
 
 #include <stddef.h>
 #include <stdio.h>

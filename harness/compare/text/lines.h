@@ -1,6 +1,6 @@
 // A text file as lines with their positions.
-#ifndef RG_HARNESS_COMPARE_GATE_TEXT_LINES_H
-#define RG_HARNESS_COMPARE_GATE_TEXT_LINES_H
+#ifndef RG_HARNESS_COMPARE_TEXT_LINES_H
+#define RG_HARNESS_COMPARE_TEXT_LINES_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -29,6 +29,10 @@ bool rg_lines_read(const char *path, struct rg_lines *lines);
 bool rg_lines_of(const char *name, const char *text, size_t size, struct rg_lines *lines);
 void rg_lines_free(struct rg_lines *lines);
 
+// The next line after number `at`, from -1 on, that is neither blank nor a comment, and its place
+// for messages, "FILE:LINE". NULL: none is left.
+enum { RG_LINES_PLACE = 440 };
+char *rg_lines_next(const struct rg_lines *lines, int64_t *at, char place[RG_LINES_PLACE]);
 // Whether a line is blank or a comment, whose first character after blanks is a #.
 bool rg_line_is_empty(const struct rg_line *line);
 // Skips blanks.
