@@ -46,7 +46,7 @@ ROWS = [
     Fault(JUDGE, "(«!driver» || is_of(row", "false", "what is expected of one driver goes where nobody knows which there is"),
     Fault(JUDGE, "fails = rg_ending_fails(own) ? own : «RG_ENDING_UNEXPECTED_PASS»;", "own", "a gate passes with what has expired"),
     Fault(OWN, "i < 2 && «!are_compared»; i++)", "false", "evidence of pictures stands beside outcomes that have none"),
-    Fault(MEND, "else if («is_idle(row, s, field)»)", "false", "what is written is refused"),
+    Fault(MEND, "if (is_field && «is_idle(row, s, field)»)", "false", "what is written is refused"),
     Fault(MEND, "if («s->fixed || is_over»)", "is_over", "a row stays whole for cells that pass"),
     Fault(MEND, "return «s->has_expired»;", "false", "what has expired stays so"),
     Fault(MEND, "return «e->least < old->least» || e->most > old->most;", "false", "an envelope does not grow downwards"),
