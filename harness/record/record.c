@@ -20,12 +20,18 @@ const struct rg_tally_field rg_tally_fields[RG_TALLY_FIELDS] = {
     {"bytes_read", offsetof(struct rg_tally, bytes_read)},
 };
 
+int64_t rg_tally_count(const struct rg_tally *tally, int field)
+{
+    int64_t count;
+    memcpy(&count, (const char *)tally + rg_tally_fields[field].offset, sizeof(count));
+    return count;
+}
+
 json_t *rg_tally_json(const struct rg_tally *tally)
 {
     json_t *json = json_object();
     for (int i = 0; i < RG_TALLY_FIELDS; i++) {
-        int64_t count;
-        memcpy(&count, (const char *)tally + rg_tally_fields[i].offset, sizeof(count));
+        const int64_t count = rg_tally_count(tally, i);
         json_object_set_new(json, rg_tally_fields[i].name,
                             count < 0 ? json_null() : json_integer(count));
     }

@@ -89,6 +89,7 @@ struct rg_tally_field {
 };
 enum { RG_TALLY_FIELDS = 10 };
 extern const struct rg_tally_field rg_tally_fields[RG_TALLY_FIELDS];
+int64_t rg_tally_count(const struct rg_tally *tally, int field);
 // A JSON object of the counts, null for unknown ones. The caller owns it.
 json_t *rg_tally_json(const struct rg_tally *tally);
 

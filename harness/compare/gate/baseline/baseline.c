@@ -7,6 +7,7 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "core/base/text/add.h"
 #include "harness/compare/text/shell.h"
 #include "harness/devices/names.h"
 
@@ -28,6 +29,14 @@ const struct rg_baseline_row *rg_baseline_find(const struct rg_baseline *baselin
     for (int64_t i = 0; i < baseline->count; i++)
         if (!strcmp(baseline->rows[i].cell, cell) && !strcmp(baseline->rows[i].device, device))
             return &baseline->rows[i];
+    return NULL;
+}
+
+const char *rg_baseline_state(const struct rg_baseline_row *row, const char *name)
+{
+    for (int i = 0; i < row->state_count; i++)
+        if (!strcmp(row->states[i].name, name))
+            return row->states[i].digest;
     return NULL;
 }
 
@@ -83,22 +92,19 @@ static bool has_devices(const struct rg_baseline *baseline, const char *path, co
 static bool refuse_variables(const struct rg_baseline *baseline, const char *path, const char *name)
 {
     enum { MOST_TOLD = 500 }; // keeps the line from being cut within quotes
-    char *names = NULL, *word = NULL;
+    char names[MOST_TOLD + 1] = "", *word = NULL;
     size_t size;
-    FILE *out = open_memstream(&names, &size);
-    for (int i = 0; out && i < baseline->device_count; i++)
-        fprintf(out, "%s%s", i ? "," : "", baseline->devices[i].name);
-    bool ok = out && !fclose(out) && (out = open_memstream(&word, &size));
-    if (ok)
+    for (int i = 0; i < baseline->device_count; i++)
+        rg_text_add(names, sizeof(names), ",", "%s", baseline->devices[i].name);
+    FILE *out = open_memstream(&word, &size);
+    if (out)
         rg_shell_word(out, names, strlen(names));
-    ok = ok && !fclose(out);
-    if (ok)
+    if (out && !fclose(out))
         rg_error("%s: its device '%s' sets variables, which may start programs and drivers, so "
                  "that the command line has to name it; add --device %s",
                  path, name, strlen(word) < MOST_TOLD ? word : "with all that are to run");
     else
         rg_harness_error("%s: no memory for its devices; close other programs", path);
-    free(names);
     free(word);
     return false;
 }

@@ -52,6 +52,8 @@ struct rg_baseline_row *rg_baseline_add(struct rg_baseline *baseline);
 // NULL if there is none.
 const struct rg_baseline_row *rg_baseline_find(const struct rg_baseline *baseline, const char *cell,
                                                const char *device);
+// The digest of a row's state; NULL if it has no such state.
+const char *rg_baseline_state(const struct rg_baseline_row *row, const char *name);
 const struct rg_baseline_device *rg_baseline_device(const struct rg_baseline *baseline,
                                                     const char *name);
 void rg_baseline_free(struct rg_baseline *baseline);

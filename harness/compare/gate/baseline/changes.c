@@ -13,24 +13,16 @@ enum { LINE = 1024 };
 
 // --- a cell ---
 
-static const char *find_state(const struct rg_baseline_row *row, const char *name)
-{
-    for (int i = 0; i < row->state_count; i++)
-        if (!strcmp(row->states[i].name, name))
-            return row->states[i].digest;
-    return NULL;
-}
-
 static void put_states(char line[LINE], const struct rg_baseline_row *then,
                        const struct rg_baseline_row *now)
 {
     for (int i = 0; i < now->state_count; i++) {
-        const char *was = find_state(then, now->states[i].name);
+        const char *was = rg_baseline_state(then, now->states[i].name);
         if (!was || strcmp(was, now->states[i].digest) != 0)
             PUT(line, "%s state '%s'", was ? "another" : "a new", now->states[i].name);
     }
     for (int i = 0; i < then->state_count; i++)
-        if (!find_state(now, then->states[i].name))
+        if (!rg_baseline_state(now, then->states[i].name))
             PUT(line, "no state '%s'", then->states[i].name);
 }
 
@@ -60,9 +52,7 @@ static void put_counters(char line[LINE], const struct rg_counters *then,
 static void put_work(char line[LINE], const struct rg_tally *then, const struct rg_tally *now)
 {
     for (int i = 0; i < RG_TALLY_FIELDS; i++) {
-        int64_t was, is;
-        memcpy(&was, (const char *)then + rg_tally_fields[i].offset, sizeof(was));
-        memcpy(&is, (const char *)now + rg_tally_fields[i].offset, sizeof(is));
+        const int64_t was = rg_tally_count(then, i), is = rg_tally_count(now, i);
         if (was != is)
             PUT(line, "%" PRId64 " %s a frame and not %" PRId64, is, rg_tally_fields[i].name, was);
     }

@@ -30,9 +30,8 @@ static const char *command_of(enum rg_ending ending)
 
 bool rg_report_annotations(const struct rg_report *report, FILE *out)
 {
-    int *order = rg_report_worst_first(report);
-    for (int i = 0, count = 0; order && i < report->case_count && count < RG_ANNOTATIONS; i++) {
-        const struct rg_report_case *told = &report->cases[order[i]];
+    for (int i = 0, count = 0; i < report->case_count && count < RG_ANNOTATIONS; i++) {
+        const struct rg_report_case *told = &report->cases[report->order[i]];
         const char *command = command_of(told->ending);
         if (!command)
             continue;
@@ -45,8 +44,7 @@ bool rg_report_annotations(const struct rg_report *report, FILE *out)
         fputc('\n', out);
         count++;
     }
-    free(order);
-    return order != NULL;
+    return true;
 }
 
 // --- Markdown ---
@@ -174,19 +172,15 @@ static size_t room_of(FILE *out)
 bool rg_report_markdown(const struct rg_report *report, FILE *out)
 {
     const int count = report->case_count;
-    int *order = rg_report_worst_first(report);
     struct page page = {out, room_of(out), 0, false};
-    if (!order)
-        return false;
     if (!put_parts(&page, report, &(int){0}, 1, make_head)) {
-        const int rows = put_parts(&page, report, order, count, make_row);
-        const int details = put_parts(&page, report, order, count, make_details);
+        const int rows = put_parts(&page, report, report->order, count, make_row);
+        const int details = put_parts(&page, report, report->order, count, make_details);
         if ((rows || details) && !page.is_broken)
             fprintf(out, "\nLeft out, for GitHub takes no more: %d cases, and the details of %d.\n",
                     rows, details);
     } else if (!page.is_broken) {
         rg_warning("the step's summary has no room left; write less to it before the gate");
     }
-    free(order);
     return !page.is_broken || rg_harness_error("a step's summary: no memory; close other programs");
 }

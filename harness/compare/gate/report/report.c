@@ -170,8 +170,14 @@ bool rg_report_add(struct rg_report *report, const struct rg_report_case *found)
     if (!added.name || !added.technique || !added.message || !added.details || !added.measured ||
         !added.devices || !added.attachments ||
         !rg_array_fit(&report->cases, &report->case_room, report->case_count + 1,
-                      sizeof(*report->cases), "cases of a report"))
+                      sizeof(*report->cases), "cases of a report") ||
+        !rg_array_fit(&report->order, &report->order_room, report->case_count + 1,
+                      sizeof(*report->order), "cases of a report"))
         return false;
+    int place = report->case_count;
+    for (; place && report->cases[report->order[place - 1]].ending > added.ending; place--)
+        report->order[place] = report->order[place - 1];
+    report->order[place] = report->case_count;
     report->cases[report->case_count++] = added;
     return true;
 }
@@ -187,6 +193,7 @@ void rg_report_free(struct rg_report *report)
         free(report->texts[i]);
     free(report->texts);
     free(report->cases);
+    free(report->order);
     *report = (struct rg_report){0};
 }
 
@@ -196,16 +203,6 @@ int rg_report_count(const struct rg_report *report, enum rg_ending ending)
     for (int i = 0; i < report->case_count; i++)
         count += report->cases[i].ending == ending;
     return count;
-}
-
-int *rg_report_worst_first(const struct rg_report *report)
-{
-    int *order = rg_alloc((size_t)report->case_count, sizeof(*order), "a report"), count = 0;
-    for (int ending = 0; order && ending < RG_ENDING_COUNT; ending++)
-        for (int i = 0; i < report->case_count; i++)
-            if (report->cases[i].ending == (enum rg_ending)ending)
-                order[count++] = i;
-    return order;
 }
 
 bool rg_report_write(const struct rg_report *report, rg_report_writer form, const char *path)

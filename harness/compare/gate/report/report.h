@@ -51,6 +51,11 @@ struct rg_bounded {
     double value, low, high;
 };
 
+// The fields of a case that was not timed.
+#define RG_UNMEASURED                                                                              \
+    .ratio = {NAN, NAN, NAN}, .smallest_visible = NAN, .time_ms = {NAN, NAN, NAN},                 \
+    .baseline_ms = NAN
+
 struct rg_report_case {
     const char *name; // such as "streaks.small.vulkan@VK_DRIVER_FILES=new.json"
     const char *technique;
@@ -74,10 +79,11 @@ struct rg_report_case {
 struct rg_report {
     int case_count;
     struct rg_report_case *cases; // in the order in which they were added
+    int *order;                   // their indices, worst first, equal ones in the order of adding
     int idle_count;               // cases with an expected failure or flake that compared nothing
     const char *passport;         // of the machine, drivers and program, as text of several lines
     // Owned memory.
-    int64_t case_room, text_room;
+    int64_t case_room, order_room, text_room;
     int text_count;
     void **texts;
 };
@@ -101,9 +107,6 @@ void rg_report_free(struct rg_report *report);
 
 // How many cases have this ending.
 int rg_report_count(const struct rg_report *report, enum rg_ending ending);
-// Indices of the cases, worst first, equal ones in the order of adding; the caller frees them.
-// NULL, and one logged line, without memory.
-int *rg_report_worst_first(const struct rg_report *report);
 
 // "14 cases, 1 crash, 13 pass". Every case that passes, differs or has a ratio was compared; after
 // the number of expected failures the text says how many of them were not.

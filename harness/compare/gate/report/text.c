@@ -1,5 +1,4 @@
 // The text form, for terminals and CI logs.
-#include <stdlib.h>
 #include <string.h>
 
 #include "harness/console/colour.h"
@@ -84,13 +83,11 @@ static void put_case(FILE *out, const struct rg_report_case *told, bool is_colou
 bool rg_report_text_coloured(const struct rg_report *report, FILE *out, bool is_coloured)
 {
     char summary[RG_REPORT_SUMMARY];
-    int *order = rg_report_worst_first(report);
-    for (int i = 0; order && i < report->case_count; i++)
-        put_case(out, &report->cases[order[i]], is_coloured);
-    free(order);
+    for (int i = 0; i < report->case_count; i++)
+        put_case(out, &report->cases[report->order[i]], is_coloured);
     rg_report_summary(report, summary);
     put_wrapped(out, summary, 0);
-    return order != NULL;
+    return true;
 }
 
 bool rg_report_text(const struct rg_report *report, FILE *out)

@@ -102,15 +102,14 @@ static bool have_alike_states(struct rg_gate_case *c, const struct rg_baseline_r
         return rg_agreement_differs(found, "there are %d states, and there were %d",
                                     now->state_count, before->state_count);
     for (int i = 0; i < now->state_count; i++) {
-        const struct rg_baseline_state *was = NULL, *is = &now->states[i];
-        for (int k = 0; !was && k < before->state_count; k++)
-            was = strcmp(before->states[k].name, is->name) ? NULL : &before->states[k];
+        const struct rg_baseline_state *is = &now->states[i];
+        const char *was = rg_baseline_state(before, is->name);
         if (!was)
             return rg_agreement_differs(found, "the state '%s' is new", is->name);
-        if (!strcmp(was->digest, is->digest))
+        if (!strcmp(was, is->digest))
             continue;
         return c->before ? rg_agreement_differs(found, "the state '%s' has digest %s, and had %s",
-                                                is->name, is->digest, was->digest)
+                                                is->name, is->digest, was)
                          : rg_agreement_differs(found, "the state '%s' differs behind %d frames",
                                                 is->name, c->cell->frames);
     }
@@ -140,14 +139,11 @@ static bool have_alike_work(const struct rg_tally *a, const struct rg_tally *b,
                             struct rg_agreement *agreement)
 {
     for (int i = 0; i < RG_TALLY_FIELDS; i++) {
-        const struct rg_tally_field *field = &rg_tally_fields[i];
-        int64_t counts[2];
-        memcpy(&counts[0], (const char *)a + field->offset, sizeof(int64_t));
-        memcpy(&counts[1], (const char *)b + field->offset, sizeof(int64_t));
-        if (strcmp(field->name, "dispatches") && counts[0] >= 0 && counts[1] >= 0 &&
-            counts[0] != counts[1])
-            return rg_agreement_differs(agreement, "a frame has %lld and %lld %s",
-                                        (long long)counts[0], (long long)counts[1], field->name);
+        const char *name = rg_tally_fields[i].name;
+        const long long one = rg_tally_count(a, i), other = rg_tally_count(b, i);
+        if (strcmp(name, "dispatches") && one >= 0 && other >= 0 && one != other)
+            return rg_agreement_differs(agreement, "a frame has %lld and %lld %s", one, other,
+                                        name);
     }
     return true;
 }

@@ -218,8 +218,6 @@ static void put_message(const struct rg_gate_case *c, const char *word, char *te
 static void put_measures(const struct rg_gate_case *c, struct rg_report_case *told)
 {
     const struct rg_gate_decision *d = &c->row.decision;
-    told->ratio = told->time_ms = (struct rg_bounded){NAN, NAN, NAN};
-    told->smallest_visible = told->baseline_ms = NAN;
     if (!c->is_timed || !d->units)
         return;
     told->ratio =
@@ -275,7 +273,8 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
                                     .seconds = c->seconds,
                                     .ending = judged.ending,
                                     .message = c->message,
-                                    .details = c->details};
+                                    .details = c->details,
+                                    RG_UNMEASURED};
     put_measures(c, told);
     if (c->agreement.has_pictures)
         put_pictures(c, request->pictures, told);

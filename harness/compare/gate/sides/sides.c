@@ -46,7 +46,6 @@ struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *in
 
 bool rg_side_is_missing(const char *name, const struct rg_side_seen *side, struct rg_report *report)
 {
-    static const struct rg_bounded unknown = {NAN, NAN, NAN};
     char text[RG_DEVICE_NAME_SIZE + 16];
     snprintf(text, sizeof(text), "required.%s", name);
     rg_report_add(report, &(struct rg_report_case){.name = text,
@@ -55,10 +54,7 @@ bool rg_side_is_missing(const char *name, const struct rg_side_seen *side, struc
                                                    .ending = RG_ENDING_ERROR,
                                                    .message = rg_last_error(),
                                                    .details = side ? side->why : NULL,
-                                                   .ratio = unknown,
-                                                   .smallest_visible = NAN,
-                                                   .time_ms = unknown,
-                                                   .baseline_ms = NAN});
+                                                   RG_UNMEASURED});
     return false;
 }
 

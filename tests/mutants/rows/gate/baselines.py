@@ -19,7 +19,7 @@ ROWS = [
     Fault(BASELINE, "if («!rg_baseline_find(baseline, cells->cells[i].name, baseline->devices[d].name)»)", "false", "a cell that the baseline lacks is passed over"),
     Fault(COMPARE, "if («is_same» && c->before->outcome == RG_OK)", "true", "no picture is looked at"),
     Fault(COMPARE, "if (is_same && «c->before->outcome == RG_OK»)", "true", "a driver that drew wrongly for the baseline is right"),
-    Fault(COMPARE, "if («!strcmp(was->digest, is->digest)»)", "true", "states are not looked at"),
+    Fault(COMPARE, "if («!strcmp(was, is->digest)»)", "true", "states are not looked at"),
     Fault(COMPARE, "return «have_alike_counters(&before->counters, &now->counters, &c->agreement)» &&", "true", "counters are not looked at"),
     Fault(COMPARE, "«have_alike_work(&before->work, &now->work, &c->agreement)»;", "true", "the work of a frame is not looked at"),
     Fault(COMPARE, "row->decision.ratio / «slower»;", "1", "yardsticks are told and do not count"),

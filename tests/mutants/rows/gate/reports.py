@@ -37,7 +37,7 @@ ROWS = [
     Fault(GITHUB, "(is_property && («*text == ':'» || *text == ','))", "false", "a colon ends the title"),
     Fault(GITHUB, "const bool is_mark = «*text == '%'» ||", "false", "per cent signs are not escaped"),
     Fault(GITHUB, "«count < RG_ANNOTATIONS»;", "true", "every case is annotated"),
-    Fault(GITHUB, "const struct rg_report_case *told = &report->cases[«order[i]»];\n        const char *command", "i", "the first three are annotated, not the worst"),
+    Fault(GITHUB, "const struct rg_report_case *told = &report->cases[«report->order[i]»];\n        const char *command", "i", "the first three are annotated, not the worst"),
     Fault(GITHUB, "return «longest + 1»;", "3", "a fence in the details ends their block"),
     Fault(GITHUB, "«size + NOTE» <= page->room;", "size", "the note of what is left out exceeds the room"),
     Fault(GITHUB, "const bool fits = «!page->left_out» && size", "true", "a case that is less bad takes the room of a worse"),
