@@ -80,10 +80,6 @@ static int search(const struct bisect_options *o, const struct rg_candidates *ca
     int exit = rg_bisect_run(&bisect);
     if (o->json && !rg_bisect_print_json(&bisect, stdout))
         exit = rg_exit_worse(exit, rg_exit_of_error());
-    else if (fflush(stdout) || ferror(stdout)) {
-        rg_stdout_error();
-        exit = rg_exit_worse(exit, rg_exit_of_error());
-    }
     rg_bisect_free(&bisect);
     return exit;
 }

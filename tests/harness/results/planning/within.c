@@ -217,6 +217,7 @@ static void what_would_not_end_in_time_is_skipped(void **state)
     expect_told("  slow-2 ");
     expect_told(" would take ");
     expect_told(" s were left)\n");
+    assert_null(strstr(got.out, " did not end in time")); // nothing is begun after the end
 }
 
 // With the seconds that are enough.

@@ -22,7 +22,6 @@ ROWS = [
     Fault(RUN, "b->found = rg_search_of(«b->verdicts», b->candidates->count);", "(enum rg_judgement[65]){0}", "an interrupted bisect forgets what it found"),
     Fault(RUN, "is_one = «found->bad == found->good + 1»;", "true", "one of several is called the first"),
     Fault(RUN, "if (exit == RG_EXIT_PASS)\n        exit = «judge_end(bisect, count - 1, RG_JUDGED_BAD)»;", "RG_EXIT_PASS", "the bad end is not judged"),
-    Fault(COMMAND, "else if («fflush(stdout) || ferror(stdout)»)", "false", "what cannot be printed is lost in silence"),
     Fault(COMMAND, "if («strstr(line, blanks[i][0])»)", "false", "the shell gets {} for a candidate"),
     Fault(COMMAND, "i < («is_git ? 1 : 3»); i++)", "3", "git's command may have no {}"),
     Fault(JUDGE, "{\"skip\", «RG_EXIT_GIT_SKIP»}", "1", "git takes what was skipped for bad"),
