@@ -8,7 +8,7 @@
 // the interval excludes no change, and the change matters. Nothing here reads a clock.
 //
 // If A's times were taken earlier, there are no blocks: each launch of a side gives the logarithm
-// of a time, and the interval is Mann's and Whitney's (record/shift.h).
+// of a time, and the interval is Mann's and Whitney's (shift.h).
 #ifndef RG_HARNESS_JUDGE_DECIDE_H
 #define RG_HARNESS_JUDGE_DECIDE_H
 

@@ -88,7 +88,7 @@ int rg_needed_variants(const struct rg_table *table, bool needed[RG_TABLE_VARIAN
         const char *name = table->variants[v].name;
         needed[v] = v == 0;
         for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
-            if (is_about(claim, table))
+            if (is_about(claim, table) && !claim->can_wait)
                 needed[v] = needed[v] || !strcmp(name, claim->variant) ||
                             (claim->other && !strcmp(name, claim->other));
         count += needed[v];
@@ -104,12 +104,14 @@ bool rg_has_claims(const struct rg_table *table)
     return any;
 }
 
-// Whether this test judges a claim about the table.
+// Whether this test judges a claim about the table. Quick settings that reduce the work leave no
+// rate to judge.
 static bool has_test(const struct rg_table *table, enum rg_claim_test test)
 {
     bool has = false;
     for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
-        has = has || (is_about(claim, table) && claim->test == test);
+        has = has || (is_about(claim, table) && claim->test == test &&
+                      !(test == RG_CLAIM_RATE && table->quick));
     return has;
 }
 

@@ -10,7 +10,7 @@ real work beside each frame, as much as takes --extra (5) percent of a frame as 
 (BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts; where frames have changed since, it is sized anew.
 --idle leaves the cores alone. --keep writes what each run found into a folder, as the gate's JSON and its launches: with the
 same build and arguments what is there is not made again, so that what was interrupted goes on. --traces writes all launches,
-for decide/traces.c to decide on again. Prints both directions, the share that was left open, seconds a cell and the power at 2,
+for tests/harness/judge/traces.c to decide on again. Prints both directions, the share that was left open, seconds a cell and the power at 2,
 3 and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that was planted was not
 found.
 """
