@@ -2,9 +2,10 @@
 # what Debian packages are missing, build, say what they do, and can be run again at no cost.
 # `make results` replaces the tables that the repository keeps; `make thorough` runs the tests that
 # take too long for every change; `make mutants` tries the tests themselves, with faults, and `make gate-selftest` the gate, with
-# builds that are the same and that are slower; `make lint` has tools look for faults in the sources.
+# builds that are the same and that are slower; `make claims` decides what papers claim, in a night, and
+# `make claims-selftest` tries that on cells whose truth is known; `make lint` has tools look for faults in the sources.
 .POSIX:
-.PHONY: all setup build whole tables committed results test thorough mutants gate-selftest lint clean format
+.PHONY: all setup build whole tables committed results claims test thorough mutants gate-selftest claims-selftest lint clean format
 
 BUILD = build
 ASAN = build-asan
@@ -13,6 +14,8 @@ TABLES = $(BUILD)/tables
 # How long they may take together.
 BUDGET = 4m
 RESULTS = results/tables
+# Launches for claims, and what `make claims` measures: names of tables, --device, --full, --budget 8h.
+CLAIMS = results/claims
 # What `make results` measures: names of tables, all unless it has any, and --quick (unless it is set)
 # or --full. What `make mutants` tries: areas, as images, all unless it has any.
 WHAT =
@@ -72,16 +75,17 @@ whole: setup $(BUILD)/build.ninja
 
 # What was measured by this build before, within the same time, is printed again.
 tables: build
-	@if test "$$(cat $(TABLES)/done 2>/dev/null)" = "$(BUDGET)" && \
+	@kept=; ! ls $(CLAIMS)/*.json >/dev/null 2>&1 || kept="--kept $(CLAIMS)"; \
+	if test "$$(cat $(TABLES)/done 2>/dev/null)" = "$(BUDGET)" && \
 	  test -z "$$(find $(BUILD)/harness $(BUILD)/backends $(BUILD)/kernels -type f -newer $(TABLES)/done)"; then \
 	  echo "== the tables in $(TABLES) are of this build; rm -r $(TABLES) has them measured anew"; \
-	  $(BUILD)/harness/raingauge table --claims --from $(TABLES); \
+	  $(BUILD)/harness/raingauge table --claims $$kept --from $(TABLES); \
 	else \
 	  echo "== having drivers compile what the tables draw with, which they keep"; \
 	  $(BUILD)/harness/raingauge table --compile; \
 	  echo "== regenerating the tables on every device, within $(BUDGET), into $(TABLES)"; \
 	  rm -rf $(TABLES); \
-	  $(BUILD)/harness/raingauge table --budget $(BUDGET) --claims -o $(TABLES) && echo "$(BUDGET)" >$(TABLES)/done; \
+	  $(BUILD)/harness/raingauge table --budget $(BUDGET) --claims $$kept -o $(TABLES) && echo "$(BUDGET)" >$(TABLES)/done; \
 	fi
 
 # A record names the commit that it was measured with.
@@ -96,6 +100,13 @@ results: committed build
 	@python3 results/keep.py $(BUILD)/results $(RESULTS)
 	@python3 results/figures.py $(RESULTS)
 	@python3 results/walk.py $(BUILD)/harness/raingauge
+
+# Goes on where it was interrupted. A record of launches names the commit and the machine.
+claims: committed build
+	@echo "== deciding what papers claim, $(WHAT), by launches, into $(CLAIMS): a night"
+	@$(BUILD)/harness/raingauge claims $(WHAT) -o $(BUILD)/claims
+	@mkdir -p $(CLAIMS)
+	@python3 results/keep.py $(BUILD)/claims $(CLAIMS)
 
 test: whole $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@echo "== building in $(ASAN)"
@@ -121,6 +132,10 @@ mutants: whole
 gate-selftest: whole
 	@echo "== gating what is the same, and what does 5 % more, while another process is busy; an hour or two"
 	@python3 tests/harness/gate/selftest.py $(BUILD) --keep $(BUILD)/selftest
+
+claims-selftest: whole
+	@echo "== deciding claims whose truth is known, while another process is busy; hours"
+	@python3 tests/harness/results/launching/selftest.py $(BUILD)
 
 # `make test` has gcc's analyzer and cppcheck look; clang-tidy takes five more minutes. It is of the version that formats.
 LINTERS = clang-tidy cppcheck

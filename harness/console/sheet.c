@@ -126,6 +126,9 @@ void rg_sheet_print_md(const struct rg_sheet *sheet, FILE *out)
     for (int c = 0; c < sheet->column_count; c++)
         widths[c] = width_of(sheet, c);
     fprintf(out, "%.*s %s\n\n", sheet->level ? sheet->level : 2, "######", sheet->title);
+    for (int n = 0; n < sheet->lead_count; n++)
+        print_md_note(out, sheet->notes[n], sheet->note_width);
+    fprintf(out, sheet->lead_count ? "\n" : "");
     print_md_row(out, sheet, widths, -1);
     for (int c = 0; c < sheet->column_count; c++) {
         fprintf(out, c ? "" : "|");
@@ -136,8 +139,8 @@ void rg_sheet_print_md(const struct rg_sheet *sheet, FILE *out)
     fprintf(out, "\n");
     for (int r = 0; r < sheet->row_count; r++)
         print_md_row(out, sheet, widths, r);
-    fprintf(out, sheet->note_count || !sheet->level ? "\n" : "");
-    for (int n = 0; n < sheet->note_count; n++)
+    fprintf(out, sheet->note_count > sheet->lead_count || !sheet->level ? "\n" : "");
+    for (int n = sheet->lead_count; n < sheet->note_count; n++)
         print_md_note(out, sheet->notes[n], sheet->note_width);
 }
 

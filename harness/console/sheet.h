@@ -21,6 +21,7 @@ struct rg_sheet {
     int note_count;
     int64_t note_room;
     char **notes;    // owned; printed below the table, in Markdown and LaTeX
+    int lead_count;  // the first so many notes stand above the table in Markdown
     bool incomplete; // memory for a row, column or note ran out, with one logged line
     int level;       // heading level in Markdown; 0: 2
     int width_step;  // column widths are multiples of this; 0: 8

@@ -15,10 +15,8 @@
 enum { LEAST_CORRELATED = 8 };
 // If more than this share of launches sees no difference at all, the timer is coarse.
 #define COARSE 0.05
-// For a normal distribution: the standard deviation by the median absolute deviation, and the
-// median's standard error by the mean's, sqrt(pi / 2).
+// For a normal distribution: the standard deviation by the median absolute deviation.
 #define DEVIATION_OF_MAD 1.4826
-#define SQRT_HALF_PI     1.2533
 
 const char *rg_two_name(enum rg_verdict_of_two verdict)
 {
@@ -57,8 +55,8 @@ static double above(double x)
     return erfc(x / sqrt(2)) / 2;
 }
 
-// The quantile that a standard normal variable exceeds with this probability, by bisection.
-static double upper_quantile(double probability)
+// By bisection.
+double rg_gate_upper_quantile(double probability)
 {
     double low = 0, high = 40;
     for (int i = 0; i < 100; i++) {
@@ -165,7 +163,7 @@ static enum rg_verdict_of_two judge(const struct rg_gate_rule *rule, double medi
 static double seen_from(const struct rg_gate_rule *rule, double error, double quantile)
 {
     const double by_interval =
-        excluded(rule) + (upper_quantile(rg_gate_tail(rule)) + quantile) * error;
+        excluded(rule) + (rg_gate_upper_quantile(rg_gate_tail(rule)) + quantile) * error;
     const double by_worth = worth(rule) + quantile * error;
     return fmax(by_interval, by_worth);
 }
@@ -176,7 +174,7 @@ void rg_gate_conclude(const struct rg_gate_rule *rule, const struct rg_interval 
     d->ratio = exp(of->median);
     if (isnan(of->low)) // too few launches for an interval
         return;
-    d->smallest = expm1(seen_from(rule, d->error, upper_quantile(0.05)));
+    d->smallest = expm1(seen_from(rule, d->error, rg_gate_upper_quantile(0.05)));
     d->low = exp(of->low);
     d->high = exp(of->high);
     if (!d->is_coarse)
@@ -198,7 +196,7 @@ struct rg_gate_decision rg_gate_decide(const struct rg_gate_rule *rule, const do
     const struct rg_interval median = rg_median_at(sorted, d.units, rg_gate_tail(rule));
     d.shift = exp(shift_of(sorted, d.units));
     d.spread = rg_gate_spread(sorted, d.units, median.median);
-    d.error = SQRT_HALF_PI * d.spread / sqrt(d.units);
+    d.error = RG_GATE_SQRT_HALF_PI * d.spread / sqrt(d.units);
     rg_gate_conclude(rule, &median, &d);
     return d;
 }

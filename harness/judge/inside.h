@@ -11,6 +11,11 @@ int rg_gate_group(double *logs, int count);
 // The standard deviation of launches, estimated by their median absolute deviation.
 double rg_gate_spread(const double *sorted, int count, double median);
 
+// For a normal distribution: the median's standard error by the mean's, sqrt(pi / 2).
+#define RG_GATE_SQRT_HALF_PI 1.2533
+// The quantile that a standard normal variable exceeds with this probability.
+double rg_gate_upper_quantile(double probability);
+
 // The error probability of each end of a look's interval.
 double rg_gate_tail(const struct rg_gate_rule *rule);
 

@@ -30,10 +30,15 @@ struct rg_interval rg_median(double *samples, int count)
 struct rg_interval rg_median_at(double *samples, int count, double tail)
 {
     qsort(samples, (size_t)count, sizeof(*samples), ascending);
+    return rg_median_sorted(samples, count, tail);
+}
+
+struct rg_interval rg_median_sorted(const double *sorted, int count, double tail)
+{
     const int k = outer_rank(count, tail);
     return (struct rg_interval){
-        .median = (samples[(count - 1) / 2] + samples[count / 2]) / 2,
-        .low = k ? samples[k - 1] : NAN,
-        .high = k ? samples[count - k] : NAN,
+        .median = (sorted[(count - 1) / 2] + sorted[count / 2]) / 2,
+        .low = k ? sorted[k - 1] : NAN,
+        .high = k ? sorted[count - k] : NAN,
     };
 }

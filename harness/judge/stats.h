@@ -17,5 +17,7 @@ struct rg_interval rg_median(double *samples, int count);
 // The same with an interval that the true median is below, and above, with a probability of at most
 // `tail` each; its ends are NAN where the samples are too few.
 struct rg_interval rg_median_at(double *samples, int count, double tail);
+// The same of samples that are sorted already.
+struct rg_interval rg_median_sorted(const double *sorted, int count, double tail);
 
 #endif

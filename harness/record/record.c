@@ -72,10 +72,24 @@ void rg_record_settle(struct rg_record *record)
         settle(&record->samples_ms[i]);
         settle(&record->taken[i]);
     }
+    for (int i = 0; i < record->launch_count; i++) {
+        settle(&record->launches[i].ms);
+        settle(&record->launches[i].stolen);
+        settle(&record->launches[i].others);
+        settle(&record->launches[i].seconds);
+    }
     if (!record->sample_count)
         return;
     memcpy(sorted, record->samples_ms, (size_t)record->sample_count * sizeof(double));
     record->frame_ms = rg_median(sorted, record->sample_count);
+}
+
+// The largest share of processor time that others may take, as in a gate.
+#define MOST_TAKEN 0.05
+
+bool rg_launch_is_disturbed(const struct rg_launch *launch)
+{
+    return launch->stolen > MOST_TAKEN || launch->others > MOST_TAKEN;
 }
 
 bool rg_record_is_whole(const struct rg_record *record)

@@ -14,6 +14,7 @@ enum {
     // Passes with their own entry; the time of all others is summed as "other".
     RG_MAX_PASS_TIMES = 64,
     RG_MAX_SAMPLES = 256,
+    RG_MAX_LAUNCHES = 256,
     RG_MAX_COUNTED = 4,
     RG_MAX_VALUES = 10, // a row's keys, or printed values
     RG_SET_SIZE = 1024,
@@ -38,6 +39,18 @@ struct rg_truth_error {
     int max_codes;                    // largest difference, in codes of 255
     char detail[RG_DETAIL_SIZE];      // why the outcome is not OK
 };
+
+// A launch: a new process in which the cell was timed, among the cells that it is compared with.
+struct rg_launch {
+    int number;     // from 1; cells with the same number were timed together
+    double ms;      // of a frame
+    double stolen;  // share of the processors' time that the machine gave to other machines
+    double others;  // and share that other processes took
+    double seconds; // that the cell took, opening included
+};
+// Whether others took so much of the machine that the launch does not count. The measured time
+// says nothing here.
+bool rg_launch_is_disturbed(const struct rg_launch *launch);
 
 struct rg_record {
     // Identification
@@ -67,7 +80,9 @@ struct rg_record {
     double api_over_wall; // ratio of the API's clock to the wall clock; trusted from 0.8 to 1.05
     // Times of the calibration load when sampling began and ended; 0: unknown.
     double calibration_begin_ms, calibration_end_ms;
-    int pass_frames; // frames of the run that times passes
+    int launch_count;
+    struct rg_launch launches[RG_MAX_LAUNCHES]; // by rising number
+    int pass_frames;                            // frames of the run that times passes
     int pass_count;
     struct rg_pass_time passes[RG_MAX_PASS_TIMES]; // each name once, in the frame's order
     // The instance's facts and counters, after the check frames

@@ -36,8 +36,9 @@ struct rg_result {
     char note[RG_NOTE_SIZE]; // what a reader of the table must know
     bool full;               // else quick
     bool is_of_textures;     // nothing is timed
-    int width, height;       // of the image, in pixels
-    int check_frames;        // simulated and drawn before images are compared
+    bool is_part;      // of what is stored, for printing: claims are not judged by it. Not stored
+    int width, height; // of the image, in pixels
+    int check_frames;  // simulated and drawn before images are compared
     int first_row, last_row; // of the table, from 0
     // What a budget of seconds chose (harness/tables/runs/budget.h); 0: there was none.
     double budget_s;

@@ -83,6 +83,12 @@ COMMANDS = [
     Case("table raster-1 --claims --from %s/results/tables" % ROOT, 2, r"--claims: the paper claims nothing of table 'raster-1'; leave it out"),
     Case("sweep flow --axis distance_mm=-1e308,1e308..-1e308", 2, r"--axis .*: -1e308 does not come after -1e308 and 1e308"),
     Case("table raster-1 --claims", 2, r"--claims: the paper claims nothing of table 'raster-1'; leave it out"),
+    Case("claims raster-1", 2, r"claims 'raster-1': the paper claims nothing of this table; "),
+    Case("claims nothing", 2, r"claims 'nothing': no such table; "),
+    Case("claims --budget 3x", 2, r"--budget"),
+    Case("claims --from %s/results/tables --device cpu" % ROOT, 2, r"--from"),
+    Case("claims raster-1 --from %s/results/tables" % ROOT, 2, r"holds no table of these about which a paper claims something"),
+    Case("table stuppacher-2 --kept {tmp} --from %s/results/tables" % ROOT, 2, r"--kept: is about claims; add --claims, or leave it out"),
     Case("bisect", 2, r"bisect: --run names the command that judges"),
     Case("bisect --run false", 1, r"bad \(exit status 1, 1 try\)"),
 

@@ -13,13 +13,13 @@
 #include "harness/commands/cli/subject.h"
 #include "harness/commands/tables/inputs.h"
 #include "harness/commands/tables/sets.h"
+#include "harness/commands/tables/verdicts.h"
 #include "harness/console/duration.h"
 #include "harness/console/exit.h"
 #include "harness/console/started.h"
 #include "harness/measure/others.h"
 #include "harness/record/disk/stored.h"
 #include "harness/record/output.h"
-#include "harness/tables/claims/json.h"
 #include "harness/tables/claims/text.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
@@ -40,6 +40,8 @@ struct table_options {
     char *budget;         // "4m"; NULL: none
     bool fresh, claims, wide, json, compile;
     int64_t memory_bytes;
+    char *kept;                         // a folder of launches; NULL: none
+    struct rg_stored *kept_results;     // what it holds
     struct rg_claim_outcomes *outcomes; // collected for --claims
     int *printed;                       // number of tables so far; an empty line separates them
 };
@@ -82,8 +84,8 @@ static const struct rg_option options[] = {
      .about = "has drivers compile what the tables need, side by side, and measures nothing: what "
               "they keep of it saves the time when tables are measured",
      .offset = AT(compile),
-     .excludes = "full quick rows work variant set from fresh budget claims format wide output "
-                 "json"},
+     .excludes = "full quick rows work variant set from fresh budget claims kept format wide "
+                 "output json"},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -92,6 +94,11 @@ static const struct rg_option options[] = {
     {RG_OPTION_FLAG, "claims",
      .about = "prints what the papers claim about the tables, and whether it holds, not the tables",
      .offset = AT(claims)},
+    {RG_OPTION_TEXT, "kept", .argument = "DIR",
+     .about =
+         "with --claims: launches that `raingauge claims -o` wrote there give the verdicts, and "
+         "it is told where today's figures differ",
+     .offset = AT(kept), .names = RG_NAMES_FOLDER},
     {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
     {RG_OPTION_FLAG, "wide",
@@ -127,52 +134,18 @@ static int print(const struct rg_result *result, const void *user)
     if (!o->claims)
         return rg_result_finish(result, form_of(o), o->output);
     const bool is_whole = rg_result_first_missing(result) > result->last_row;
-    int exit = rg_claims_add(o->outcomes, result) ? rg_result_exit(result) : rg_exit_of_error();
+    const struct rg_claims_shown shown = {o->variant, o->rows.first, o->rows.last};
+    int exit = rg_claims_add(o->outcomes, result, o->kept_results, &shown) ? rg_result_exit(result)
+                                                                           : rg_exit_of_error();
     if (is_whole && o->output && !rg_result_write(result, o->output))
         exit = rg_exit_worse(exit, rg_exit_of_error());
     return exit;
 }
 
-// False when memory runs out.
-static bool print_claims_sheet(const struct rg_claim_outcomes *outcomes, int form)
-{
-    struct rg_sheet sheet = {0};
-    rg_claims_sheet(outcomes, form != RG_RESULT_MD, &sheet);
-    if (form == RG_RESULT_CSV)
-        rg_sheet_print_csv(&sheet, stdout);
-    else if (form == RG_RESULT_TEX)
-        rg_sheet_print_tex(&sheet, stdout);
-    else
-        rg_sheet_print_md(&sheet, stdout);
-    rg_sheet_free(&sheet);
-    return !sheet.incomplete;
-}
-
-// False, and one logged line, when memory runs out.
-static bool print_claims_json(const struct rg_claim_outcomes *outcomes)
-{
-    json_t *json = rg_claims_json(outcomes);
-    if (!json)
-        return rg_harness_error("claims: no memory to print them; close other programs");
-    json_dumpf(json, stdout, JSON_INDENT(1) | RG_JSON_FLAGS);
-    printf("\n");
-    json_decref(json);
-    return true;
-}
-
-// Prints the verdicts in the chosen format. Returns an enum rg_exit.
 static int print_claims(const void *user)
 {
     const struct table_options *o = user;
-    if (!o->outcomes->count)
-        return RG_EXIT_PASS;
-    const int form = form_of(o);
-    const bool is_whole = form == RG_RESULT_JSON ? print_claims_json(o->outcomes)
-                                                 : print_claims_sheet(o->outcomes, form);
-    if (!fflush(stdout) && !ferror(stdout))
-        return is_whole ? RG_EXIT_PASS : rg_exit_of_error();
-    rg_stdout_error();
-    return rg_exit_of_error();
+    return rg_verdicts_print(o->outcomes, form_of(o));
 }
 
 // --- tables that are measured ---
@@ -337,9 +310,13 @@ static bool is_named(const struct rg_words *ids, const char *table)
     return found;
 }
 
-// Drops the parts of a result that were not requested. False where nothing is left.
+// Drops the parts of a result that were not requested. False where nothing is left. Claims are
+// judged by all that is stored, and then shown in part, so that no filter changes a verdict.
 static bool keep(struct rg_result *result, const struct table_options *o)
 {
+    result->is_part = o->rows.first || chosen_work(o) || o->variant;
+    if (o->claims && !o->output)
+        return true;
     return (!o->rows.first || rg_result_keep_rows(result, o->rows.first - 1, o->rows.last - 1)) &&
            (!chosen_work(o) || rg_result_keep_work(result, chosen_work(o))) &&
            (!o->variant || rg_result_keep_variant(result, o->variant));
@@ -411,6 +388,11 @@ static int print_tables(const struct table_options *o, const struct rg_words *ar
     return rg_exit_worse(exit, print_claims(o));
 }
 
+static bool needs_claims(const struct table_options *o)
+{
+    return o->claims || rg_error("--kept: is about claims; add --claims, or leave it out");
+}
+
 static int table(const void *values, const struct rg_words *arguments)
 {
     struct table_options o = *(const struct table_options *)values;
@@ -419,9 +401,13 @@ static int table(const void *values, const struct rg_words *arguments)
     o.outcomes = &outcomes;
     o.printed = &printed;
     rg_memory_allow(o.memory_bytes);
+    struct rg_stored kept = {0};
+    o.kept_results = &kept;
     if (!rg_sets_join(&o.sets, &o.set))
         return rg_exit_of_error();
-    const int exit = print_tables(&o, arguments);
+    const bool is_read = !o.kept || (needs_claims(&o) && rg_stored_read(&kept, o.kept));
+    const int exit = is_read ? print_tables(&o, arguments) : rg_exit_of_error();
+    rg_stored_free(&kept);
     free(o.set);
     rg_claims_free(&outcomes);
     return exit;
@@ -429,11 +415,11 @@ static int table(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_table = {
     .name = "table",
-    .usage =
-        "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work "
-        "paper|reading|ours|queries] "
-        "[--variant NAME] [--set KEY=VALUE]... [--claims] [--wide] [--format F|--json] [-o DIR] "
-        "[--budget TIME] [--fresh] [--from FILE|DIR] [--compile]",
+    .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work "
+             "paper|reading|ours|queries] "
+             "[--variant NAME] [--set KEY=VALUE]... [--claims] [--kept DIR] [--wide] [--format "
+             "F|--json] [-o DIR] "
+             "[--budget TIME] [--fresh] [--from FILE|DIR] [--compile]",
     .about = "regenerates the papers' tables: published beside measured, on every device",
     .options = options,
     .options_size = sizeof(struct table_options),

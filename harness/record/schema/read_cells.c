@@ -55,6 +55,39 @@ static bool read_passes(struct rg_reader *r, const json_t *measured, struct rg_r
     return true;
 }
 
+// A launch: its number, which rises, a time above 0, and three numbers that are not negative.
+static bool take_launch(const json_t *json, int after, struct rg_launch *launch)
+{
+    double *const numbers[] = {&launch->ms, &launch->stolen, &launch->others, &launch->seconds};
+    bool ok = json_array_size(json) == 5 && json_is_integer(json_array_get(json, 0));
+    const json_int_t number = json_integer_value(json_array_get(json, 0));
+    for (size_t i = 0; i < 4; i++) {
+        const json_t *value = json_array_get(json, i + 1);
+        *numbers[i] = json_number_value(value);
+        ok = ok && json_is_number(value) && *numbers[i] >= 0;
+    }
+    launch->number = ok && number > after && number <= INT_MAX ? (int)number : 0;
+    return launch->number && launch->ms > 0;
+}
+
+// Cells that no claim was measured of have none.
+static bool read_launches(struct rg_reader *r, const json_t *measured, struct rg_record *record)
+{
+    int count, after = 0;
+    if (!json_object_get(measured, "launches"))
+        return true;
+    const json_t *array = rg_field_array(r, measured, "launches", RG_MAX_LAUNCHES, &count);
+    for (int i = 0; i < count; i++) {
+        if (!take_launch(json_array_get(array, (size_t)i), after, &record->launches[i]))
+            return rg_reader_refuse(r, "launches",
+                                    "has an element that is no [number, ms, stolen, others, "
+                                    "seconds], or numbers do not rise");
+        after = record->launches[i].number;
+    }
+    record->launch_count = count;
+    return count > 0;
+}
+
 // Results of before there was one have none.
 static bool read_calibration(struct rg_reader *r, const json_t *measured, struct rg_record *record)
 {
@@ -88,6 +121,7 @@ static bool read_measured(struct rg_reader *r, const json_t *cell, struct rg_rec
              rg_field_number(r, measured, "api_over_wall", &record->api_over_wall) &&
              rg_field_int(r, measured, "frames_a_sample", 1, INT_MAX, &record->frames_a_sample) &&
              read_samples(r, measured, record) && read_taken(r, measured, record) &&
+             read_launches(r, measured, record) &&
              read_wanted(r, measured, record) && read_calibration(r, measured, record) &&
              read_passes(r, measured, record)));
 }

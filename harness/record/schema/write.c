@@ -12,6 +12,18 @@ static json_t *samples_json(const struct rg_record *record, const double *number
     return samples;
 }
 
+// [number, ms, stolen, others, seconds] of each launch.
+static json_t *launches_json(const struct rg_record *record)
+{
+    json_t *launches = json_array();
+    for (int i = 0; i < record->launch_count; i++) {
+        const struct rg_launch *l = &record->launches[i];
+        json_array_append_new(
+            launches, json_pack("[iffff]", l->number, l->ms, l->stolen, l->others, l->seconds));
+    }
+    return launches;
+}
+
 // Milliseconds a frame divided by `unit`.
 static json_t *passes_json(const struct rg_record *record, double unit)
 {
@@ -40,6 +52,8 @@ static json_t *times_json(const struct rg_record *record)
     }
     if (!rg_record_is_whole(record))
         json_object_set_new(json, "samples_wanted", json_integer(record->wanted_samples));
+    if (record->launch_count)
+        json_object_set_new(json, "launches", launches_json(record));
     if (record->calibration_begin_ms > 0) {
         json_object_set_new(json, "calibration_begin_ms", json_real(record->calibration_begin_ms));
         json_object_set_new(json, "calibration_end_ms", json_real(record->calibration_end_ms));

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/tables/papers/papers.h"
+
 struct rg_judgement rg_evidence_end(struct evidence *e, enum rg_claim_verdict verdict,
                                     const char *why, ...)
 {
@@ -46,135 +48,223 @@ static bool is_of_errors(const struct evidence *e)
     return e->claim->test == RG_CLAIM_FLATTENS;
 }
 
+// A claim about two or three rows needs no others; `step` is 0 behind the last.
+static int row_after(const struct rg_claim *c, int row)
+{
+    if (c->test == RG_CLAIM_FLATTENS)
+        return row < c->knee ? c->knee : row < c->last ? c->last : 0;
+    if (c->test == RG_CLAIM_RATIO || c->test == RG_CLAIM_TIMES)
+        return row == c->last ? 0 : c->last;
+    return row < c->last ? row + 1 : 0;
+}
+
+bool rg_claim_needs(const struct rg_claim *c, int row, const char *variant)
+{
+    bool is_row = false;
+    for (int r = c->first; r; r = row_after(c, r))
+        is_row = is_row || r == row;
+    return is_row && (!strcmp(variant, c->variant) || (c->other && !strcmp(variant, c->other)));
+}
+
 static bool has_row(const struct evidence *e, int row)
 {
     return row > e->result->first_row && row <= e->result->last_row + 1 &&
            rg_result_has(e->result, row - 1);
 }
 
-static bool has_number(const struct evidence *e, int row, int variant)
+// Ends with the reason why a row has no number, and returns false; true if it has one.
+static bool has_number(struct evidence *e, int row, int variant)
 {
-    if (!has_row(e, row))
+    if (!has_row(e, row)) {
+        rg_evidence_end(e, RG_CLAIM_NOT_SEEN, "row %d is not measured", row);
         return false;
+    }
     const struct rg_record *r = rg_evidence_row_of(e, row, variant);
-    return is_of_errors(e) ? r->truth_error.outcome == RG_OK && *e->result->truth
-                           : r->outcome == RG_OK && r->sample_count > 0;
+    const bool has_error = r->truth_error.outcome == RG_OK && *e->result->truth;
+    const bool has = is_of_errors(e) ? has_error : r->outcome == RG_OK && r->sample_count > 0;
+    if (!has && r->outcome != RG_OK)
+        rg_evidence_end(e, RG_CLAIM_NOT_SEEN, "row %d has no number: %.180s", row, r->detail);
+    else if (!has && is_of_errors(e))
+        rg_evidence_end(e, RG_CLAIM_NOT_SEEN, "row %d has no error: %.180s", row,
+                        r->truth_error.detail);
+    else if (!has)
+        rg_evidence_end(e, RG_CLAIM_NOT_SEEN, "row %d is not measured", row);
+    return has;
 }
 
-// The least samples of both variants in a row.
-static int fewest_samples(const struct evidence *e, int row)
-{
-    const int count = rg_evidence_row(e, row)->sample_count;
-    const int other = e->other < 0 ? count : rg_evidence_row_of(e, row, e->other)->sample_count;
-    return count < other ? count : other;
-}
-
-// The failed record of a measured row, of either variant; NULL where there is none.
-static const struct rg_record *failed(const struct evidence *e, int row)
-{
-    const struct rg_record *r = has_row(e, row) ? rg_evidence_row(e, row) : NULL;
-    if (r && r->outcome == RG_OK && e->other >= 0)
-        r = rg_evidence_row_of(e, row, e->other);
-    return r && r->outcome != RG_OK ? r : NULL;
-}
-
-// Ends with the reason why a row has no number. Returns false.
-static bool end_without_number(struct evidence *e, int row)
-{
-    const struct rg_record *r = failed(e, row);
-    if (r)
-        rg_evidence_end(e, RG_CLAIM_UNDECIDED, "row %d has no number: %.180s", row, r->detail);
-    else if (is_of_errors(e) && has_row(e, row))
-        rg_evidence_end(e, RG_CLAIM_UNDECIDED, "row %d has no error: %.180s", row,
-                        rg_evidence_row(e, row)->truth_error.detail);
-    else
-        rg_evidence_end(e, RG_CLAIM_UNDECIDED, "row %d is not measured", row);
-    return false;
-}
-
-// Whether a claim can be judged without a row. If it is about each row, any may be missing; else
-// those between the first and the last, except a knee.
+// Whether a row that did other work may be left out: not at the ends, and no knee.
 static bool can_miss(const struct rg_claim *c, int row)
 {
-    return rg_claim_is_of_each_row(c) || (row != c->first && row != c->last && row != c->knee);
+    return row != c->first && row != c->last && row != c->knee;
 }
 
-int rg_evidence_step(const struct rg_claim *c)
-{
-    return c->test == RG_CLAIM_RATIO ? c->last - c->first : 1;
-}
-
-// Collects the claim's rows, without those that did other work. Ends where required ones are
-// missing or did other work; true if the claim can be judged.
+// Collects the claim's rows, without those between that did other work. Ends where rows are missing
+// or required ones did other work; true if the claim can be judged.
 static bool collect_rows(struct evidence *e)
 {
     const struct rg_claim *c = e->claim;
-    const int step = rg_evidence_step(c);
-    for (int row = c->first; step > 0 ? row <= c->last : row >= c->last; row += step) {
-        if (!has_number(e, row, e->at.variant) ||
-            (e->other >= 0 && !has_number(e, row, e->other))) {
-            e->missing++;
-            if (can_miss(c, row))
-                continue;
-            return end_without_number(e, row);
-        }
-        const int fewest = fewest_samples(e, row);
-        if (fewest < RG_LEAST_SAMPLES && !is_of_errors(e)) {
-            e->missing++;
-            if (can_miss(c, row))
-                continue;
-            rg_evidence_end(e, RG_CLAIM_UNDECIDED, "row %d has %d samples, and 6 are needed", row,
-                            fewest);
-            return false;
-        }
+    for (int row = c->first; row; row = row_after(c, row)) {
         double apart;
-        if (rg_record_is_other_work(rg_evidence_row(e, row), &apart)) {
-            if (can_miss(c, row))
-                continue;
+        e->judgement.rows_needed++;
+        if (!has_number(e, row, e->at.variant) || (e->other >= 0 && !has_number(e, row, e->other)))
+            return false;
+        if (!rg_record_is_other_work(rg_evidence_row(e, row), &apart)) {
+            e->rows[e->count++] = row;
+        } else if (!can_miss(c, row)) {
             rg_evidence_end(e, RG_CLAIM_OTHER_WORK,
                             "row %d draws %.2f times as many or as few particles", row, apart);
             return false;
         }
-        e->rows[e->count++] = row;
     }
-    e->judgement.rows = is_of_errors(e) ? ERROR_ROWS : e->count;
-    return e->count > 0 || end_without_number(e, c->first);
+    e->judgement.rows = e->count;
+    return true;
 }
 
-static void find(struct evidence *e)
+// Whether the result's work is not that of which the paper gives a rate.
+static bool is_reduced(struct evidence *e)
 {
-    const struct rg_claim *c = e->claim;
-    e->at.work = rg_result_printed_work(e->result);
-    e->at.variant = variant_of(e->result, c->variant);
-    e->other = variant_of(e->result, c->other);
-    e->judgement.against = e->judgement.in_favour = NAN;
-    e->judgement.rows_needed =
-        is_of_errors(e) ? ERROR_ROWS : 1 + (c->last - c->first) / rg_evidence_step(c);
+    const struct rg_result *result = e->result;
+    if (e->claim->test != RG_CLAIM_RATE)
+        return false;
+    if (result->size_divisor > 1)
+        rg_evidence_end(e, RG_CLAIM_OTHER_WORK,
+                        "pictures have 1/%d of the width and height that the rate is claimed of",
+                        result->size_divisor);
+    else if (!result->full && *result->quick)
+        rg_evidence_end(e, RG_CLAIM_OTHER_WORK,
+                        "quick settings are less work than the rate is claimed of: %.100s",
+                        result->quick);
+    return e->judgement.verdict == RG_CLAIM_OTHER_WORK;
 }
 
 bool rg_evidence_begin(struct evidence *e)
 {
     const struct rg_claim *claim = e->claim;
-    find(e);
+    e->at.work = rg_result_printed_work(e->result);
+    e->at.variant = variant_of(e->result, claim->variant);
+    e->other = variant_of(e->result, claim->other);
+    e->judgement.figures = RG_FIGURES_NONE;
     if (*e->result->changed) {
         rg_evidence_end(e, RG_CLAIM_OTHER_WORK, "settings were changed: %.100s",
                         e->result->changed);
         return false;
     }
-    if (claim->test == RG_CLAIM_RATE && e->result->size_divisor > 1) {
-        rg_evidence_end(e, RG_CLAIM_OTHER_WORK,
-                        "pictures have 1/%d of the width and height that the rate is claimed of",
-                        e->result->size_divisor);
+    if (is_reduced(e))
         return false;
-    }
     if (e->at.work < 0) {
         rg_evidence_end(e, RG_CLAIM_OTHER_WORK, "the work that was printed is not measured");
         return false;
     }
     if (e->at.variant < 0 || (claim->other && e->other < 0)) {
-        rg_evidence_end(e, RG_CLAIM_UNDECIDED, "variant %s is not measured",
+        rg_evidence_end(e, RG_CLAIM_NOT_SEEN, "variant %s is not measured",
                         e->at.variant < 0 ? claim->variant : claim->other);
         return false;
     }
     return collect_rows(e);
+}
+
+// --- times ---
+
+static const struct rg_record *cell(const struct evidence *e, int i, int variant)
+{
+    return rg_evidence_row_of(e, e->rows[i], variant ? e->other : e->at.variant);
+}
+
+static const struct rg_launch *find_launch(const struct rg_record *record, int number)
+{
+    int low = 0, high = record->launch_count;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        if (record->launches[middle].number < number)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    const bool has = low < record->launch_count && record->launches[low].number == number;
+    return has ? &record->launches[low] : NULL;
+}
+
+// Takes a launch if it has all cells of the claim, and counts it if others disturbed it.
+static void take_launch(struct evidence *e, int number)
+{
+    bool is_disturbed = false;
+    double seconds = 0;
+    for (int i = 0; i < e->count; i++) {
+        for (int v = 0; v < 1 + (e->other >= 0); v++) {
+            const struct rg_launch *launch = find_launch(cell(e, i, v), number);
+            if (!launch)
+                return;
+            is_disturbed = is_disturbed || rg_launch_is_disturbed(launch);
+            e->logs[e->launches][i][v] = log(launch->ms);
+            seconds += launch->seconds;
+        }
+    }
+    e->launches += !is_disturbed;
+    e->judgement.disturbed += is_disturbed;
+    e->judgement.launch_s += seconds;
+}
+
+bool rg_evidence_take_launches(struct evidence *e)
+{
+    const struct rg_record *first = cell(e, 0, 0);
+    for (int i = 0; i < first->launch_count; i++)
+        take_launch(e, first->launches[i].number);
+    const int taken = e->launches + e->judgement.disturbed;
+    e->judgement.launches = e->launches;
+    e->judgement.launch_s /= taken ? taken : 1;
+    return taken > 0;
+}
+
+void rg_evidence_take_medians(struct evidence *e)
+{
+    e->launches = 1;
+    for (int i = 0; i < e->count; i++)
+        for (int v = 0; v < 1 + (e->other >= 0); v++)
+            e->logs[0][i][v] = log(cell(e, i, v)->frame_ms.median);
+}
+
+// --- print ---
+
+// From the table, if there is one, since unmeasured rows are printed all the same.
+static double printed_fps(const struct evidence *e, int row, int variant)
+{
+    const struct rg_table *table = rg_table_find(e->claim->table);
+    const char *name = e->result->variants[variant];
+    for (int v = 0; table && table->variants[v].name; v++)
+        if (!strcmp(table->variants[v].name, name))
+            return rg_table_published_fps(table, row - 1, v);
+    return rg_result_has(e->result, row - 1)
+               ? rg_record_published_fps(rg_evidence_row_of(e, row, variant))
+               : NAN;
+}
+
+double rg_evidence_printed(const struct evidence *e, int row)
+{
+    return printed_fps(e, row, e->at.variant);
+}
+
+// Takes a row as a launch's; false where it is not printed.
+static bool take_printed_row(struct evidence *e, int row)
+{
+    bool is_printed = true;
+    for (int v = 0; v < 1 + (e->other >= 0); v++) {
+        const double fps = printed_fps(e, row, v ? e->other : e->at.variant);
+        e->logs[0][e->count][v] = log(1000 / fps);
+        is_printed = is_printed && isfinite(fps);
+    }
+    if (is_printed)
+        e->rows[e->count++] = row;
+    return is_printed;
+}
+
+bool rg_evidence_take_print(struct evidence *e)
+{
+    const struct rg_claim *c = e->claim;
+    bool ok = e->at.variant >= 0 && (!c->other || e->other >= 0) && !is_of_errors(e);
+    e->at.work = e->at.work < 0 ? 0 : e->at.work; // all works have the same printed numbers
+    e->launches = 1;
+    e->count = 0;
+    for (int row = c->first; ok && row; row = row_after(c, row))
+        ok = take_printed_row(e, row) || can_miss(c, row);
+    return ok;
 }

@@ -10,12 +10,13 @@ static const struct test {
     const char *name;
     bool has_least, has_most;
 } tests[] = {
-    [RG_CLAIM_FALLS] = {"falls", false, false},     [RG_CLAIM_ORDER] = {"order", false, false},
-    [RG_CLAIM_RATIO] = {"ratio", true, false},      [RG_CLAIM_ALIKE] = {"alike", false, true},
-    [RG_CLAIM_APART] = {"apart", true, false},      [RG_CLAIM_EXPONENT] = {"exponent", true, true},
-    [RG_CLAIM_FASTER] = {"faster", true, false},    [RG_CLAIM_RATE] = {"rate", true, false},
-    [RG_CLAIM_OPTIMUM] = {"optimum", false, false}, [RG_CLAIM_SLOWEST] = {"slowest", false, false},
-    [RG_CLAIM_CROSSES] = {"crosses", false, false}, [RG_CLAIM_FLATTENS] = {"flattens", true, false},
+    [RG_CLAIM_FALLS] = {"falls", false, false},      [RG_CLAIM_ORDER] = {"order", false, false},
+    [RG_CLAIM_RATIO] = {"ratio", true, false},       [RG_CLAIM_TIMES] = {"times", true, true},
+    [RG_CLAIM_ALIKE] = {"alike", false, true},       [RG_CLAIM_APART] = {"apart", true, false},
+    [RG_CLAIM_EXPONENT] = {"exponent", true, true},  [RG_CLAIM_FASTER] = {"faster", true, false},
+    [RG_CLAIM_RATE] = {"rate", true, false},         [RG_CLAIM_OPTIMUM] = {"optimum", false, false},
+    [RG_CLAIM_SLOWEST] = {"slowest", false, false},  [RG_CLAIM_CROSSES] = {"crosses", false, false},
+    [RG_CLAIM_FLATTENS] = {"flattens", true, false},
 };
 
 // The paper's key, from its table's id.
@@ -43,22 +44,33 @@ static json_t *claim_json(const struct rg_claim *claim)
     const struct test *test = &tests[claim->test];
     char id[RG_CLAIM_ID];
     rg_claim_id(claim, id);
-    return json_pack("{ss ss ss ss ss ss ss? ss ss ss? s[ii] so so so}", "id", id, "table",
+    return json_pack("{ss ss ss ss ss ss ss? ss ss ss? s[ii] so so so sb}", "id", id, "table",
                      claim->table, "paper", paper_of(claim), "section", claim->where, "source",
                      sources[claim->source], "words", claim->words, "part", claim->part, "test",
                      test->name, "variant", claim->variant, "other_variant", claim->other, "rows",
                      claim->first, claim->last, "knee_rows", knee_json(claim), "least",
                      bound(test->has_least, claim->least), "most",
-                     bound(test->has_most, claim->most));
+                     bound(test->has_most, claim->most), "is_ours", claim->is_ours);
+}
+
+static json_t *text_or_null(const char *text)
+{
+    return *text ? json_string(text) : json_null();
 }
 
 static json_t *verdict_json(const struct rg_claim_outcome *outcome)
 {
+    static const char *const figures[RG_FIGURES_COUNT] = {"fits", "misses", "near", ""};
     const struct rg_judgement *j = &outcome->judgement;
-    return json_pack("{so ss so so si si}", "device", rg_json_text(outcome->device), "verdict",
-                     rg_claim_verdict_text(j->verdict), "why", rg_json_text(j->why), "probability",
-                     rg_number_json(rg_claim_probability(j)), "rows_judged", j->rows, "rows_needed",
-                     j->rows_needed);
+    const int left = j->needed > j->launches ? j->needed - j->launches : 0;
+    return json_pack("{so ss so sn si si so si si si so sb so}", "device",
+                     rg_json_text(outcome->device), "verdict", rg_claim_verdict_text(j->verdict),
+                     "why", rg_json_text(j->why), "probability", "rows_judged", j->rows,
+                     "rows_needed", j->rows_needed, "figures", text_or_null(figures[j->figures]),
+                     "launches", j->launches, "launches_disturbed", j->disturbed, "launches_needed",
+                     left, "hours_needed", rg_number_json(left * j->launch_s / 3600), "kept",
+                     outcome->is_kept, "today",
+                     text_or_null(rg_claim_agreement_text(outcome->agreement)));
 }
 
 json_t *rg_claims_json(const struct rg_claim_outcomes *o)

@@ -67,18 +67,3 @@ double rg_order_probability(const double *low, int low_count, double factor, con
     const double sigma = sqrt(mean * (low_count + high_count + 1) / 6);
     return 0.5 * erfc((pairs - 0.5 - mean) / sigma / sqrt(2));
 }
-
-double rg_sign_probability(const double *samples, int count, double bound, int side)
-{
-    int on_side = 0, apart = 0;
-    for (int i = 0; i < count; i++) {
-        on_side += side * (bound - samples[i]) > 0;
-        apart += samples[i] != bound;
-    }
-    double probability = pow(0.5, apart), sum = 0;
-    for (int k = apart; k >= on_side; k--) {
-        sum += probability; // of k heads, or as many tails
-        probability *= (double)k / (apart - k + 1);
-    }
-    return sum;
-}

@@ -9,9 +9,4 @@
 double rg_order_probability(const double *low, int low_count, double factor, const double *high,
                             int high_count);
 
-// The p value of the sign test: the probability that of independent samples with median `bound`, at
-// least as many are below it as of these. It is small where their median is truly lower. With
-// `side` -1 instead of 1: above it. Samples equal to it are ignored.
-double rg_sign_probability(const double *samples, int count, double bound, int side);
-
 #endif

@@ -3,9 +3,19 @@
 #define RG_HARNESS_TABLES_CLAIMS_TEXT_H
 
 #include "harness/console/sheet.h"
+#include "harness/record/disk/stored.h"
 #include "harness/tables/claims/claim.h"
 
 enum { RG_CLAIMS_LENGTH = RG_TITLE_SIZE + 64 };
+
+// Whether today's figures say the same as the verdict that is kept.
+enum rg_claim_agreement {
+    RG_AGREEMENT_NONE, // nothing is kept of it, or no verdict
+    RG_AGREEMENT_AGREES,
+    RG_AGREEMENT_DIFFERS,
+    RG_AGREEMENT_NOT_SEEN, // today's figures do not show it
+};
+const char *rg_claim_agreement_text(enum rg_claim_agreement agreement);
 
 // A claim's verdict on one device.
 struct rg_claim_outcome {
@@ -14,7 +24,10 @@ struct rg_claim_outcome {
     // The length of the judged measurement: "full", or "quick (atlas=small), with 1/4 of the width
     // and height".
     char length[RG_CLAIMS_LENGTH];
-    struct rg_judgement judgement;
+    struct rg_judgement judgement;     // by launches, if there are any
+    bool is_kept;                      // the launches are those of the kept records
+    enum rg_claim_agreement agreement; // with figures measured now
+    char machine[RG_TITLE_SIZE];       // on which the launches were taken
 };
 
 struct rg_claim_outcomes {
@@ -27,15 +40,28 @@ struct rg_claim_outcomes {
 // "full", or "quick" with its settings, either with the ratio of the pictures' size to the table's.
 void rg_claims_length(const struct rg_result *result, char *text, size_t size);
 
-// Adds the outcomes of a table's claims. Zero the outcomes before the first call. False, with one
-// logged line, when memory runs out.
-bool rg_claims_add(struct rg_claim_outcomes *outcomes, const struct rg_result *result);
+// The part of the claims that is shown: those about a variant (NULL: all) and some of the rows,
+// from 1 (0: all).
+struct rg_claims_shown {
+    const char *variant;
+    int first_row, last_row;
+};
+
+// Adds the outcomes of a table's claims, of those that are shown. Where the result has no launches,
+// verdicts are those of `kept` (NULL: none), and the result's figures are held against them. Zero
+// the outcomes before the first call. False, with one logged line, when memory runs out.
+bool rg_claims_add(struct rg_claim_outcomes *outcomes, const struct rg_result *result,
+                   const struct rg_stored *kept, const struct rg_claims_shown *shown);
 void rg_claims_free(struct rg_claim_outcomes *outcomes);
 
-// Makes a row for each claim and a column for each device. Notes list the lengths of measurements
-// by table, claims judged by some of their rows, and claims that the paper's own table contradicts.
-// `wide` adds verdicts in words, with section, reason and p value; otherwise the page fits a
-// screen. Zero the sheet before; the caller frees it.
+// Makes a row for each claim and a column for each device, below one sentence and the totals of
+// what holds, what does not and what is open. Notes list the lengths of measurements by table,
+// claims judged by some of their rows, claims that the paper's own table contradicts, and where
+// today's figures differ. `wide` adds verdicts in words, with section and reason; otherwise the
+// page fits a screen. Zero the sheet before; the caller frees it.
 void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool wide, struct rg_sheet *sheet);
+
+// Adds the sentence and the totals: the sheet's lead.
+void rg_claims_total(const struct rg_claim_outcomes *outcomes, struct rg_sheet *sheet);
 
 #endif

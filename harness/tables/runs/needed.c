@@ -88,7 +88,7 @@ int rg_needed_variants(const struct rg_table *table, bool needed[RG_TABLE_VARIAN
         const char *name = table->variants[v].name;
         needed[v] = v == 0;
         for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
-            if (is_about(claim, table))
+            if (is_about(claim, table) && !claim->can_wait)
                 needed[v] = needed[v] || !strcmp(name, claim->variant) ||
                             (claim->other && !strcmp(name, claim->other));
         count += needed[v];
@@ -96,18 +96,23 @@ int rg_needed_variants(const struct rg_table *table, bool needed[RG_TABLE_VARIAN
     return count;
 }
 
-// Whether this test, an enum rg_claim_test, judges a claim about the table; -1: whether any does.
-static bool has_test(const struct rg_table *table, int test)
+bool rg_has_claims(const struct rg_table *table)
+{
+    bool any = false;
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
+        any = any || is_about(claim, table);
+    return any;
+}
+
+// Whether this test judges a claim about the table. Quick settings that reduce the work leave no
+// rate to judge.
+static bool has_test(const struct rg_table *table, enum rg_claim_test test)
 {
     bool has = false;
     for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
-        has = has || (is_about(claim, table) && (test < 0 || (int)claim->test == test));
+        has = has || (is_about(claim, table) && claim->test == test &&
+                      !(test == RG_CLAIM_RATE && table->quick));
     return has;
-}
-
-bool rg_has_claims(const struct rg_table *table)
-{
-    return has_test(table, -1);
 }
 
 int rg_most_divisor(const struct rg_table *table)

@@ -9,6 +9,7 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/record/disk/hold.h"
+#include "harness/tables/launching/course.h"
 #include "harness/tables/runs/budget.h"
 #include "harness/tables/runs/closing.h"
 #include "harness/tables/runs/needed.h"
@@ -19,7 +20,8 @@ struct task {
     const struct rg_table *table;
     struct rg_result result;
     struct rg_journal *journal;
-    bool is_lost; // its files or its printed text could not be written
+    bool is_lost;     // its files or its printed text could not be written
+    bool is_not_over; // a budget ended its launches, so that its journal stays
 };
 
 static void tell_resumed(const struct task *task)
@@ -51,15 +53,33 @@ static void tell_interrupted(const struct task *task)
         rg_info("%s: interrupted before a row of it was done; the same command begins it anew", id);
 }
 
+// Takes the launches of a measured table. Sessions that were kept for later tables close before,
+// for launches open their own. Returns an enum rg_exit.
+static int take_launches(struct task *task, struct rg_kept *kept, struct rg_progress *bar,
+                         const struct rg_regenerate_options *options)
+{
+    const double end_ms = options->budget_s > 0 ? options->begin_ms + 1000 * options->budget_s : 0;
+    if (!options->launches || rg_interrupted())
+        return RG_EXIT_PASS;
+    const bool clean = rg_kept_free(kept);
+    const bool ok =
+        rg_launches_take(&task->result, task->table, rg_claims, task->journal, bar, end_ms);
+    task->is_not_over = rg_launches_are_due(&task->result, rg_claims);
+    if (task->is_not_over)
+        rg_journal_keep(task->journal);
+    return ok && clean ? RG_EXIT_PASS : RG_EXIT_FAIL;
+}
+
 static int run_task(struct task *task, struct rg_kept *kept, struct rg_progress *bar,
                     const struct rg_regenerate_options *options, struct rg_closing *closing)
 {
     tell_resumed(task);
     if (!rg_table_measure(&task->result, task->table, kept, task->journal, bar, NULL))
         return rg_exit_of_error();
+    const int launched = take_launches(task, kept, bar, options);
     rg_progress_hide(bar);
     rg_closing_add(closing, &task->result);
-    int exit = options->print(&task->result, options->user);
+    int exit = rg_exit_worse(options->print(&task->result, options->user), launched);
     task->is_lost = exit == RG_EXIT_USAGE || exit == RG_EXIT_HARNESS;
     if (task->is_lost)
         rg_journal_keep(task->journal);
@@ -73,7 +93,7 @@ static int run_task(struct task *task, struct rg_kept *kept, struct rg_progress 
 // Whether quick mode chooses the rows, because the user named none.
 static bool is_short(const struct rg_table *table, const struct rg_regenerate_options *o)
 {
-    return !o->full && !o->last_row && table->quick_rows;
+    return !o->full && !o->last_row && table->quick_rows && !o->launches;
 }
 
 // The requested rows, as far as the table has them.
@@ -88,7 +108,7 @@ static struct rg_table_part part_of(const struct rg_table *table,
                                   .last_row =
                                       (o->last_row && o->last_row < rows ? o->last_row : rows) - 1,
                                   .full = o->full,
-                                  .work = o->work,
+                                  .work = o->launches && table->works[0].name ? "paper" : o->work,
                                   .variant = o->variant,
                                   .set = o->set};
 }
@@ -99,6 +119,17 @@ static void leave_out_rows(const struct rg_table *table, struct rg_result *resul
     rg_quick_rows(table, chosen);
     for (int row = result->first_row; row <= result->last_row; row++)
         result->left_out[row - result->first_row] = !chosen[row];
+}
+
+// Leaves what no claim needs out of a begun result, which gets few samples, since launches decide.
+// False, and the result is freed, where there is no claim.
+static bool choose_launches(struct rg_result *result, const struct rg_table *table)
+{
+    result->few_samples = true;
+    if (rg_launches_choose(result, table))
+        return true;
+    rg_result_free(result);
+    return false;
 }
 
 // Begins the tables that have some of the requested rows. Reads all journals before it writes one,
@@ -116,6 +147,8 @@ static int make_tasks(const struct rg_regenerate_options *o, const struct rg_dev
         rg_table_begin(&tasks[made].result, tables[i], &part, devices);
         if (is_short(tables[i], o))
             leave_out_rows(tables[i], &tasks[made].result);
+        if (o->launches && !choose_launches(&tasks[made].result, tables[i]))
+            continue;
         made++;
     }
     for (int i = 0; keeps && i < made; i++)
@@ -191,8 +224,13 @@ static void end_tasks(struct task *tasks, int count, const struct rg_closing *cl
     const bool are_kept = keeps_journals(tasks, count);
     if (!are_kept)
         rg_closing_tell(closing, devices);
-    for (int i = 0; i < count && !are_kept; i++)
-        rg_journal_remove(tasks[i].journal);
+    for (int i = 0; i < count && !are_kept; i++) {
+        if (tasks[i].is_not_over && rg_journal_path(tasks[i].journal))
+            rg_info("%s: claims are open; the same command goes on (%s)", tasks[i].result.table,
+                    rg_journal_path(tasks[i].journal));
+        if (!tasks[i].is_not_over)
+            rg_journal_remove(tasks[i].journal);
+    }
     forget_tasks(tasks, count);
 }
 
@@ -223,7 +261,7 @@ static int regenerate(const struct rg_table *const tables[], int count,
                       const struct rg_devices *devices, const struct rg_regenerate_options *options,
                       bool keeps)
 {
-    if (options->budget_s > 0)
+    if (options->budget_s > 0 && !options->launches)
         return rg_tables_within(tables, count, devices, options, stderr);
     struct task *tasks = rg_alloc((size_t)count, sizeof(*tasks), "tables");
     const int made = tasks ? make_tasks(options, devices, tables, count, keeps, tasks) : 0;

@@ -7,6 +7,9 @@
 struct rg_regenerate_options {
     int first_row, last_row; // from 1; 0: all. A table with fewer rows gives those that it has
     bool full, fresh;
+    // Measures what claims need, each cell with few samples, and then launches until the claims are
+    // decided, or `budget_s` is over.
+    bool launches;
     const char *work, *variant; // NULL: all
     const char *set;            // over the settings of all cells, as in struct rg_table_part
     double budget_s;            // limit for all tables together, without journals; 0: no limit

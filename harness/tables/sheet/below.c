@@ -18,24 +18,34 @@ enum { LINES = 5 };
 
 // --- claims ---
 
-static const char *const colours[RG_CLAIM_VERDICTS] = {RG_GREEN, RG_RED, RG_YELLOW, RG_YELLOW};
+// Of verdicts up to OTHER_WORK; others are plain.
+static const char *const colours[RG_CLAIM_OTHER_WORK + 1] = {RG_GREEN, RG_RED, RG_YELLOW, RG_YELLOW,
+                                                             RG_YELLOW};
 
 // "reproduced on cpu, gl; undecided on opencl"; "reproduced on all devices".
 static void print_verdicts(const struct rg_claim *claim, const struct rg_result *result,
                            bool painted, FILE *out)
 {
-    int told = 0;
-    for (int verdict = 0; verdict < RG_CLAIM_VERDICTS; verdict++) {
+    struct rg_judgement of[RG_MAX_DEVICES];
+    for (int d = 0; d < result->device_count; d++)
+        of[d] = rg_claim_judge(claim, result, d);
+    for (int first = 0, told = 0; first < result->device_count; first++) {
+        const char *text = rg_judgement_text(&of[first]);
+        const bool has_colour = painted && of[first].verdict <= RG_CLAIM_OTHER_WORK;
         char names[512] = "";
         size_t used = 0;
         int found = 0;
-        for (int d = 0; d < result->device_count; d++)
-            if ((int)rg_claim_judge(claim, result, d).verdict == verdict && used < sizeof(names))
-                used += (size_t)snprintf(names + used, sizeof(names) - used, "%s%s",
-                                         found++ ? ", " : "", result->devices[d].name);
-        if (found)
-            fprintf(out, "%s%s%s%s on %s", told++ ? "; " : "", painted ? colours[verdict] : "",
-                    rg_claim_verdict_text((enum rg_claim_verdict)verdict), painted ? RG_PLAIN : "",
+        bool is_told = false;
+        for (int d = 0; d < result->device_count && used < sizeof(names); d++) {
+            if (strcmp(rg_judgement_text(&of[d]), text) != 0)
+                continue;
+            is_told = is_told || d < first;
+            used += (size_t)snprintf(names + used, sizeof(names) - used, "%s%s",
+                                     found++ ? ", " : "", result->devices[d].name);
+        }
+        if (!is_told)
+            fprintf(out, "%s%s%s%s on %s", told++ ? "; " : "",
+                    has_colour ? colours[of[first].verdict] : "", text, has_colour ? RG_PLAIN : "",
                     found > 1 && found == result->device_count ? "all devices" : names);
     }
 }
@@ -61,7 +71,7 @@ static void name_fewer_rows(const struct rg_claim *claim, const struct rg_result
     *text = 0;
     for (int d = 0; d < result->device_count && !*text; d++) {
         const struct rg_judgement j = rg_claim_judge(claim, result, d);
-        if (j.verdict < RG_CLAIM_UNDECIDED && j.rows < j.rows_needed)
+        if (rg_claim_is_decided(j.verdict) && j.rows < j.rows_needed)
             snprintf(text, size, ", by %d of %d rows", j.rows, j.rows_needed);
     }
 }
@@ -69,7 +79,7 @@ static void name_fewer_rows(const struct rg_claim *claim, const struct rg_result
 static void print_claims(const struct rg_result *result, FILE *out)
 {
     bool any = false;
-    for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
+    for (const struct rg_claim *claim = rg_claims; claim->table && !result->is_part; claim++) {
         if (strcmp(claim->table, result->table) != 0)
             continue;
         char title[RG_CLAIM_TITLE], fewer[48];

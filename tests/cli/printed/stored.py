@@ -24,6 +24,40 @@ def check_claims_alone(runner):
     return problems + ([] if found == (["table,section,claim,cpu"], 1, False) else ["%s, %s" % (found, claims.stderr)])
 
 
+def check_launches(runner):
+    """claims takes launches until its budget is over, says that the same command goes on, and it does; what is there is judged, and held beside a table"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        args = ("claims chin-timing --device cpu --budget 1s --json -o " + tmp).split()
+        counts = []
+        for _ in range(2):
+            done = runner.run(args)
+            problems += forms.problems("claims", json.loads(done.stdout))
+            if done.returncode or "chin-timing: claims are open; the same command goes on (%s/chin-timing-quick.journal)" % tmp not in done.stderr:
+                problems.append("exit status %d, %s" % (done.returncode, done.stderr))
+            with open(tmp + "/chin-timing-quick.journal", encoding="utf-8") as file:
+                launches = json.load(file)["cells"][0]["measured"].get("launches", [])
+            counts.append(len(launches))
+            problems += ["launches: %s" % launches for _ in range([launch[0] for launch in launches] != list(range(1, len(launches) + 1)))]
+        if not 0 <= counts[0] <= counts[1] or os.listdir(tmp) != ["chin-timing-quick.journal"]:
+            problems.append("%s launches, %s" % (counts, os.listdir(tmp)))
+        # As if 24 launches had been taken of a machine that is fast enough.
+        with open(tmp + "/chin-timing-quick.journal", encoding="utf-8") as file:
+            record = forms.unsealed(json.load(file))
+        for cell in record["cells"]:
+            cell["measured"]["launches"] = [[i + 1, 10 + 0.01 * (i * 7 % 12), 0, 0, 1] for i in range(24)]
+        del record["checksum"]  # a journal has one as a whole
+        os.remove(tmp + "/chin-timing-quick.journal")
+        with open(tmp + "/chin-timing.json", "w", encoding="utf-8") as file:
+            json.dump(record, file)
+        judged, table = runner.run(["claims", "--from", tmp]).stdout, runner.run(["table", "--from", tmp]).stdout
+        beside = json.loads(runner.run(["table", "chin-timing", "--device", "cpu", "--work", "paper", "--claims", "--json", "--kept", tmp]).stdout)
+    told = {(one["verdict"], one["kept"], one["today"] in ("agrees", "differs"), one["launches"]) for claim in beside["claims"] for one in claim["verdicts"]}
+    if "- Holds: 2 (cpu 2)." not in judged or '30fps" (5): reproduced on cpu\n' not in table or told != {("reproduced", True, True, 24)}:
+        problems.append("%s\n%s\n%s" % (judged, table, told))
+    return problems
+
+
 def interrupt(runner, args, env):
     """Runs two tables and interrupts the second; what was printed, the exit status, the messages."""
     process = runner.start(args.split(), env)
@@ -135,5 +169,5 @@ def check_fresh(runner):
     return problems
 
 
-CHECKS = [check_claims_alone, check_interrupted, check_stored]
+CHECKS = [check_claims_alone, check_launches, check_interrupted, check_stored]
 LONG = [check_fresh]

@@ -139,21 +139,6 @@ static void test_a_factor(void **state)
     assert_above(rg_order_probability(low, 5, 3, high, 5), 0.99);
 }
 
-// --- medians and what is due ---
-
-// Of six coins all are heads once in 64 times, and five or more 7 times; equal ones are no coins.
-static void test_signs(void **state)
-{
-    (void)state;
-    const double samples[7] = {1, 2, 3, 4, 5, 6, 7};
-    assert_below(fabs(rg_sign_probability(samples, 6, 10, 1) - 1.0 / 64), 1e-12);
-    assert_below(fabs(rg_sign_probability(samples, 6, 10, -1) - 1), 1e-12);
-    assert_below(fabs(rg_sign_probability(samples, 6, 5.5, 1) - 7.0 / 64), 1e-12);
-    assert_below(fabs(rg_sign_probability(samples, 6, 5.5, -1) - 63.0 / 64), 1e-12);
-    assert_below(fabs(rg_sign_probability(samples, 7, 7, 1) - 1.0 / 64), 1e-12);
-    assert_below(fabs(rg_sign_probability(samples, 6, 0, -1) - 1.0 / 64), 1e-12);
-}
-
 // --- what print does not tell ---
 
 static void test_rounding(void **state)
@@ -205,7 +190,6 @@ int main(void)
         cmocka_unit_test(test_many_samples),
         cmocka_unit_test(test_many_are_nearly_exact),
         cmocka_unit_test(test_a_factor),
-        cmocka_unit_test(test_signs),
         cmocka_unit_test(test_rounding),
         cmocka_unit_test(test_scatter_of_print),
     };

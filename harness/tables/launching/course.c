@@ -1,0 +1,197 @@
+#include "harness/tables/launching/course.h"
+
+#include <string.h>
+
+#include "harness/console/clock.h"
+#include "harness/console/interrupt.h"
+#include "harness/judge/settle.h"
+
+// --- rows and variants ---
+
+static bool needs(const struct rg_table *table, int row, const char *variant)
+{
+    bool any = false;
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
+        any = any || (!strcmp(claim->table, table->id) && rg_claim_needs(claim, row, variant));
+    return any;
+}
+
+static bool needs_row(const struct rg_result *result, const struct rg_table *table, int row)
+{
+    bool any = false;
+    for (int v = 0; v < result->variant_count; v++)
+        any = any || needs(table, row, result->variants[v]);
+    return any;
+}
+
+static bool needs_variant(const struct rg_table *table, const char *variant)
+{
+    bool any = false;
+    for (int row = 1; row <= table->row_count; row++)
+        any = any || needs(table, row, variant);
+    return any;
+}
+
+bool rg_launches_choose(struct rg_result *result, const struct rg_table *table)
+{
+    bool any = false;
+    int kept = 0;
+    for (int row = result->first_row; row <= result->last_row; row++) {
+        const bool is_needed = needs_row(result, table, row + 1);
+        result->left_out[row - result->first_row] = !is_needed;
+        any = any || is_needed;
+    }
+    for (int v = 0; v < result->variant_count; v++)
+        if (needs_variant(table, result->variants[v]))
+            memmove(result->variants[kept++], result->variants[v], RG_NAME_SIZE);
+    result->variant_count = kept;
+    return any;
+}
+
+// --- the next launch ---
+
+// Whether most launches of a claim are disturbed, so that its course would never end; as in a gate.
+static bool is_hopeless(const struct rg_judgement *j)
+{
+    return j->disturbed > 32 && j->disturbed > 3 * j->launches;
+}
+
+static bool wants_launch(const struct rg_claim *claim, const struct rg_result *result, int device)
+{
+    const struct rg_judgement j = rg_claim_judge(claim, result, device);
+    return j.verdict == RG_CLAIM_ONE_LAUNCH ||
+           (j.verdict == RG_CLAIM_UNDECIDED && j.more && !is_hopeless(&j));
+}
+
+// Whether the claim's test compares the variants of a row, and no rows; or nothing at all.
+static bool is_by_row(const struct rg_claim *claim)
+{
+    return claim->test == RG_CLAIM_FASTER || claim->test == RG_CLAIM_CROSSES ||
+           claim->test == RG_CLAIM_RATE;
+}
+
+static int find_cell(struct rg_launch_cells *cells, struct rg_place at)
+{
+    int i = 0;
+    while (i < cells->count &&
+           (cells->cells[i].at.row != at.row || cells->cells[i].at.variant != at.variant))
+        i++;
+    if (i == cells->count)
+        cells->cells[cells->count++] = (struct rg_launch_cell){.at = at, .group = i};
+    return i;
+}
+
+static void join(struct rg_launch_cells *cells, int a, int b)
+{
+    const int from = cells->cells[b].group, to = cells->cells[a].group;
+    for (int i = 0; i < cells->count; i++)
+        if (cells->cells[i].group == from)
+            cells->cells[i].group = to;
+}
+
+// Adds the claim's cells, and joins those that it compares.
+static void add_claim(const struct rg_claim *claim, const struct rg_result *result, int device,
+                      struct rg_launch_cells *cells)
+{
+    int before = -1; // the claim's cell before this one
+    for (int row = result->first_row; row <= result->last_row; row++) {
+        before = is_by_row(claim) ? -1 : before;
+        for (int v = 0; rg_result_has(result, row) && v < result->variant_count; v++) {
+            const struct rg_place at = {row, rg_result_printed_work(result), v, device};
+            if (!rg_claim_needs(claim, row + 1, result->variants[v]) ||
+                rg_result_at(result, at)->launch_count == RG_MAX_LAUNCHES)
+                continue;
+            const int cell = find_cell(cells, at);
+            if (before >= 0)
+                join(cells, before, cell);
+            before = cell;
+        }
+    }
+}
+
+// Numbers the groups from 0.
+static void number_groups(struct rg_launch_cells *cells)
+{
+    int numbers[RG_LAUNCH_CELLS];
+    for (int i = 0; i < cells->count; i++)
+        numbers[i] = -1;
+    for (int i = 0; i < cells->count; i++) {
+        int *number = &numbers[cells->cells[i].group];
+        *number = *number < 0 ? cells->group_count++ : *number;
+        cells->cells[i].group = *number;
+    }
+}
+
+int rg_launches_next(const struct rg_result *result, const struct rg_claim *claims, int device,
+                     struct rg_launch_cells *cells)
+{
+    int last = 0;
+    cells->count = cells->group_count = 0;
+    for (const struct rg_claim *claim = claims; claim->table; claim++)
+        if (!strcmp(claim->table, result->table) && wants_launch(claim, result, device))
+            add_claim(claim, result, device, cells);
+    number_groups(cells);
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
+        const struct rg_record *record = rg_result_at(result, at);
+        const int count = at.device == device ? record->launch_count : 0;
+        if (count && record->launches[count - 1].number > last)
+            last = record->launches[count - 1].number;
+    }
+    return cells->count ? last + 1 : 0;
+}
+
+bool rg_launches_are_due(const struct rg_result *result, const struct rg_claim *claims)
+{
+    struct rg_launch_cells cells;
+    bool any = false;
+    for (int device = 0; device < result->device_count; device++)
+        any = any || rg_launches_next(result, claims, device, &cells) > 0;
+    return any;
+}
+
+// --- the course ---
+
+static bool is_over(double end_ms)
+{
+    return rg_interrupted() || (end_ms > 0 && rg_now_ms() >= end_ms);
+}
+
+// How many launches the device's open claims need until the next look, at most.
+static int launches_due(const struct rg_result *result, const struct rg_claim *claims, int device)
+{
+    int most = 0;
+    for (const struct rg_claim *claim = claims; claim->table; claim++) {
+        if (strcmp(claim->table, result->table) != 0 || !wants_launch(claim, result, device))
+            continue;
+        const struct rg_judgement j = rg_claim_judge(claim, result, device);
+        const int due = j.verdict == RG_CLAIM_ONE_LAUNCH ? rg_settle_rule.looks[0] : j.more;
+        most = due > most ? due : most;
+    }
+    return most;
+}
+
+bool rg_launches_take(struct rg_result *result, const struct rg_table *table,
+                      const struct rg_claim *claims, struct rg_journal *journal,
+                      struct rg_progress *bar, double end_ms)
+{
+    struct rg_launch_cells cells;
+    bool all = true;
+    for (int device = 0; device < result->device_count; device++) {
+        int number, due = 0;
+        bool ok = true;
+        while (ok && !is_over(end_ms) &&
+               (number = rg_launches_next(result, claims, device, &cells))) {
+            if (!due)
+                rg_progress_grow(bar, due = launches_due(result, claims, device));
+            rg_progress_label(bar, "%s on %s, launch %d", table->id, result->devices[device].name,
+                              number);
+            ok = rg_launch_take(result, table, &cells, number);
+            rg_journal_add(journal, result, result->first_row, result->last_row);
+            rg_journal_keep(journal);
+            rg_progress_add(bar, 1);
+            due--;
+        }
+        all = all && (ok || rg_interrupted());
+    }
+    return all;
+}
