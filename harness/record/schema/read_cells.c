@@ -121,9 +121,8 @@ static bool read_measured(struct rg_reader *r, const json_t *cell, struct rg_rec
              rg_field_number(r, measured, "api_over_wall", &record->api_over_wall) &&
              rg_field_int(r, measured, "frames_a_sample", 1, INT_MAX, &record->frames_a_sample) &&
              read_samples(r, measured, record) && read_taken(r, measured, record) &&
-             read_launches(r, measured, record) &&
-             read_wanted(r, measured, record) && read_calibration(r, measured, record) &&
-             read_passes(r, measured, record)));
+             read_launches(r, measured, record) && read_wanted(r, measured, record) &&
+             read_calibration(r, measured, record) && read_passes(r, measured, record)));
 }
 
 static bool read_outcome(struct rg_reader *r, const json_t *object, enum rg_outcome *outcome,
