@@ -85,6 +85,7 @@ tables: build
 	  rm -rf $(TABLES); \
 	  $(BUILD)/harness/raingauge table --budget $(BUDGET) --claims -o $(TABLES) && echo "$(BUDGET)" >$(TABLES)/done; \
 	fi
+	@$(BUILD)/harness/raingauge report $(TABLES) docs/pictures.md -o $(BUILD)/page.html
 
 # A record names the commit that it was measured with.
 committed:
@@ -98,6 +99,7 @@ results: committed build
 	@python3 results/keep.py $(BUILD)/results $(RESULTS)
 	@python3 results/figures.py $(RESULTS)
 	@python3 results/walk.py $(BUILD)/harness/raingauge
+	@$(BUILD)/harness/raingauge report $(RESULTS) docs/pictures.md -o $(BUILD)/results.html
 
 test: whole $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@echo "== building in $(ASAN)"

@@ -29,7 +29,28 @@ void rg_page_free(struct rg_page *page);
 // Writes the page: one file, which needs no other and no network. False, with one logged line.
 bool rg_page_write(const struct rg_page *page, const char *path);
 
+// The same in short, as text that the caller frees: Markdown for a merge request, below
+// RG_PAGE_BRIEF bytes and without pictures, and a badge as SVG. NULL, with one logged line, without
+// memory.
+enum { RG_PAGE_BRIEF = 60000 };
+char *rg_page_markdown(const struct rg_page *page);
+char *rg_page_badge(const struct rg_page *page);
+
 // --- the parts ---
+
+// What claims come to on all devices together.
+enum rg_page_stand {
+    RG_STAND_HOLDS, // reproduced on a device, refuted on none
+    RG_STAND_MIXED, // either on some
+    RG_STAND_FAILS,
+    RG_STAND_OPEN, // no device settles it
+    RG_STANDS
+};
+// Counts claims by how they stand; `claims` may be NULL. Returns their number.
+int rg_page_stands(const json_t *claims, int counts[RG_STANDS]);
+// The claims that were judged from the page's tables, and else those of its records; the caller
+// owns the array. NULL where there are none.
+json_t *rg_page_claims(const struct rg_page *page);
 
 // What a table's paper prints, as {about, technique, paper, names, keys, columns, rows, variants};
 // NULL where no such table is known here. The caller owns it.

@@ -96,7 +96,7 @@ function diffPart(record) {
   const same = pairs.filter(p => p.tier === "T0").length;
   const tell = p => p ? [el("span", {class: "verdict " + (p.tier === "T0" ? "yes" : p.tier === "none" ? "no" : "bound")}, p.tier === "T0" ? "identical" : p.tier), p.tier === "T0" ? null : el("small", {}, `${(p.differing || 0).toLocaleString("en")} values, at most ${p.max} of 255`)] : "";
   return part("Pictures of every two devices", el("p", {}, `${same} of ${plural(pairs.length, "pair")} are identical to the last bit.`),
-    sheet("How closely each two agree", ["", ...names], names.map(x => [x, ...names.map(y => x === y ? "–" : tell(of(x, y)))])),
+    sheet("How closely each two agree", ["device", ...names], names.map(x => [x, ...names.map(y => x === y ? "–" : tell(of(x, y)))])),
     pairs.filter(p => p.blame).map(p => el("p", {}, el("strong", {}, `${p.a} and ${p.b}: `), p.blame.text || "")), arrayOf(record.document.failures).map(f => el("p", {class: "warn"}, `${f.device}: ${f.status}. ${f.detail || ""}`)), note(record.file));
 }
 const median = xs => d3.median(arrayOf(xs).filter(isNumber));

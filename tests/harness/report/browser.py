@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""How a browser shows the page of `raingauge report`: browser.py RAINGAUGE [FOLDER], which gets pictures of it.
+"""How a browser shows the page of `raingauge report`: browser.py RAINGAUGE [FOLDER] [--axe FILE].
 
-It is Debian's chromium, without a network, and Debian's Python, for which python3-selenium is. Without either the test is skipped.
+FOLDER gets pictures of it. FILE is axe.min.js of axe-core (`npm pack axe-core`), which then looks for what keeps people out. The browser is Debian's chromium, without a network, and Debian's Python, for which python3-selenium is. Without either the test is skipped.
 """
 import pathlib
 import sys
@@ -233,6 +233,22 @@ def check_looks(browser, page):
     return [] if dark != paper() == "rgb(255, 255, 255)" and len(printed) > 50000 else [dark, paper(), len(printed)]
 
 
+def check_open_to_all(browser, page):
+    """axe-core finds nothing in any view, light and dark, wide and narrow"""
+    if "--axe" not in sys.argv:
+        return []
+    axe, problems = pathlib.Path(sys.argv[sys.argv.index("--axe") + 1]).read_text(encoding="utf-8"), []
+    for scheme, width in (("light", 1440), ("dark", 1440), ("light", 390)):
+        browser.size(width)
+        browser.prefer(scheme)
+        for view in VIEWS + ("table?id=creus-5.3", "table?id=stuppacher-1", "claim?id=creus-5.4%2F20-meters-come-as-a-good-trade-off", "gate?case=flow%2Fpane.new"):
+            browser.open(page, "#" + view)
+            browser.driver.execute_script(axe)
+            found = browser.driver.execute_async_script("axe.run().then(r => arguments[0](r.violations.map(v => [v.id, v.nodes[0].html.slice(0, 200)])))")
+            problems += [(scheme, width, view, violation) for violation in found]
+    return problems
+
+
 SHOTS = {"first": "#overview", "table": "#table?id=creus-5.3", "claim": "#claim?id=creus-5.6%2Flights-rapidly-decrease-performance", "gate": "#gate", "case": "#gate?case=flow%2Fpane.new", "ci": "#ci"}
 
 
@@ -257,8 +273,8 @@ def main():
         page = make_page(raingauge, pathlib.Path(folder))
         browser = Browser()
         try:
-            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_gate, check_looks], browser, page)
-            if len(sys.argv) > 2:
+            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_gate, check_looks, check_open_to_all], browser, page)
+            if len(sys.argv) > 2 and sys.argv[2] != "--axe":
                 keep_pictures(browser, page, pathlib.Path(sys.argv[2]))
         finally:
             browser.driver.quit()

@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from xml.etree import ElementTree
 
 sys.dont_write_bytecode = True
 
@@ -154,6 +155,39 @@ def check_pictures(raingauge, folder):
     return problems
 
 
+def brief(raingauge, folder, form, *records):
+    result = made.report(raingauge, folder, *records, "--format", form)
+    assert not result.returncode and not result.stderr, result.stderr
+    return result.stdout
+
+
+def check_markdown(raingauge, folder):
+    """Markdown has what was found, the three worst first, is below 60 kB, and takes no text for a mark; of gates it tells the last"""
+    endings = ["pass"] * 400 + ["regressed"] * 400 + ["differs", "crash", "inconclusive"]
+    cases = [made.case(f"{ending} {i}", ending, message="a" * 200) for i, ending in enumerate(endings)]
+    made.write(folder / "a.json", made.gate(made.case("of an earlier run", "crash")))
+    made.write(folder / "b.json", made.gate(*cases, made.case("| @user `x` <b>", "timeout", message=made.HOSTILE)))
+    text = brief(raingauge, folder, "md", "a.json", "b.json")
+    rows = [line for line in text.split("\n") if line.startswith("| ") and "---" not in line and "| found" not in line]
+    problems = [] if rows[0].startswith("| crash | crash 801 |") and rows[1].startswith("| timeout |") and rows[2].startswith("| differs |") else rows[:3]
+    if "Of 804 cases of the gate, 403 fail." not in text or "earlier" in text or "data:" in text or "lines had no room here" not in text:
+        problems.append(text[:500])
+    if len(text.encode()) > 60000 or re.search(r"(?<!\\)<(?!/?details|/?summary)|@", text) or len(re.findall(r"(?<!\\)\|", rows[1])) != 4:
+        problems.append((len(text), rows[1]))
+    text = brief(raingauge, folder, "md", made.TABLES)
+    return problems + ([] if re.search(r"^Of \d+ claims that papers make, \d+ hold here", text, re.M) and "camera 2" in text else [text[:500]])
+
+
+def check_badge(raingauge, folder):
+    """a badge is an SVG that says how many claims of a paper hold, or how many cases fail"""
+    made.write(folder / "a.json", made.gate(made.case("a", "crash"), made.case("b")))
+    made.write(folder / "b.json", {"format": 1, "devices": [], "checks": []})
+    titles = [ElementTree.fromstring(brief(raingauge, folder, "badge", record)).findtext("{http://www.w3.org/2000/svg}title")
+              for record in ("a.json", "b.json", made.TABLES / "creus-5.6.json", made.TABLES)]
+    wanted = [r"raingauge: 1 of 2 fail", r"raingauge: nothing measured", r"creus: \d of 3 claims hold", r"raingauge: \d+ of \d+ claims hold"]
+    return [] if all(map(re.fullmatch, wanted, titles)) else [titles]
+
+
 def main():
     raingauge = str(pathlib.Path(sys.argv[1]).resolve())
 
@@ -166,7 +200,7 @@ def main():
                     return [error]
         checked.__doc__ = check.__doc__
         return checked
-    return made.run([in_folder(check) for check in (check_tables, check_policy, check_hostile, check_kinds, check_older, check_refused, check_pictures)])
+    return made.run([in_folder(check) for check in (check_tables, check_policy, check_hostile, check_kinds, check_older, check_refused, check_pictures, check_markdown, check_badge)])
 
 
 if __name__ == "__main__":
