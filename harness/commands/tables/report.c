@@ -23,9 +23,8 @@ static const char *const formats[] = {"html", "md", "badge", NULL};
 static const struct rg_option options[] = {
     RG_GROUP("What to show"),
     {RG_OPTION_OPERAND, .argument = "RECORDS...",
-     .about =
-         "files or folders of what commands wrote with --json or -o: tables, gates, baselines, "
-         "diffs, verify, doctor, render; a text of Markdown gives the pictures that it shows",
+     .about = "files or folders of the JSON that commands wrote: tables, gates, baselines, diffs, "
+              "verify, doctor, render; a text of Markdown gives the pictures that it shows",
      .names = RG_NAMES_FILE, .first = 1},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
