@@ -26,10 +26,11 @@ all: build
 # Installs the packages of packages.txt that are missing, with sudo unless root. An optional one is
 # asked for once the lists are fetched, for a Debian may have none of its name. Images for containers
 # leave out /usr/share/doc, where libcgal-demo keeps its models: they are let through, and the package
-# is installed again where it came without.
+# is installed again where it came without. Those of tests alone are left out unless FOR is tests.
 setup:
 	@lacks() { ! dpkg-query -W -f '$${Status}' $$1 2>/dev/null | grep -q 'ok installed'; }; \
-	missing=; for package in $$(sed 's/#.*//; / optional$$/d' packages.txt); do \
+	case "$(FOR)" in tests) kept='s/ test$$//';; *) kept='/ test$$/d';; esac; \
+	missing=; for package in $$(sed "s/#.*//; / optional$$/d; $$kept" packages.txt); do \
 	  ! lacks $$package || missing="$$missing $$package"; \
 	done; \
 	case "$$missing" in \
@@ -69,7 +70,8 @@ build: setup $(BUILD)/build.ninja
 	@ninja -C $(BUILD) program
 
 # The program, and what tests it.
-whole: setup $(BUILD)/build.ninja
+whole: $(BUILD)/build.ninja
+	@$(MAKE) --no-print-directory setup FOR=tests
 	@echo "== building the program and its tests in $(BUILD)"
 	@ninja -C $(BUILD)
 
@@ -87,6 +89,7 @@ tables: build
 	  rm -rf $(TABLES); \
 	  $(BUILD)/harness/raingauge table --budget $(BUDGET) --claims $$kept -o $(TABLES) && echo "$(BUDGET)" >$(TABLES)/done; \
 	fi
+	@$(BUILD)/harness/raingauge report $(TABLES) docs/pictures.md -o $(BUILD)/page.html
 
 # A record names the commit that it was measured with.
 committed:
@@ -100,6 +103,7 @@ results: committed build
 	@python3 results/keep.py $(BUILD)/results $(RESULTS)
 	@python3 results/figures.py $(RESULTS)
 	@python3 results/walk.py $(BUILD)/harness/raingauge
+	@$(BUILD)/harness/raingauge report $(RESULTS) docs/pictures.md -o $(BUILD)/results.html
 
 # Goes on where it was interrupted. A record of launches names the commit and the machine.
 claims: committed build

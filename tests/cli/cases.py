@@ -237,6 +237,12 @@ COMMANDS = [
     Case("figures creus-4.4 --device nonsense", 2, UNKNOWN_DEVICE),
     Case("figures creus-4.1 --size 64x36 --memory 1M -o {tmp}/out", 2, r"streaks of 64x36 on cpu needs .* MiB, and 1\.0 MiB of --memory are left"),
 
+    # report; tests/harness/report has more
+    Case("report --help", 0, None),
+    Case("report", 2, r"report: names no records; name files or folders, such as results/tables"),
+    Case("report %s/results/tables/creus-5.4.json -o {tmp}/page.html" % ROOT, 0, None, made=("page.html",)),
+    Case("report %s/results/tables/creus-5.4.json -o {tmp}/page.html" % ROOT, 71, r"page\.html: cannot be written: File too large; nothing was changed", limit=1 << 16),
+
     # atlas
     Case("atlas nonsense", 2, r"technique 'nonsense': unknown; the nearest is '.*', and `raingauge list techniques`"),
     Case("atlas cartoon flow", 2, r"atlas: 'flow' is one argument too many"),

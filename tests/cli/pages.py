@@ -9,7 +9,7 @@ import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-COMMANDS = ("doctor", "list", "render", "table", "claims", "sweep", "diff", "shrink", "verify", "gate", "baseline", "bisect", "figures", "atlas")
+COMMANDS = ("doctor", "list", "render", "table", "claims", "sweep", "diff", "shrink", "verify", "gate", "baseline", "bisect", "figures", "atlas", "report")
 PARTS = r"\.(TH|SH|SS|TP|PP)\b"  # the macros that the page uses
 ESCAPES = r"\\(f[BIR]|[-&e])"
 
@@ -117,7 +117,7 @@ def check_completed_words(runner):
     flow, streaks = listed(runner, "params", "flow"), listed(runner, "params", "streaks")
     expected = {
         "": [*COMMANDS, "--help", "--version"],
-        "re": ["render"],
+        "re": ["render", "report"],
         "list ": ["techniques", "tables", "figures", "devices", "params"],
         "list params ": techniques,
         "list params flow ": [],

@@ -14,6 +14,7 @@ FLOORS = [
     "tests/tools",
     "harness",
     "harness/commands",
+    "harness/report",
     "harness/tables harness/compare harness/doctor harness/atlas",
     "harness/measure",
     "harness/devices",

@@ -1,0 +1,331 @@
+// The page in short: Markdown, and a badge.
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/report/report.h"
+
+enum { ROOM_FOR_END = 500, MOST_TEXT = 300, WORST = 3 };
+
+// Text that is being written, of which parts that find no room are counted.
+struct brief {
+    FILE *out;
+    size_t size;
+    int left_out;
+};
+
+// Adds a line if there is room for it.
+static void __attribute__((format(printf, 2, 3))) put(struct brief *brief, const char *format, ...)
+{
+    char line[4096];
+    va_list args;
+    va_start(args, format);
+    const int length = vsnprintf(line, sizeof(line), format, args);
+    va_end(args);
+    if (length < 0 || length >= (int)sizeof(line) ||
+        brief->size + (size_t)length > RG_PAGE_BRIEF - ROOM_FOR_END) {
+        brief->left_out++;
+        return;
+    }
+    brief->size += (size_t)length;
+    fwrite(line, 1, (size_t)length, brief->out);
+}
+
+// A field's text without what Markdown or HTML would take for a mark, in one line. An `@` would
+// call the user of that name.
+static const char *text_of(const json_t *object, const char *field, char text[4 * MOST_TEXT])
+{
+    const char *from = json_string_value(json_object_get(object, field));
+    size_t length = 0;
+    for (int i = 0; from && from[i] && (i < MOST_TEXT || (from[i] & 0xC0) == 0x80); i++) {
+        const unsigned char c = (unsigned char)from[i];
+        if (c == '@')
+            length += (size_t)sprintf(text + length, "(at)");
+        else if (strchr("\\`*_{}[]<>()#|~&!$", c))
+            length += (size_t)sprintf(text + length, "\\%c", c);
+        else
+            text[length++] = c < ' ' ? ' ' : (char)c;
+        if (length > 4 * MOST_TEXT - 8)
+            break;
+    }
+    text[length] = 0;
+    return text;
+}
+
+// --- findings, the worst first ---
+
+// Endings of a gate's cases that fail, the worst first.
+static const char *const failing[] = {
+    "crash",           "timeout",          "error",    "lacking", "differs",
+    "unexpected pass", "nothing measured", "regressed"};
+enum { FAILING = sizeof(failing) / sizeof(*failing) };
+
+static bool is(const json_t *object, const char *field, const char *value)
+{
+    const char *text = json_string_value(json_object_get(object, field));
+    return text && !strcmp(text, value);
+}
+
+// The index of the last record of a kind; the number of records where there is none.
+static size_t last_of(const struct rg_page *page, const char *kind)
+{
+    size_t i, last = json_array_size(page->records);
+    json_t *record;
+    json_array_foreach(page->records, i, record)
+    {
+        last = is(record, "kind", kind) ? i : last;
+    }
+    return last;
+}
+
+// Calls `tell` for each element of an array of the records of a kind. Of gates only the last is
+// told: those before it are the history that the page shows.
+static void each(const struct rg_page *page, const char *kind, const char *array,
+                 void (*tell)(const json_t *element, void *user), void *user)
+{
+    const size_t last_gate = last_of(page, "gate");
+    size_t i, k;
+    json_t *record, *element;
+    json_array_foreach(page->records, i, record)
+    {
+        const json_t *elements = json_object_get(json_object_get(record, "document"), array);
+        if (!is(record, "kind", kind) || (is(record, "kind", "gate") && i != last_gate))
+            continue;
+        json_array_foreach(elements, k, element)
+        {
+            tell(element, user);
+        }
+    }
+}
+
+struct finding {
+    struct brief *brief;
+    const char *wanted; // the ending that is told now
+    int count, most;
+};
+
+static void tell_case(const json_t *element, void *user)
+{
+    struct finding *f = user;
+    char name[4 * MOST_TEXT], message[4 * MOST_TEXT];
+    if (is(element, "ending", f->wanted) && f->count < f->most) {
+        f->count++;
+        put(f->brief, "| %s | %s | %s |\n", f->wanted, text_of(element, "name", name),
+            text_of(element, "message", message));
+    }
+}
+
+static void tell_check(const json_t *element, void *user)
+{
+    struct finding *f = user;
+    char check[4 * MOST_TEXT], detail[4 * MOST_TEXT], technique[4 * MOST_TEXT],
+        device[4 * MOST_TEXT];
+    if (!is(element, "status", f->wanted) || f->count >= f->most)
+        return;
+    f->count++;
+    put(f->brief, "| %s | %s, %s on %s | %s |\n", f->wanted,
+        text_of(element, "technique", technique), text_of(element, "check", check),
+        text_of(element, "device", device), text_of(element, "detail", detail));
+}
+
+// The worst of what gates and verify found, no more than `most`; how many.
+static int tell_findings(const struct rg_page *page, struct brief *brief, int most)
+{
+    static const char *const statuses[] = {"crash", "timeout", "error", "fail"};
+    struct finding f = {brief, "", 0, most};
+    for (int i = 0; i < FAILING; i++) {
+        f.wanted = failing[i];
+        each(page, "gate", "gated", tell_case, &f);
+    }
+    for (int i = 0; i < 4; i++) {
+        f.wanted = statuses[i];
+        each(page, "verify", "checks", tell_check, &f);
+    }
+    return f.count;
+}
+
+// --- counts ---
+
+struct counts {
+    int cases, failing, checks, checks_failing;
+};
+
+static void count_case(const json_t *element, void *user)
+{
+    struct counts *counts = user;
+    counts->cases++;
+    for (int i = 0; i < FAILING; i++)
+        counts->failing += is(element, "ending", failing[i]);
+}
+
+static void count_check(const json_t *element, void *user)
+{
+    struct counts *counts = user;
+    counts->checks++;
+    counts->checks_failing += !is(element, "status", "ok") &&
+                              !is(element, "status", "unsupported") &&
+                              !is(element, "status", "nothing");
+}
+
+static struct counts count(const struct rg_page *page)
+{
+    struct counts counts = {0};
+    each(page, "gate", "gated", count_case, &counts);
+    each(page, "verify", "checks", count_check, &counts);
+    return counts;
+}
+
+// --- Markdown ---
+
+static void put_claim(struct brief *brief, const json_t *claim)
+{
+    char words[4 * MOST_TEXT], part[4 * MOST_TEXT], table[4 * MOST_TEXT], line[2048];
+    size_t i, length = 0;
+    json_t *verdict;
+    *line = 0;
+    json_array_foreach(json_object_get(claim, "verdicts"), i, verdict)
+    {
+        char device[4 * MOST_TEXT], text[4 * MOST_TEXT];
+        const int more =
+            snprintf(line + length, sizeof(line) - length, "%s%s: %s", i ? ", " : "",
+                     text_of(verdict, "device", device), text_of(verdict, "verdict", text));
+        length += more > 0 ? (size_t)more : 0;
+        if (length >= sizeof(line))
+            break;
+    }
+    text_of(claim, "part", part);
+    put(brief, "| %s | %s%s%s | %s |\n", text_of(claim, "table", table),
+        text_of(claim, "words", words), *part ? ", " : "", part, line);
+}
+
+static void put_claims(struct brief *brief, const json_t *claims)
+{
+    size_t i;
+    json_t *claim;
+    put(brief, "\n<details><summary>Claim by claim</summary>\n\n| table | claim | verdicts |\n"
+               "|---|---|---|\n");
+    json_array_foreach(claims, i, claim)
+    {
+        put_claim(brief, claim);
+    }
+    fprintf(brief->out, "\n</details>\n");
+}
+
+static void put_counts(struct brief *brief, const struct counts *found, const json_t *claims)
+{
+    int stands[RG_STANDS];
+    const int all = rg_page_stands(claims, stands);
+    if (all)
+        put(brief,
+            "Of %d claims that papers make, %d hold here, %d do not, %d hold on some devices only, "
+            "and %d stay open.\n",
+            all, stands[RG_STAND_HOLDS], stands[RG_STAND_FAILS], stands[RG_STAND_MIXED],
+            stands[RG_STAND_OPEN]);
+    if (found->cases)
+        put(brief, "Of %d cases of the gate, %d fail.\n", found->cases, found->failing);
+    if (found->checks)
+        put(brief, "Of %d checks, %d fail.\n", found->checks, found->checks_failing);
+    if (!all && !found->cases && !found->checks)
+        put(brief, "The records hold no claim, no gate and no check.\n");
+}
+
+static void put_all(const struct rg_page *page, struct brief *brief, const json_t *claims)
+{
+    const struct counts found = count(page);
+    const int failures = found.failing + found.checks_failing;
+    put(brief, "## raingauge\n\n");
+    put_counts(brief, &found, claims);
+    if (failures) {
+        put(brief, "\n| found | where | why |\n|---|---|---|\n");
+        tell_findings(page, brief, WORST);
+    }
+    if (failures > WORST) {
+        put(brief, "\n<details><summary>All that fail</summary>\n\n| found | where | why |\n"
+                   "|---|---|---|\n");
+        tell_findings(page, brief, failures);
+        fprintf(brief->out, "\n</details>\n");
+    }
+    if (claims)
+        put_claims(brief, claims);
+    if (brief->left_out)
+        fprintf(brief->out, "\n%d lines had no room here; the page has them all.\n",
+                brief->left_out);
+}
+
+char *rg_page_markdown(const struct rg_page *page)
+{
+    char *text = NULL;
+    size_t size;
+    json_t *claims = rg_page_claims(page);
+    struct brief brief = {.out = open_memstream(&text, &size)};
+    if (brief.out)
+        put_all(page, &brief, claims);
+    json_decref(claims);
+    if (brief.out && !fclose(brief.out) && text)
+        return text;
+    free(text);
+    return rg_harness_error_null("report: no memory for Markdown; name fewer records");
+}
+
+// --- the badge ---
+
+// The key of the paper that all claims are of; "raingauge" where they are of several.
+static void title_of(const json_t *claims, char title[48])
+{
+    size_t i;
+    json_t *claim;
+    snprintf(title, 48, "raingauge");
+    json_array_foreach(claims, i, claim)
+    {
+        const char *paper = json_string_value(json_object_get(claim, "paper"));
+        if (!paper || (i && strcmp(title, paper) != 0)) {
+            snprintf(title, 48, "raingauge");
+            return;
+        }
+        snprintf(title, 48, "%.40s", paper);
+    }
+}
+
+// XML's marks cannot stand in either text: one is made here, the other is a key of this program.
+static char *draw(const char *left, const char *right, const char *colour)
+{
+    enum { CHARACTER_PX = 7, EDGE_PX = 12 };
+    const int a = (int)strlen(left) * CHARACTER_PX + EDGE_PX,
+              b = (int)strlen(right) * CHARACTER_PX + EDGE_PX;
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    fprintf(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"20\" role=\"img\" "
+        "aria-label=\"%s: %s\">\n<title>%s: %s</title>\n"
+        "<rect width=\"%d\" height=\"20\" rx=\"3\" fill=\"#444\"/>\n"
+        "<path d=\"M%d 0h%da3 3 0 0 1 3 3v14a3 3 0 0 1-3 3H%dz\" fill=\"%s\"/>\n"
+        "<g fill=\"#fff\" text-anchor=\"middle\" font-family=\"Verdana,DejaVu Sans,sans-serif\" "
+        "font-size=\"11\">\n<text x=\"%d\" y=\"14\">%s</text>\n<text x=\"%d\" y=\"14\">%s"
+        "</text>\n</g>\n</svg>\n",
+        a + b, left, right, left, right, a + b, a, b - 3, a, colour, a / 2, left, a + b / 2, right);
+    return fclose(out) ? NULL : text;
+}
+
+char *rg_page_badge(const struct rg_page *page)
+{
+    int stands[RG_STANDS];
+    char title[48], said[64] = "nothing measured";
+    json_t *claims = rg_page_claims(page);
+    const int all = rg_page_stands(claims, stands);
+    const struct counts found = count(page);
+    const int failures = found.failing + found.checks_failing;
+    title_of(found.cases + found.checks ? NULL : claims, title);
+    if (found.cases + found.checks)
+        snprintf(said, sizeof(said), "%d of %d fail", failures, found.cases + found.checks);
+    else if (all)
+        snprintf(said, sizeof(said), "%d of %d claims hold", stands[RG_STAND_HOLDS], all);
+    json_decref(claims);
+    char *text = draw(title, said, failures ? "#b3261e" : all || found.cases ? "#17733a" : "#666");
+    return text ? text : rg_harness_error_null("report: no memory for a badge; name fewer records");
+}

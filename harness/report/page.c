@@ -1,0 +1,58 @@
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/base/log.h"
+#include "harness/record/output.h"
+#include "harness/record/passport/build_info.h"
+#include "harness/record/schema/schema.h"
+#include "harness/report/report.h"
+#include "harness/tables/claims/json.h"
+
+// The page before and after its data; page/embed.py makes them.
+extern const char rg_page_head[], rg_page_tail[];
+
+static json_t *or_empty(json_t *json, json_t *(*make)(void))
+{
+    return json ? json_incref(json) : make();
+}
+
+// All that the page shows. NULL without memory.
+static json_t *data_json(const struct rg_page *page)
+{
+    json_t *claims = page->outcomes.count ? rg_claims_json(&page->outcomes) : json_null();
+    return json_pack(
+        "{si ss ss si so so so so so}", "format", RG_FORMAT_VERSION, "version", rg_build_version,
+        "commit", rg_build_commit, "pictures_left_out", page->left_out, "claims", claims, "records",
+        or_empty(page->records, json_array), "pictures", or_empty(page->pictures, json_object),
+        "files", or_empty(page->files, json_object), "gallery",
+        or_empty(page->gallery, json_array));
+}
+
+// Writes JSON so that no text in it can end the element that holds it.
+static int put(const char *buffer, size_t size, void *user)
+{
+    FILE *out = user;
+    for (size_t i = 0; i < size; i++)
+        if (buffer[i] == '<')
+            fputs("\\u003c", out);
+        else
+            putc_unlocked(buffer[i], out);
+    return ferror(out) ? -1 : 0;
+}
+
+bool rg_page_write(const struct rg_page *page, const char *path)
+{
+    char *text = NULL;
+    size_t size;
+    json_t *data = data_json(page);
+    FILE *out = data ? open_memstream(&text, &size) : NULL;
+    bool ok = out && fputs(rg_page_head, out) >= 0 &&
+              !json_dump_callback(data, put, out, JSON_COMPACT | RG_JSON_FLAGS) &&
+              fputs(rg_page_tail, out) >= 0;
+    ok = out && !fclose(out) && ok;
+    json_decref(data);
+    ok = ok ? rg_output_write_file(path, text)
+            : rg_harness_error("%s: no memory for the page; name fewer records", path);
+    free(text);
+    return ok;
+}

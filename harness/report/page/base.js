@@ -1,0 +1,146 @@
+"use strict";
+// What all views share: the data, elements, numbers, the address, files to keep.
+
+const DATA = JSON.parse(document.getElementById("data").textContent);
+
+// --- elements ---
+
+// An element; attributes named on... are listeners, null and false leave one out. Texts become text nodes, never markup.
+function el(name, attributes = {}, ...children) {
+  const node = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes || {})) {
+    if (value === null || value === undefined || value === false) continue;
+    if (key.startsWith("on")) node.addEventListener(key.slice(2), value);
+    else node.setAttribute(key, value === true ? "" : value);
+  }
+  for (const child of children.flat(9)) if (child !== null && child !== undefined && child !== false) node.append(child);
+  return node;
+}
+
+// A table whose first cells of rows are heads. Columns: texts or {text, number: true, title}.
+function sheet(caption, columns, rows, cls = "") {
+  const heads = columns.map(c => typeof c === "object" ? c : {text: c});
+  return [el("p", {class: "caption", "aria-hidden": "true"}, caption), el("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": caption},
+    el("table", {class: cls}, el("caption", {class: "unseen"}, caption),
+      el("thead", {}, el("tr", {}, heads.map(h => el("th", {scope: "col", class: h.number ? "n" : null, title: h.title}, h.text)))),
+      el("tbody", {}, rows.map(row => el("tr", {class: row.cls}, (row.cells || row).map((cell, i) =>
+        el(i ? "td" : "th", {scope: i ? null : "row", class: heads[i] && heads[i].number ? "n" : null}, cell)))))))];
+}
+
+function choice(id, label, options, value, change) {
+  if (options.length < 2) return null;
+  return el("label", {class: "choice"}, label + " ",
+    el("select", {id, onchange: event => change(event.target.value)},
+      options.map(([key, text]) => el("option", {value: key, selected: key === value}, text))));
+}
+
+// --- texts and numbers ---
+
+const isNumber = x => typeof x === "number" && isFinite(x);
+const plural = (n, one, many) => `${n.toLocaleString("en")} ${n === 1 ? one : many || one + "s"}`;
+// A name for people: what stands behind its last underscore is often its unit.
+const words = key => String(key).replace(/_(m2_s|m|mm|px|ms|s|deg)$/, (_, unit) => ", " + (unit === "m2_s" ? "1/(m² s)" : unit)).replace(/_/g, " ");
+const list = texts => texts.length < 2 ? texts.join("") : texts.slice(0, -1).join(", ") + " and " + texts[texts.length - 1];
+
+// Three digits, as many as a median is worth.
+function digits(x) {
+  if (!isNumber(x)) return "–";
+  if (x === 0) return "0";
+  const places = Math.max(0, 2 - Math.floor(Math.log10(Math.abs(x))));
+  if (places > 6) return x.toExponential(1);
+  return Number(x.toPrecision(3)).toLocaleString("en", {maximumFractionDigits: places});
+}
+// As it is printed: no digit less.
+const exact = x => isNumber(x) ? (Math.abs(x) >= 10000 ? x.toLocaleString("en", {maximumFractionDigits: 6}) : String(x)) : x === null || x === undefined ? "" : String(x);
+const percent = x => isNumber(x) ? `${x > 0 ? "+" : ""}${digits(100 * x)} %` : "–";
+const between = (low, high) => isNumber(low) && isNumber(high) ? `${digits(low)} to ${digits(high)}` : "";
+function seconds(x) {
+  if (!isNumber(x)) return "–";
+  return x < 120 ? `${digits(x)} s` : `${Math.round(x / 60)} min`;
+}
+
+// --- the address: #view?key=value&key=value ---
+
+function place() {
+  const [view, query] = location.hash.replace(/^#/, "").split("?");
+  return {view: view || "overview", params: new URLSearchParams(query || "")};
+}
+function href(view, params = {}) {
+  const query = new URLSearchParams();
+  for (const [key, value] of Object.entries(params)) if (value !== null && value !== undefined && value !== "") query.set(key, value);
+  const text = query.toString();
+  return "#" + view + (text ? "?" + text : "");
+}
+const link = (view, params, ...children) => el("a", {href: href(view, params)}, ...children);
+// Changes what is chosen in this view; the address keeps it, so that it can be sent.
+function choose(changes) {
+  const {view, params} = place();
+  history.replaceState(null, "", href(view, {...Object.fromEntries(params), ...changes}));
+  show();
+}
+
+// --- files to keep ---
+
+function save(name, type, text) {
+  const url = URL.createObjectURL(new Blob([text], {type}));
+  const anchor = el("a", {href: url, download: name});
+  document.body.append(anchor);
+  anchor.click();
+  anchor.remove();
+  setTimeout(() => URL.revokeObjectURL(url), 1000);
+}
+// RFC 4180. A text that a spreadsheet would run as a formula gets a quote in front.
+function csv(rows) {
+  const field = x => {
+    let text = x === null || x === undefined ? "" : String(x);
+    if (typeof x === "string" && /^[=+\-@]/.test(text)) text = "'" + text;
+    return /[",\r\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+  };
+  return rows.map(row => row.map(field).join(",") + "\r\n").join("");
+}
+// A command line to copy.
+function command(text) {
+  const button = el("button", {type: "button", class: "copy", "aria-label": "Copy: " + text}, "Copy");
+  button.addEventListener("click", () => {
+    const area = el("textarea", {class: "aside", "aria-hidden": "true"});
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    button.textContent = document.execCommand("copy") ? "Copied" : "Select it and copy";
+    area.remove();
+    button.focus();
+  });
+  return el("div", {class: "command"}, el("code", {}, text), button);
+}
+// A word of a shell, quoted where it needs it.
+const shell = text => /^[\w.,:=/@%+-]+$/.test(text) ? text : `'${String(text).replace(/'/g, "'\\''")}'`;
+
+// --- records ---
+
+const arrayOf = x => Array.isArray(x) ? x : [];
+const objectOf = x => x && typeof x === "object" && !Array.isArray(x) ? x : {};
+const records = kind => arrayOf(DATA.records).filter(record => record.kind === kind);
+const picture = name => DATA.pictures[DATA.files[name]] || null;
+
+// Devices by name, in one order everywhere, so that each keeps its colour and its mark.
+const DEVICES = (() => {
+  const usual = ["cpu", "cpu:reference", "gl", "vulkan", "opencl"], found = new Map();
+  for (const record of arrayOf(DATA.records)) {
+    const d = objectOf(record.document);
+    for (const device of [...arrayOf(d.devices), ...arrayOf(objectOf(d.passport).devices)])
+      if (device && typeof device.name === "string" && !(found.get(device.name) || {}).driver) found.set(device.name, device);
+    for (const cell of arrayOf(d.cells)) if (!found.has(cell.device)) found.set(cell.device, {name: cell.device});
+  }
+  for (const claim of arrayOf(objectOf(DATA.claims).claims))
+    for (const verdict of arrayOf(claim.verdicts)) if (!found.has(verdict.device)) found.set(verdict.device, {name: verdict.device});
+  const order = name => usual.includes(name) ? usual.indexOf(name) : usual.length;
+  return [...found.values()].sort((a, b) => order(a.name) - order(b.name));
+})();
+const deviceIndex = name => Math.max(0, DEVICES.findIndex(d => d.name === name));
+const deviceClass = name => name === "print" ? "print" : "d" + deviceIndex(name) % 8;
+
+// --- a view's parts ---
+
+const head = (title, ...children) => el("div", {class: "head"}, el("h1", {}, title), children);
+const part = (title, ...children) => el("section", {}, el("h2", {}, title), children);
+const note = (...children) => el("p", {class: "note"}, ...children);

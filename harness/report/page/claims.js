@@ -1,0 +1,127 @@
+"use strict";
+// Claims: what papers say of their tables, and whether it holds on each device.
+
+const VERDICTS = {
+  "reproduced": {mark: "✓", word: "holds", cls: "yes", about: "what was measured bears it out, with 95 % confidence"},
+  "not reproduced": {mark: "✗", word: "does not hold", cls: "no", about: "what was measured refutes it, with 95 % confidence"},
+  "at the bound": {mark: "≈", word: "at the bound", cls: "bound", about: "what was measured lies where the claim's bound is, so that no more of it would decide"},
+  "undecided": {mark: "?", word: "open", cls: "open", about: "what was measured does not settle it"},
+  "not seen": {mark: "○", word: "not seen", cls: "other", about: "the picture does not show what the claim is about"},
+  "other work": {mark: "≠", word: "other work", cls: "other", about: "what was measured is not the work that was printed"},
+};
+const verdictOf = text => VERDICTS[text] || {mark: "•", word: String(text), cls: "other", about: "a verdict that this page does not know"};
+
+// Claims of the records, and those that were judged from their tables; each once.
+const CLAIMS = (() => {
+  const all = new Map();
+  for (const document of [objectOf(DATA.claims), ...records("claims").map(record => objectOf(record.document))])
+    for (const claim of arrayOf(document.claims)) if (claim && claim.id) all.set(claim.id, {...claim, verdicts: arrayOf(claim.verdicts)});
+  return [...all.values()];
+})();
+const CLAIM_DEVICES = DEVICES.filter(d => CLAIMS.some(c => c.verdicts.some(v => v.device === d.name))).map(d => d.name);
+const judged = (claim, device) => claim.verdicts.find(v => v.device === device);
+
+// How a claim stands on all devices together.
+const STANDS = {holds: "holds wherever it is settled", mixed: "holds on some devices, not on others", fails: "does not hold wherever it is settled", open: "is open on every device"};
+function standOf(claim) {
+  const has = verdict => claim.verdicts.some(v => v.verdict === verdict);
+  return has("reproduced") ? has("not reproduced") ? "mixed" : "holds" : has("not reproduced") ? "fails" : "open";
+}
+
+const claimWords = claim => [claim.source === "said" ? `“${claim.words}”` : claim.words, claim.part ? `, ${claim.part}` : ""].join("");
+const TESTS = {
+  falls: () => "each row is slower than the one before it", order: () => "rows stand in the order of print", ratio: c => `row ${c.rows[0]} is at least ${digits(c.least)} times as fast as row ${c.rows[1]}`,
+  alike: c => `no two rows are more than ${digits(c.most)} times apart`, apart: c => `some two rows are more than ${digits(c.least)} times apart`,
+  exponent: c => `rates go with the axis to a power between ${c.least} and ${c.most}`, faster: c => `in each row ${words(c.variant)} is at least ${digits(c.least)} times as fast as ${words(c.other_variant)}`,
+  rate: c => `each row makes at least ${digits(c.least)} frames a second`, optimum: c => `one of rows ${arrayOf(c.knee_rows).join(" to ")} is faster than all others`, slowest: c => `row ${arrayOf(c.knee_rows)[0]} is slower than all others`,
+  crosses: c => `${words(c.variant)} is slower than ${words(c.other_variant)} up to a row between ${arrayOf(c.knee_rows).join(" and ")}, and faster from there on`,
+  flattens: c => `up to row ${arrayOf(c.knee_rows)[0]} the error of the picture falls ${digits(c.least)} times as far as after it`,
+};
+const testOf = claim => TESTS[claim.test] ? TESTS[claim.test]({...claim, rows: arrayOf(claim.rows)}) : words(claim.test || "");
+
+function badge(verdict, isShort = false) {
+  const v = verdictOf(verdict);
+  return el("span", {class: "verdict " + v.cls, title: v.about}, el("span", {"aria-hidden": "true"}, v.mark), isShort ? el("span", {class: "unseen"}, v.word) : " " + v.word);
+}
+const badges = claim => el("ul", {class: "badges"}, CLAIM_DEVICES.map(device => judged(claim, device)).filter(Boolean)
+  .map(v => el("li", {}, el("span", {class: "device"}, v.device), " ", badge(v.verdict))));
+
+// Claims as rows, devices as columns, by paper.
+function matrix(claims) {
+  const papers = [...new Set(claims.map(claim => claim.paper))];
+  return el("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Claims by paper and device"}, el("table", {class: "matrix"},
+    el("caption", {class: "unseen"}, "What papers claim, and whether it holds on each device"),
+    el("thead", {}, el("tr", {}, el("th", {scope: "col"}, "claim"), CLAIM_DEVICES.map(d => el("th", {scope: "col"}, d)))),
+    papers.map(paper => el("tbody", {}, el("tr", {class: "paper"}, el("th", {scope: "rowgroup", colspan: CLAIM_DEVICES.length + 1}, paperTitle(paper), PAPERS[paper] ? el("small", {}, " " + PAPERS[paper].about) : null)),
+      claims.filter(c => c.paper === paper).map(claim => el("tr", {}, el("th", {scope: "row"}, link("claim", {id: claim.id}, claimWords(claim)), el("small", {}, " " + claim.table)),
+        CLAIM_DEVICES.map(device => { const v = judged(claim, device); return el("td", {class: v ? verdictOf(v.verdict).cls : null}, v ? badge(v.verdict, true) : ""); })))))));
+}
+const verdictKey = claims => el("ul", {class: "key"}, Object.keys(VERDICTS).filter(v => claims.some(c => c.verdicts.some(x => x.verdict === v)))
+  .map(v => el("li", {}, badge(v), ": ", verdictOf(v).about)));
+
+function claimBrief(claim) {
+  return el("article", {class: "brief"}, el("h3", {}, link("claim", {id: claim.id}, claimWords(claim))), badges(claim));
+}
+
+function viewClaims(params) {
+  const asked = {paper: params.get("paper") || "", verdict: params.get("verdict") || "", device: params.get("device") || "", stand: params.get("stand") || "", q: params.get("q") || ""};
+  const found = CLAIMS.filter(claim => (!asked.paper || claim.paper === asked.paper) && (!asked.stand || standOf(claim) === asked.stand)
+    && (!(asked.verdict || asked.device) || claim.verdicts.some(v => (!asked.verdict || v.verdict === asked.verdict) && (!asked.device || v.device === asked.device)))
+    && (!asked.q || [claim.words, claim.part, claim.table, claim.id].join(" ").toLowerCase().includes(asked.q.toLowerCase())));
+  const any = [["", "all"]];
+  return [head("Claims", el("p", {}, "A claim is a sentence of a paper about its table, or what the table shows. Each is put to a test on each device.")),
+    el("form", {class: "choices", role: "search", onsubmit: event => event.preventDefault()},
+      el("label", {class: "choice"}, "Search ", el("input", {type: "search", id: "claims-q", value: asked.q, oninput: event => choose({q: event.target.value})})),
+      choice("claims-paper", "Paper", [...any, ...[...new Set(CLAIMS.map(c => c.paper))].map(p => [p, paperTitle(p)])], asked.paper, paper => choose({paper})),
+      choice("claims-stand", "Claim", [...any, ...Object.entries(STANDS)], asked.stand, stand => choose({stand})),
+      choice("claims-verdict", "Verdict", [...any, ...Object.keys(VERDICTS).map(v => [v, verdictOf(v).word])], asked.verdict, verdict => choose({verdict})),
+      choice("claims-device", "Device", [...any, ...CLAIM_DEVICES.map(d => [d, d])], asked.device, device => choose({device}))),
+    el("p", {role: "status"}, found.length === CLAIMS.length ? plural(CLAIMS.length, "claim") : `${found.length} of ${plural(CLAIMS.length, "claim")}`),
+    found.length ? [matrix(found), verdictKey(found)] : note("No claim is so. Choose less.")];
+}
+
+// The rows that decide a claim, of which the plot shows the medians with their intervals.
+function evidence(claim) {
+  const table = tableOf(claim.table), span = arrayOf(claim.rows);
+  if (!table || span.length < 2) return null;
+  const work = worksOf(table)[0], inside = [...table.rows.keys()].filter(n => claim.test === "ratio" ? span.includes(n) : n >= Math.min(...span) && n <= Math.max(...span));
+  if (claim.test === "flattens") return errorPlot(table, inside, claim.variant, work);
+  const variants = [claim.variant, claim.other_variant].filter(v => v && table.variants.includes(v));
+  return variants.map(variant => {
+    const lines = linesOf(table, inside, variant, work), {axis} = axisOf(table);
+    return lines.length ? [variants.length > 1 ? el("h3", {}, words(variant)) : null, plot({lines, axis: axis && axisOf(table).groups.length === 1 && inside.length > 2 ? words(axis) : null, value: "frames a second", name: `${claim.table}-${variant}`, isLog: true})] : null;
+  });
+}
+// The error of each row's picture, which is the same on every device.
+function errorPlot(table, numbers, variant, work) {
+  const {axis} = axisOf(table), device = CLAIM_DEVICES[0];
+  const points = numbers.map(n => ({row: n, x: axis ? table.rows.get(n)[axis] : null, label: rowText(table.rows.get(n), keysOf(table)),
+    value: objectOf((cellOf(table, n, device, variant, work) || {}).error).flip_mask_mean, low: null, high: null})).filter(p => isNumber(p.value));
+  return points.length ? plot({lines: [{name: device, points}], axis: axis && words(axis), value: "error of the picture, FLIP", name: table.id + "-error", isLog: false}) : null;
+}
+// What a verdict says besides, as newer records have it: launches, intervals.
+function extras(verdict) {
+  const known = ["device", "verdict", "why", "probability", "rows_judged", "rows_needed"];
+  return Object.entries(verdict).filter(([key, x]) => !known.includes(key) && (isNumber(x) || typeof x === "string" || (Array.isArray(x) && x.length <= 4 && x.every(isNumber))))
+    .map(([key, x]) => `${words(key)}: ${Array.isArray(x) ? x.map(digits).join(" to ") : isNumber(x) ? digits(x) : x}`).join("; ");
+}
+function bibtex(key, p) {
+  const fields = [["author", p.author], ["title", `{${p.title}}`], ["year", p.year]].filter(([, x]) => x);
+  return `@${p.type}{${key},\n${fields.map(([name, x]) => `  ${name} = {${x}}`).join(",\n")}\n}`;
+}
+
+function viewClaim(params) {
+  const claim = CLAIMS.find(c => c.id === params.get("id")) || null;
+  if (!claim) return [head("Claim"), note("This page holds no such claim. "), link("claims", {}, "All claims")];
+  const paper = PAPERS[claim.paper], i = CLAIMS.indexOf(claim), near = [CLAIMS[i - 1], CLAIMS[i + 1]], open = claim.verdicts.some(v => v.verdict === "undecided");
+  return [head(claimWords(claim), el("p", {class: "lead"}, `${paperTitle(claim.paper)}, section ${claim.section}, about `, link("table", {id: claim.table}, claim.table), claim.source === "said" ? "." : "; the words are ours, and say what the table shows."),
+      el("p", {}, "It holds where ", testOf(claim), `. It is about rows ${arrayOf(claim.rows).join(" to ")}${claim.variant && claim.variant !== "full" ? `, ${words(claim.variant)}` : ""}.`),
+      claim.print_contradicts ? el("p", {class: "warn"}, "The paper's own table contradicts it.") : null),
+    part("Verdicts", sheet("The verdict on each device, and why", ["device", "verdict", "why", {text: "by chance", number: true, title: "The probability of such samples if the opposite were true"}],
+      claim.verdicts.map(v => [v.device, badge(v.verdict), [v.why || "", v.rows_judged < v.rows_needed ? ` (by ${v.rows_judged} of ${v.rows_needed} rows)` : "", extras(v) ? el("small", {}, extras(v)) : null], isNumber(v.probability) ? v.probability < 0.001 ? "< 0.001" : digits(v.probability) : "–"]))),
+    tableOf(claim.table) ? part("The rows that decide", evidence(claim)) : null,
+    part(open ? "What would decide it" : "Measure it yourself", open ? el("p", {}, "More samples: full mode takes up to four times as many, of the paper's own settings.") : null,
+      command(`raingauge table ${shell(claim.table)} --full --claims -o mine`)),
+    paper ? part("Cite", el("pre", {}, bibtex(claim.paper, paper) + "\n\n" + bibtex("raingauge", {...SOFTWARE, type: "misc"}))) : null,
+    el("p", {class: "near"}, near[0] ? link("claim", {id: near[0].id}, "Previous claim") : null, " ", link("claims", {}, "All claims"), " ", near[1] ? link("claim", {id: near[1].id}, "Next claim") : null)];
+}

@@ -1,0 +1,99 @@
+"use strict";
+// The first screen, and the way from the address to a view.
+
+// --- the first screen ---
+
+const CELLS = TABLES.flatMap(table => table.cells);
+function bar(parts) {
+  const sum = d3.sum(parts, p => p[1]), known = parts.filter(p => p[1]);
+  const svg = d3.create("svg").attr("class", "bar").attr("viewBox", "0 0 300 12").attr("preserveAspectRatio", "none").attr("aria-hidden", "true");
+  let at = 0;
+  for (const [cls, n] of known) { svg.append("rect").attr("class", cls).attr("x", 300 * at / sum).attr("width", Math.max(0, 300 * n / sum - 2)).attr("height", 12); at += n; }
+  return svg.node();
+}
+const total = (title, number, text, more, to) => el("section", {class: "total"}, el("h2", {}, title), el("p", {class: "number"}, number), more, el("p", {}, text), to || null);
+
+function claimsTotal() {
+  const count = stand => CLAIMS.filter(c => standOf(c) === stand).length, row = (stand, cls, text) => count(stand) ? el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, `${count(stand)} ${text}`)) : null;
+  return total("Claims", [`${count("holds")}`, el("small", {}, ` of ${CLAIMS.length} hold`)], el("ul", {class: "plain"}, row("holds", "yes", "hold wherever it is settled"), row("mixed", "bound", "hold on some devices only"), row("fails", "no", "do not hold"), row("open", "open", "are open")),
+    bar([["yes", count("holds")], ["bound", count("mixed")], ["no", count("fails")], ["open", count("open")]]));
+}
+function devicesTotal() {
+  const doctor = records("doctor")[0], asked = doctor ? arrayOf(doctor.document.devices) : DEVICES.filter(d => CELLS.some(c => c.device === d.name));
+  const isWell = d => doctor ? d.status === "ok" : !CELLS.some(c => c.device === d.name && ["fail", "error", "crash", "timeout"].includes(c.status));
+  const well = asked.filter(isWell), ill = asked.filter(d => !isWell(d));
+  if (!asked.length) return null;
+  return total("Devices", [`${well.length}`, el("small", {}, ` of ${asked.length} are well`)], [doctor ? "They compute and draw what C does. " : "Each did all that was asked of it. ", ill.length ? `Not: ${list(ill.map(d => d.name))}. ` : "", link("devices", {}, "The devices")], bar([["yes", well.length], ["no", ill.length]]));
+}
+function picturesTotal() {
+  const cells = CELLS.filter(c => ["ok", "fail"].includes(c.status) && objectOf(c.measured).ms !== undefined || c.status === "fail"), pairs = records("diff").flatMap(r => arrayOf(r.document.pairs));
+  const gated = GATES.flatMap(g => g.cases).filter(c => ["pass", "differs", "regressed", "improved", "inconclusive"].includes(c.ending));
+  const software = name => (DEVICES.find(d => d.name === name) || {}).software !== false;
+  const same = cells.filter(c => c.status === "ok").length + pairs.filter(p => p.tier === "T0").length + gated.filter(c => c.ending !== "differs").length, all = cells.length + pairs.length + gated.length;
+  if (!all) return null;
+  const isExact = DEVICES.every(d => software(d.name)), what = isExact ? "identical" : "as the reference's";
+  return total("Pictures", [same.toLocaleString("en"), el("small", {}, ` of ${all.toLocaleString("en")} are ${what}`)], isExact ? "Every device must draw what the plain C reference draws, to the last bit, before its speed counts." : "Every device must draw what the plain C reference draws: to the last bit on software, up to rounding on hardware.", bar([["yes", same], ["no", all - same]]));
+}
+
+function foundText() {
+  const count = stand => CLAIMS.filter(c => standOf(c) === stand).length, papers = new Set(CLAIMS.map(c => c.paper)).size;
+  const texts = [];
+  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${count("holds")} hold here, ${count("fails")} do not, ${count("mixed")} hold on some devices only, and ${count("open")} stay open.`);
+  for (const gate of GATES.slice(-1)) texts.push(verdictLine(gate));
+  const checks = records("verify").flatMap(r => arrayOf(r.document.checks)), bad = checks.filter(c => statusClass(c.status) === "no");
+  if (checks.length) texts.push(bad.length ? `${bad.length} of ${plural(checks.length, "check")} of the models do not hold.` : `None of ${plural(checks.length, "check")} of the models fails.`);
+  for (const doctor of records("doctor")) texts.push(wellText(arrayOf(doctor.document.devices)));
+  if (!texts.length && TABLES.length) texts.push(`${plural(TABLES.length, "table")} with ${plural(CELLS.length, "cell")} ${TABLES.length === 1 ? "was" : "were"} measured; no paper claims anything of ${TABLES.length === 1 ? "it" : "them"}.`);
+  return texts.length ? texts.join(" ") : "The records hold nothing that was measured or compared.";
+}
+function overviewPlot() {
+  const table = [tableOf("creus-5.4"), ...TABLES].filter(Boolean).find(t => t.isTimed && axisOf(t).axis && linesOf(t, axisOf(t).groups[0][1], t.variants[0], worksOf(t)[0]).length);
+  if (!table) return null;
+  const {axis, groups} = axisOf(table), lines = linesOf(table, groups[0][1], table.variants[0], worksOf(table)[0]);
+  return part("One table as a picture", el("p", {}, link("table", {id: table.id}, table.id), ": ", table.about, ". ", story(lines)), plot({lines, hidden: [], axis: words(axis), value: "frames a second", name: table.id, isLog: true}));
+}
+function viewOverview() {
+  const totals = [CLAIMS.length ? claimsTotal() : null, devicesTotal(), picturesTotal()].filter(Boolean), pictures = shots().slice(0, 3);
+  return [el("div", {class: "head hero"}, el("h1", {}, CLAIMS.length ? "Does rain still fall as papers say?" : GATES.length ? "Is B worse than A?" : TABLES.length ? "How fast does it rain?" : "What was found"),
+      el("p", {class: "lead"}, "raingauge runs the rain of published papers on graphics drivers, checks that every driver draws the same picture, and measures how fast."),
+      el("p", {class: "found"}, foundText())),
+    totals.length ? el("div", {class: "totals"}, totals) : null,
+    pictures.length ? el("div", {class: "gallery three"}, pictures.map(shot)) : null,
+    GATES.length ? part("The gate", el("p", {}, link("gate", {}, "What differs between A and B"), ", ", link("ci", {}, "what CI needs of it")), caseRows(GATES[GATES.length - 1].cases.slice(0, 5), "gate", false)) : null,
+    overviewPlot(), CLAIMS.length ? part("Claim by claim", matrix(CLAIMS), verdictKey(CLAIMS)) : null,
+    part("Make this yourself", el("p", {}, "On Debian 12, from raingauge's folder; the first line installs, builds and measures, within four minutes:"), command("make tables"), command("build/harness/raingauge report build/tables -o page.html"))];
+}
+
+// --- views ---
+
+const VIEWS = {
+  overview: ["Overview", () => true, viewOverview], claims: ["Claims", () => CLAIMS.length, viewClaims], claim: [null, () => CLAIMS.length, viewClaim],
+  tables: ["Tables", () => TABLES.length, viewTables], table: [null, () => TABLES.length, viewTable], gate: ["A and B", () => GATES.length, viewGate], ci: ["CI", () => GATES.length, viewCi],
+  checks: ["Checks", () => ["verify", "diff", "baseline", "bisect"].some(kind => records(kind).length), viewChecks], devices: ["Devices", () => DEVICES.length, viewDevices], pictures: ["Pictures", () => shots().length, viewPictures],
+};
+const PARENT = {claim: "claims", table: "tables"};
+
+let lastPlace = null;
+function show() {
+  const {view, params} = place(), name = VIEWS[view] && VIEWS[view][1]() ? view : "overview", main = document.getElementById("main");
+  const focused = document.activeElement && main.contains(document.activeElement) ? document.activeElement : null, id = focused && focused.id, at = focused && "selectionStart" in focused ? focused.selectionStart : null;
+  document.getElementById("nav").replaceChildren(...Object.entries(VIEWS).filter(([, [text, has]]) => text && has()).map(([key, [text]]) => el("a", {href: href(key), "aria-current": (PARENT[name] || name) === key ? "page" : null}, text)));
+  main.replaceChildren(...VIEWS[name][2](params).flat(9).filter(Boolean));
+  const title = main.querySelector("h1");
+  document.title = name === "overview" ? "raingauge" : `${title ? title.textContent : name} - raingauge`;
+  const again = id && document.getElementById(id);
+  if (again) { again.focus(); if (at !== null && again.setSelectionRange) try { again.setSelectionRange(at, at); } catch (error) { /* a select has no text to mark */ } }
+  else if (lastPlace !== null && lastPlace !== name + (params.get("id") || "")) { window.scrollTo(0, 0); main.focus({preventScroll: true}); }
+  const opened = params.get("case") && document.getElementById("case");
+  if (opened && !again) { opened.scrollIntoView(); opened.querySelector("h2").focus({preventScroll: true}); }
+  lastPlace = name + (params.get("id") || "");
+}
+document.getElementById("foot").append(el("p", {}, `raingauge ${DATA.version}, commit ${String(DATA.commit).slice(0, 12)}. ${plural(arrayOf(DATA.records).length, "record")}. This file needs no other and no network. Drawn with D3, copyright Mike Bostock, BSD-3-Clause.`));
+document.getElementById("skip").addEventListener("click", () => document.getElementById("main").focus());
+window.addEventListener("hashchange", show);
+let resizing = null, lastWidth = document.documentElement.clientWidth;
+window.addEventListener("resize", () => {
+  clearTimeout(resizing);
+  resizing = setTimeout(() => { if (lastWidth !== document.documentElement.clientWidth) { lastWidth = document.documentElement.clientWidth; show(); } }, 150);
+});
+show();

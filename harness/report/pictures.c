@@ -1,0 +1,178 @@
+// Pictures in a page: each once, by its content, as the data of a URL.
+#include <inttypes.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "core/base/alloc.h"
+#include "core/base/files/file.h"
+#include "harness/record/named.h"
+#include "harness/report/report.h"
+
+enum { MOST_BYTES = 16 << 20 }; // of one picture
+
+static const char png_begins[8] = "\x89PNG\r\n\x1a\n";
+static const char data_begins[] = "data:image/png;base64,";
+
+// Writes `size` bytes as base64, with a zero behind it.
+static void encode(const unsigned char *bytes, size_t size, char *text)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        const unsigned b = i + 1 < size ? bytes[i + 1] : 0, c = i + 2 < size ? bytes[i + 2] : 0;
+        const unsigned word = (unsigned)bytes[i] << 16 | b << 8 | c;
+        *text++ = digits[word >> 18];
+        *text++ = digits[word >> 12 & 63];
+        *text++ = i + 1 < size ? digits[word >> 6 & 63] : '=';
+        *text++ = i + 2 < size ? digits[word & 63] : '=';
+    }
+    *text = 0;
+}
+
+// --- which files may be taken ---
+
+static bool is_below(const char *path, const char *folder)
+{
+    char whole[PATH_MAX];
+    if (!realpath(folder, whole))
+        return false;
+    const size_t length = strlen(whole);
+    return !strncmp(path, whole, length) && (path[length] == '/' || whole[length - 1] == '/');
+}
+
+// The file that a record in `folder` names: as it stands there, from the current folder, or beside
+// the record. False where there is none that may be taken.
+static bool find(const char *folder, const char *name, char found[PATH_MAX])
+{
+    const char *slash = strrchr(name, '/');
+    const char *const tried[][2] = {{"", name}, {folder, name}, {folder, slash ? slash + 1 : name}};
+    for (int i = 0; i < 3; i++) {
+        char path[PATH_MAX];
+        const char *glue = *tried[i][0] ? "/" : "";
+        if (snprintf(path, sizeof(path), "%s%s%s", tried[i][0], glue, tried[i][1]) < PATH_MAX &&
+            realpath(path, found) && (is_below(found, folder) || is_below(found, ".")))
+            return true;
+    }
+    return false;
+}
+
+// The bytes of a PNG, which the caller frees; NULL where it is none or too large.
+static unsigned char *load(const char *path, size_t *size)
+{
+    const char *why;
+    FILE *file = rg_file_open(path, &why);
+    unsigned char *bytes = file ? malloc(MOST_BYTES) : NULL;
+    *size = bytes ? fread(bytes, 1, MOST_BYTES, file) : 0;
+    const bool is_png = *size > sizeof(png_begins) && *size < MOST_BYTES &&
+                        !memcmp(bytes, png_begins, sizeof(png_begins));
+    if (file)
+        fclose(file);
+    if (is_png)
+        return bytes;
+    free(bytes);
+    return NULL;
+}
+
+// --- taking them ---
+
+// The URL's data of a picture; the caller owns it. NULL without memory.
+static json_t *data_json(const unsigned char *bytes, size_t size)
+{
+    char *text = malloc(sizeof(data_begins) + (size + 2) / 3 * 4);
+    if (!text)
+        return NULL;
+    memcpy(text, data_begins, sizeof(data_begins));
+    encode(bytes, size, text + sizeof(data_begins) - 1);
+    json_t *json = json_string_nocheck(text);
+    free(text);
+    return json;
+}
+
+static bool keep(struct rg_page *page, const char *name, const unsigned char *bytes, size_t size)
+{
+    char digest[17];
+    snprintf(digest, sizeof(digest), "%016" PRIx64, (uint64_t)XXH3_64bits(bytes, size));
+    if (!page->pictures) {
+        page->pictures = json_object();
+        page->files = json_object();
+    }
+    const bool is_new = !json_object_get(page->pictures, digest);
+    if (is_new && page->picture_bytes + (int64_t)size > RG_PAGE_PICTURES) {
+        page->left_out++;
+        return true;
+    }
+    page->picture_bytes += is_new ? (int64_t)size : 0;
+    return (!is_new || !json_object_set_new(page->pictures, digest, data_json(bytes, size))) &&
+           !json_object_set_new(page->files, name, json_string(digest));
+}
+
+// Takes a picture, if there is such a one that may be taken; the page says where one is missing.
+static bool take(struct rg_page *page, const char *folder, const char *name)
+{
+    char path[PATH_MAX];
+    size_t size;
+    unsigned char *bytes = find(folder, name, path) ? load(path, &size) : NULL;
+    const bool ok = !bytes || keep(page, name, bytes, size) ||
+                    rg_harness_error("%s: no memory for it; name fewer records", name);
+    free(bytes);
+    return ok;
+}
+
+bool rg_page_add_pictures(struct rg_page *page, const char *folder, const json_t *document)
+{
+    const json_t *file = json_object_get(document, "file");
+    bool ok = !json_is_string(file) || take(page, folder, json_string_value(file));
+    size_t i, k;
+    json_t *gated, *name;
+    json_array_foreach(json_object_get(document, "gated"), i, gated)
+    {
+        json_array_foreach(json_object_get(gated, "attachments"), k, name)
+        {
+            ok = ok && (!json_is_string(name) || take(page, folder, json_string_value(name)));
+        }
+    }
+    return ok;
+}
+
+// --- a text of Markdown ---
+
+// The paragraph at `at`, if it begins with `*`, as a caption does: without marks, on one line.
+// Else the picture's own text.
+static json_t *caption_json(const char *at, const char *own, size_t own_length)
+{
+    char caption[1024];
+    size_t length = 0;
+    at += strspn(at, " \t\r\n");
+    if (*at != '*')
+        return json_pack("s%", own, own_length);
+    for (; *at && strncmp(at, "\n\n", 2) != 0 && length < sizeof(caption) - 1; at++)
+        if (!strchr("*`", *at))
+            caption[length++] = *at == '\n' ? ' ' : *at;
+    while (length && caption[length - 1] == ' ')
+        length--;
+    caption[length] = 0;
+    return rg_json_text(caption);
+}
+
+bool rg_page_add_gallery(struct rg_page *page, const char *folder, const char *markdown)
+{
+    bool ok = true;
+    if (!page->gallery)
+        page->gallery = json_array();
+    for (const char *at = markdown; ok && (at = strstr(at, "\n![")); at++) {
+        const char *text = at + 3, *middle = strstr(text, "]("), *end = middle;
+        end = end ? strchr(end, ')') : NULL;
+        char name[PATH_MAX];
+        if (!end || end - middle >= (int)sizeof(name))
+            break;
+        snprintf(name, sizeof(name), "%.*s", (int)(end - middle) - 2, middle + 2);
+        json_t *caption = caption_json(end + 1, text, (size_t)(middle - text));
+        json_t *shown = caption
+                            ? json_pack("{so so}", "file", rg_json_text(name), "caption", caption)
+                            : NULL; // texts that are no UTF-8 have no picture
+        ok = !shown || (take(page, folder, name) && !json_array_append_new(page->gallery, shown));
+    }
+    return ok || rg_harness_error("a text's pictures: no memory for them; name fewer records");
+}

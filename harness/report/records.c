@@ -1,0 +1,221 @@
+// Records from files: which kind each is, whether this program knows its format, and what of it
+// the page needs.
+#include <dirent.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "core/base/log.h"
+#include "harness/record/disk/document.h"
+#include "harness/record/disk/stored.h"
+#include "harness/report/report.h"
+
+static const char mend[] = "name what a command wrote with --json or -o (docs/records.md)";
+
+// Kinds of records, each with a field that no other kind has. The first that fits holds.
+static const struct kind {
+    const char *name, *field;
+    json_type type;
+} kinds[] = {
+    {"table", "cells", JSON_ARRAY},         {"claims", "claims", JSON_ARRAY},
+    {"gate", "gated", JSON_ARRAY},          {"baseline", "baseline", JSON_ARRAY},
+    {"verify", "checks", JSON_ARRAY},       {"diff", "pairs", JSON_ARRAY},
+    {"doctor", "warnings", JSON_ARRAY},     {"render", "file", JSON_STRING},
+    {"bisect", "candidates", JSON_INTEGER},
+};
+
+static const char *kind_of(const json_t *document)
+{
+    for (size_t i = 0; i < sizeof(kinds) / sizeof(*kinds); i++) {
+        const json_t *field = json_object_get(document, kinds[i].field);
+        if (field && json_typeof(field) == kinds[i].type)
+            return kinds[i].name;
+    }
+    return NULL;
+}
+
+static bool lacks_memory(const char *path)
+{
+    return rg_harness_error("%s: no memory for its page; name fewer records", path);
+}
+
+static bool append(struct rg_page *page, const char *kind, const char *path, json_t *document,
+                   json_t *printed)
+{
+    if (!page->records)
+        page->records = json_array();
+    json_t *record = json_pack("{ss so so so*}", "kind", kind, "file", rg_json_text(path),
+                               "document", document, "printed", printed);
+    return (record && !json_array_append_new(page->records, record)) || lacks_memory(path);
+}
+
+// --- tables ---
+
+// Leaves out what the page does not show: it shows medians with their intervals, not each sample.
+static void trim(json_t *document)
+{
+    size_t i;
+    json_t *cell;
+    json_array_foreach(json_object_get(document, "cells"), i, cell)
+    {
+        json_t *measured = json_object_get(cell, "measured");
+        json_object_del(cell, "checksum");
+        json_object_del(measured, "samples_ms");
+        json_object_del(measured, "passes_share");
+    }
+}
+
+// Two measurements of a table would be two verdicts on a claim.
+static bool is_first(const struct rg_page *page, const char *path, const char *table)
+{
+    size_t i;
+    json_t *record;
+    json_array_foreach(page->records, i, record)
+    {
+        const json_t *document = json_object_get(record, "document");
+        const char *other = json_string_value(json_object_get(document, "table"));
+        if (other && !strcmp(other, table))
+            return rg_error("%s: holds table '%s', which %s holds too; name one of them", path,
+                            table, json_string_value(json_object_get(record, "file")));
+    }
+    return true;
+}
+
+static bool add_tables(struct rg_page *page, const char *path)
+{
+    struct rg_stored stored = {0};
+    bool ok = rg_stored_read(&stored, path);
+    for (int i = 0; ok && i < stored.count; i++) {
+        const char *table = stored.results[i].table;
+        ok = is_first(page, path, table) && rg_claims_add(&page->outcomes, &stored.results[i]);
+        json_t *document = ok ? rg_result_json(&stored.results[i]) : NULL;
+        trim(document);
+        ok = ok && append(page, "table", path, document, rg_page_printed(table));
+    }
+    rg_stored_free(&stored);
+    return ok;
+}
+
+// --- other records ---
+
+static void folder_of(const char *path, char folder[PATH_MAX])
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, PATH_MAX, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+}
+
+// A record's kind, if this program knows it and its format. NULL, with one logged line, else.
+static const char *admit(const char *path, const json_t *document)
+{
+    const json_t *format = json_object_get(document, "format");
+    const char *kind = kind_of(document);
+    if (!json_is_integer(format) || !kind)
+        return rg_error_null("%s: is no record of raingauge; %s", path, mend);
+    if (json_integer_value(format) != RG_FORMAT_VERSION)
+        return rg_error_null("%s: is of format %" JSON_INTEGER_FORMAT
+                             ", and this raingauge knows format %d; use the raingauge that wrote "
+                             "it, or a newer one",
+                             path, json_integer_value(format), RG_FORMAT_VERSION);
+    return kind;
+}
+
+static bool add_document(struct rg_page *page, const char *path, json_t *document)
+{
+    char folder[PATH_MAX];
+    const char *kind = admit(path, document);
+    folder_of(path, folder);
+    return kind && rg_page_add_pictures(page, folder, document) &&
+           append(page, kind, path, json_incref(document), NULL);
+}
+
+static bool add_records(struct rg_page *page, const char *path)
+{
+    char why[RG_WHY_SIZE] = "";
+    size_t size, at = 0;
+    char *text = rg_document_load(path, &size, mend, why);
+    bool ok = text, is_table = false;
+    at = text ? strspn(text, " \t\r\n") : 0;
+    do {
+        json_t *document = ok ? rg_document_next(path, text, size, &at, mend, why) : NULL;
+        is_table = document && json_is_array(json_object_get(document, "cells"));
+        ok = document && (is_table || add_document(page, path, document));
+        json_decref(document);
+    } while (ok && !is_table && at < size);
+    free(text);
+    if (!ok && *why)
+        rg_error("%s", why);
+    return ok && (!is_table || add_tables(page, path));
+}
+
+static bool add_markdown(struct rg_page *page, const char *path)
+{
+    char why[RG_WHY_SIZE] = "", folder[PATH_MAX];
+    size_t size;
+    char *text = rg_document_load(path, &size, "name a text that can be read", why);
+    folder_of(path, folder);
+    const bool ok = text ? rg_page_add_gallery(page, folder, text) : rg_error("%s", why);
+    free(text);
+    return ok;
+}
+
+// --- files and folders ---
+
+static bool ends_in(const char *name, const char *end)
+{
+    const size_t length = strlen(name), end_length = strlen(end);
+    return length > end_length && !strcmp(name + length - end_length, end);
+}
+
+static bool add_file(struct rg_page *page, const char *path)
+{
+    return ends_in(path, ".md") ? add_markdown(page, path) : add_records(page, path);
+}
+
+// Records, and the text that `figures -o` writes beside its pictures. Other texts may be tables.
+static int is_shown(const struct dirent *entry)
+{
+    return ends_in(entry->d_name, ".json") || !strcmp(entry->d_name, "figures.md");
+}
+
+static bool add_folder(struct rg_page *page, const char *folder)
+{
+    struct dirent **entries;
+    const int count = scandir(folder, &entries, is_shown, alphasort);
+    bool ok = count > 0;
+    if (count < 0)
+        rg_system_error(errno, "%s: %s; name a folder that can be read", folder, strerror(errno));
+    else if (!count)
+        rg_error("%s: holds no .json and no figures.md; %s", folder, mend);
+    for (int i = 0; i < count; i++) {
+        char path[PATH_MAX];
+        const int length = snprintf(path, sizeof(path), "%s/%s", folder, entries[i]->d_name);
+        ok = ok &&
+             (length < (int)sizeof(path) ||
+              rg_error("%.80s...: its name is too long; move it", path)) &&
+             add_file(page, path);
+        free(entries[i]);
+    }
+    if (count >= 0)
+        free(entries);
+    return ok;
+}
+
+bool rg_page_add(struct rg_page *page, const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode) ? add_folder(page, path)
+                                                             : add_file(page, path);
+}
+
+void rg_page_free(struct rg_page *page)
+{
+    json_decref(page->records);
+    json_decref(page->pictures);
+    json_decref(page->files);
+    json_decref(page->gallery);
+    rg_claims_free(&page->outcomes);
+    *page = (struct rg_page){0};
+}

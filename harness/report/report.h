@@ -1,0 +1,66 @@
+// One page of all records: what was found, for people to look at (docs/page.md).
+//
+// Records are the JSON that commands write (docs/records.md). They are read here, checked, and put
+// into the page as they are, with the papers' printed rows and the pictures that they name. What
+// the page shows of them is the work of the files in `page/`, which the build embeds.
+#ifndef RG_HARNESS_REPORT_REPORT_H
+#define RG_HARNESS_REPORT_REPORT_H
+
+#include "harness/tables/claims/text.h"
+
+// What a page holds. Zero it before; rg_page_free in any case.
+struct rg_page {
+    json_t *records;  // array of {kind, file, document}; tables have `printed` too
+    json_t *pictures; // object: data of each picture by its digest
+    json_t *files;    // object: digests of pictures by the path that a record names
+    json_t *gallery;  // array of {file, caption}: pictures that a text of Markdown shows
+    int64_t picture_bytes;
+    int left_out; // pictures for which there was no room
+    struct rg_claim_outcomes outcomes;
+};
+
+enum { RG_PAGE_PICTURES = 32 << 20 }; // bytes of all pictures together
+
+// Adds a file of records, a text of Markdown with pictures, or all such files of a folder. False,
+// with one logged line that names the file, the place and the mend, where one is neither.
+bool rg_page_add(struct rg_page *page, const char *path);
+void rg_page_free(struct rg_page *page);
+
+// Writes the page: one file, which needs no other and no network. False, with one logged line.
+bool rg_page_write(const struct rg_page *page, const char *path);
+
+// The same in short, as text that the caller frees: Markdown for a merge request, below
+// RG_PAGE_BRIEF bytes and without pictures, and a badge as SVG. NULL, with one logged line, without
+// memory.
+enum { RG_PAGE_BRIEF = 60000 };
+char *rg_page_markdown(const struct rg_page *page);
+char *rg_page_badge(const struct rg_page *page);
+
+// --- the parts ---
+
+// What claims come to on all devices together.
+enum rg_page_stand {
+    RG_STAND_HOLDS, // reproduced on a device, refuted on none
+    RG_STAND_MIXED, // either on some
+    RG_STAND_FAILS,
+    RG_STAND_OPEN, // no device settles it
+    RG_STANDS
+};
+// Counts claims by how they stand; `claims` may be NULL. Returns their number.
+int rg_page_stands(const json_t *claims, int counts[RG_STANDS]);
+// The claims that were judged from the page's tables, and else those of its records; the caller
+// owns the array. NULL where there are none.
+json_t *rg_page_claims(const struct rg_page *page);
+
+// What a table's paper prints, as {about, technique, paper, names, keys, columns, rows, variants};
+// NULL where no such table is known here. The caller owns it.
+json_t *rg_page_printed(const char *table);
+
+// Embeds pictures: those that the document of a record in `folder` names, or that a text of
+// Markdown shows, with the captions that stand below them. Only PNG is taken, and only from the
+// record's folder, the current one, and those below, so that a foreign record cannot have a private
+// picture published. False, with one logged line, without memory.
+bool rg_page_add_pictures(struct rg_page *page, const char *folder, const json_t *document);
+bool rg_page_add_gallery(struct rg_page *page, const char *folder, const char *markdown);
+
+#endif

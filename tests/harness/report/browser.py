@@ -1,0 +1,285 @@
+#!/usr/bin/python3
+"""How a browser shows the page of `raingauge report`: browser.py RAINGAUGE [FOLDER] [--axe FILE].
+
+FOLDER gets pictures of it. FILE is axe.min.js of axe-core (`npm pack axe-core`), which then looks for what keeps people out. The browser is Debian's chromium, without a network, and Debian's Python, for which python3-selenium is. Without either the test is skipped.
+"""
+import pathlib
+import sys
+import tempfile
+import time
+
+sys.dont_write_bytecode = True
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import Select
+except ImportError:
+    print("1..0 # SKIP python3-selenium is not installed")
+    sys.exit(0)
+
+import made
+
+CHROMIUM, DRIVER = pathlib.Path("/usr/bin/chromium"), pathlib.Path("/usr/bin/chromedriver")
+WIDTHS = (1440, 768, 390)
+VIEWS = ("overview", "claims", "tables", "gate", "ci", "checks", "devices", "pictures")
+
+
+class Browser:
+    """A page in a browser without a network."""
+
+    def __init__(self):
+        options = webdriver.ChromeOptions()
+        options.binary_location = str(CHROMIUM)
+        for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars"):
+            options.add_argument(word)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self.driver = webdriver.Chrome(service=Service(str(DRIVER)), options=options)
+        self.driver.execute_cdp_cmd("Network.enable", {})
+        self.driver.execute_cdp_cmd("Network.emulateNetworkConditions", {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
+
+    def size(self, width, height=900):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+
+    def prefer(self, scheme):
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+
+    def open(self, page, place=""):
+        self.driver.get("about:blank")
+        self.driver.get(f"file://{page}{place}")
+
+    def go(self, place):
+        self.driver.execute_script("location.hash = arguments[0]", place)
+        time.sleep(0.1)
+
+    def ask(self, expression):
+        return self.driver.execute_script("return " + expression)
+
+    def find(self, selector):
+        return self.driver.find_elements(By.CSS_SELECTOR, selector)
+
+    def messages(self):
+        return [line["message"] for line in self.driver.get_log("browser")]
+
+    def press(self, *keys):
+        webdriver.ActionChains(self.driver).send_keys(*keys).perform()
+        time.sleep(0.1)
+
+
+def make_page(raingauge, folder):
+    """Tables, pictures, gates with all endings and with hostile texts, a thousand cases, and the rest."""
+    pictures = {"a": lambda x, y: (4 * x, 3 * y, 90), "b": lambda x, y: (4 * x, 3 * y, 200 if (x, y) == (40, 20) else 90), "flip": lambda x, y: (0, 0, 0)}
+    for kind, colour in pictures.items():
+        (folder / f"flow-{kind}.png").write_bytes(made.png(64, 48, colour))
+    names = [f"flow-{kind}.png" for kind in pictures]
+    passport = '{"devices": [{"name": "vulkan", "driver": "Mesa 22"}, {"name": "new", "driver": "Mesa 25"}]}'
+    cases = [made.case("flow/pane.new", "differs", message="1 pixel differs", details="stage flow_blur", attachments=names),
+             made.case("raster/torus.new", "regressed", 1.071), made.case("drops/pane.new", "inconclusive", 1.02, seconds=None),
+             made.case("of tomorrow", "vanished"), made.case(made.HOSTILE, "crash", message=made.HOSTILE, details=made.HOSTILE, technique=made.HOSTILE)]
+    many = [made.case(f"case/{i}", "pass", 1 + i / 1e5) for i in range(1000)]
+    made.write(folder / "gate-1.json", made.gate(*many, passport_text="a text of several lines\nof its own"))
+    made.write(folder / "gate-2.json", made.gate(*cases, *many[:200], passport_text=passport))
+    made.write(folder / "verify.json", {"format": 1, "devices": [], "checks": [
+        {"technique": "flow", "check": "state", "device": "gl", "status": "ok", "detail": "holds"}, {"technique": "flow", "check": "state", "device": "new", "status": "of tomorrow", "detail": made.HOSTILE}]})
+    made.write(folder / "diff.json", {"format": 1, "devices": [], "failures": [], "pairs": [{"a": "gl", "b": "vulkan", "tier": "T1", "max": 1, "differing": 7}]})
+    made.write(folder / "doctor.json", {"format": 1, "passport": {}, "missing": [made.HOSTILE], "warnings": [],
+                                        "devices": [{"name": "gl", "status": "ok", "why": ""}, {"name": "new", "status": "crash", "why": made.HOSTILE}]})
+    made.write(folder / "baseline.json", {"format": 1, "devices": [], "baseline": [
+        {"cell": "flow/pane", "device": "gl", "outcome": "ok", "launches_ms": [1, 2, 3]}, {"cell": "flow/pane", "device": "new", "outcome": "crash", "why": "it crashed"}]})
+    result = made.report(raingauge, folder, made.TABLES, made.ROOT / "docs" / "pictures.md", ".", "-o", "page.html")
+    if result.returncode or result.stderr:
+        raise SystemExit(f"raingauge report: {result.returncode}, {result.stderr}")
+    return folder / "page.html"
+
+
+def check_views(browser, page):
+    """every view is shown at each width without a message on the console, without a request, and without a scrollbar of the whole page"""
+    problems = []
+    for width in WIDTHS:
+        browser.size(width)
+        browser.open(page)
+        for view in VIEWS + ("table?id=creus-5.3", "table?id=feng-1&variant=cartoon", "table?id=creus-5.1", "claim?id=creus-5.4%2F20-meters-come-as-a-good-trade-off",
+                             "gate?case=flow%2Fpane.new", "nonsense?%", "table?id=none", "claim?id=none"):
+            browser.go("#" + view)
+            wide, heads = browser.ask("document.documentElement.scrollWidth"), browser.find("h1")
+            if wide > width or len(heads) != 1 or not heads[0].text:
+                problems.append(f"{view} at {width}: {wide} wide, {len(heads)} heads")
+        problems += browser.messages()
+    if browser.ask("performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:')).length"):
+        problems.append("something was asked of the network")
+    return problems
+
+
+def check_start(browser, page):
+    """the page can be used within 2 s"""
+    browser.size(1440)
+    times = []
+    for _ in range(3):
+        browser.open(page)
+        times.append(browser.ask("(t => t.loadEventEnd - t.startTime)(performance.getEntriesByType('navigation')[0])"))
+    return [] if min(times) < 2000 else [times]
+
+
+def check_first_screen(browser, page):
+    """the first screen says what this is, what was found, and three totals"""
+    browser.open(page)
+    text = browser.find("main")[0].text
+    totals = [head.text for head in browser.find(".total h2")]
+    numbers = browser.ask("[...document.querySelectorAll('.matrix tbody tr:not(.paper)')].length")
+    wanted = browser.ask("CLAIMS.length")
+    problems = [] if "raingauge runs the rain of published papers" in text and f"Of {wanted} claims" in text else [text[:400]]
+    return problems + ([] if totals == ["Claims", "Devices", "Pictures"] and numbers == wanted and len(browser.find(".three img")) == 3 else [totals, numbers])
+
+
+def check_links(browser, page):
+    """a choice stands in the address, and the address makes the choice again"""
+    browser.open(page, "#table?id=creus-5.3&variant=no_geometry&scale=first&hide=gl")
+    chosen = [Select(browser.find("#choose-" + name)[0]).first_selected_option.get_attribute("value") for name in ("table", "variant", "scale")]
+    problems = [] if chosen == ["creus-5.3", "no_geometry", "first"] and browser.find("#line-gl")[0].get_attribute("aria-pressed") == "false" else [chosen]
+    browser.open(page, "#claims")
+    browser.find("#claims-q")[0].send_keys("trade-off")
+    Select(browser.find("#claims-device")[0]).select_by_value("gl")
+    rows = browser.find(".matrix tbody tr:not(.paper)")
+    if "q=trade-off" not in browser.driver.current_url or "device=gl" not in browser.driver.current_url or len(rows) != 1:
+        problems.append((browser.driver.current_url, len(rows)))
+    browser.driver.refresh()
+    if len(browser.find(".matrix tbody tr:not(.paper)")) != 1:
+        problems.append("the address alone shows something else")
+    rows = browser.find(".matrix tbody a")
+    rows[0].click()
+    time.sleep(0.1)
+    return problems + ([] if "claim?id=creus-5.4" in browser.driver.current_url and "trade-off" in browser.find("h1")[0].text else [browser.driver.current_url])
+
+
+def check_keyboard(browser, page):
+    """what a pointer does keys do: skipping, going to a view, choosing, moving the divider; the focus stays where it was"""
+    browser.open(page, "#gate?gate=1&case=flow%2Fpane.new")
+    problems = []
+    browser.driver.execute_script("document.body.focus(); document.getElementById('skip').focus()")
+    browser.press(Keys.ENTER)
+    if browser.ask("document.activeElement.id") != "main":
+        problems.append("skipping goes elsewhere")
+    slider = browser.find("#wipe")[0]
+    slider.send_keys(Keys.ARROW_RIGHT)
+    if browser.ask("document.querySelector('.over').style.clipPath") != "inset(0px 0px 0px 51%)":
+        problems.append(browser.ask("document.querySelector('.over').style.clipPath"))
+    browser.open(page, "#claims")
+    browser.find("#claims-q")[0].send_keys("lights")
+    if browser.ask("document.activeElement.id") != "claims-q" or browser.find("#claims-q")[0].get_attribute("value") != "lights":
+        problems.append("the focus does not stay where one types")
+    reached = set()
+    browser.driver.execute_script("document.getElementById('skip').focus()")
+    for _ in range(14):
+        browser.press(Keys.TAB)
+        reached.add(browser.ask("document.activeElement.id || document.activeElement.textContent"))
+    return problems + ([] if {"raingauge", "Tables", "claims-q", "claims-verdict"} <= reached else [reached])
+
+
+def check_plots(browser, page):
+    """a plot has a name, and a table with the number of each of its points, which are those of the table on top of it"""
+    problems = []
+    for place in ("#table?id=creus-5.4", "#table?id=stuppacher-1", "#table?id=creus-5.3&scale=first"):
+        browser.open(page, place)
+        points = browser.ask("document.querySelectorAll('.plot svg[role=img] .point').length")
+        rows = browser.ask("document.querySelectorAll('.plot details tbody tr').length")
+        label = browser.find(".plot > svg")[0].get_attribute("aria-label")
+        if not points or points != rows or not label:
+            problems.append((place, points, rows, label))
+    browser.open(page, "#table?id=creus-5.4")
+    first = browser.ask("[...document.querySelectorAll('.beside tbody tr:first-child > *')].map(c => c.firstChild.textContent)")
+    if first[:4] != ["5", "70303", "60", "200"] and first[:4] != ["5", "70,303", "60", "200"]:
+        problems.append(first)
+    files = browser.ask("""(() => { const lines = linesOf(TABLES.find(t => t.id === 'creus-5.4'), [1, 2], 'full', 'paper'), told = {lines, axis: 'x', value: 'y', name: 'n', isLog: true};
+        return [csv(plotRows(told)), pgfplots(told), svgText(document.querySelector('.plot > svg'))]; })()""")
+    if not files[0].startswith("line,x,y,low,high\r\nprint,5,60,,\r\n") or "\\addplot" not in files[1] or "class=" in files[2] or "fill=" not in files[2]:
+        problems.append([file[:300] for file in files])
+    return problems
+
+
+def check_hostile(browser, page):
+    """texts of records stay texts: nothing of them runs, and a reader sees them"""
+    browser.open(page, "#gate")
+    text = browser.find(".cases")[0].text
+    problems = [] if browser.ask("window.hacked") is None and "<script>window.hacked = 1" in text else [text[:500]]
+    browser.open(page, "#devices")
+    return problems + ([] if browser.ask("window.hacked") is None and not browser.messages() else ["a text ran"])
+
+
+def check_gate(browser, page):
+    """of a gate one sees the verdict, the worst case first, an ending of tomorrow, the pixel that differs, and of many cases the worst"""
+    browser.open(page, "#ci")
+    rows = [row.text for row in browser.find(".cases tbody tr")[:5]]
+    problems = [] if "4 cases of 205 fail" in browser.find(".lead")[0].text and len(browser.find(".cases tbody tr")) == 60 else [browser.find(".lead")[0].text]
+    if "vanished" not in rows[0] or "crash" not in rows[1] or "differs" not in rows[2] or "regressed" not in rows[3]:
+        problems.append(rows)
+    browser.open(page, "#gate?case=flow%2Fpane.new")
+    time.sleep(0.5)
+    worst = browser.find(".worst")[0].text
+    if "at x 40, y 20: A has 160, 60, 90, B has 160, 60, 200" not in worst or "1 pixel of 3,072 differs" not in worst:
+        problems.append(worst)
+    return problems
+
+
+def check_looks(browser, page):
+    """dark where the reader prefers it, and a print has all rows and no controls"""
+    browser.open(page)
+    paper = lambda: browser.ask("getComputedStyle(document.documentElement).backgroundColor")
+    browser.prefer("dark")
+    dark = paper()
+    browser.prefer("light")
+    printed = browser.driver.execute_cdp_cmd("Page.printToPDF", {})["data"]
+    return [] if dark != paper() == "rgb(255, 255, 255)" and len(printed) > 50000 else [dark, paper(), len(printed)]
+
+
+def check_open_to_all(browser, page):
+    """axe-core finds nothing in any view, light and dark, wide and narrow"""
+    if "--axe" not in sys.argv:
+        return []
+    axe, problems = pathlib.Path(sys.argv[sys.argv.index("--axe") + 1]).read_text(encoding="utf-8"), []
+    for scheme, width in (("light", 1440), ("dark", 1440), ("light", 390)):
+        browser.size(width)
+        browser.prefer(scheme)
+        for view in VIEWS + ("table?id=creus-5.3", "table?id=stuppacher-1", "claim?id=creus-5.4%2F20-meters-come-as-a-good-trade-off", "gate?case=flow%2Fpane.new"):
+            browser.open(page, "#" + view)
+            browser.driver.execute_script(axe)
+            found = browser.driver.execute_async_script("axe.run().then(r => arguments[0](r.violations.map(v => [v.id, v.nodes[0].html.slice(0, 200)])))")
+            problems += [(scheme, width, view, violation) for violation in found]
+    return problems
+
+
+SHOTS = {"first": "#overview", "table": "#table?id=creus-5.3", "claim": "#claim?id=creus-5.6%2Flights-rapidly-decrease-performance", "gate": "#gate", "case": "#gate?case=flow%2Fpane.new", "ci": "#ci"}
+
+
+def keep_pictures(browser, page, folder):
+    """Pictures of views at each width, to look at."""
+    for width in WIDTHS:
+        for name, place in SHOTS.items():
+            browser.size(width)
+            browser.open(page, place)
+            time.sleep(0.5)
+            browser.size(width, min(browser.ask("document.documentElement.scrollHeight"), 3000))
+            time.sleep(0.3)
+            browser.driver.save_screenshot(str(folder / f"{name}-{width}.png"))
+
+
+def main():
+    if not (CHROMIUM.exists() and DRIVER.exists()):
+        print("1..0 # SKIP chromium or chromium-driver is not installed")
+        return 0
+    raingauge = str(pathlib.Path(sys.argv[1]).resolve())
+    with tempfile.TemporaryDirectory() as folder:
+        page = make_page(raingauge, pathlib.Path(folder))
+        browser = Browser()
+        try:
+            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_gate, check_looks, check_open_to_all], browser, page)
+            if len(sys.argv) > 2 and sys.argv[2] != "--axe":
+                keep_pictures(browser, page, pathlib.Path(sys.argv[2]))
+        finally:
+            browser.driver.quit()
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,63 @@
+"""Records and pictures that the tests of the page make, and how they run `raingauge report`."""
+import json
+import pathlib
+import struct
+import subprocess
+import zlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+TABLES = ROOT / "results" / "tables"
+# What would end an element, begin one, or run, if a text were taken for more than a text.
+HOSTILE = "</script><script>window.hacked = 1</script><img src=x onerror=\"window.hacked = 2\"><!--'\"&amp;\u2028\u202e${1}`"
+
+
+def report(raingauge, folder, *words):
+    return subprocess.run([raingauge, "report", *map(str, words)], cwd=folder, capture_output=True, text=True, check=False)
+
+
+def data_of(page):
+    """What a page holds, as its script reads it."""
+    text = pathlib.Path(page).read_text(encoding="utf-8")
+    begin = '<script type="application/json" id="data">'
+    assert text.count(begin) == 1
+    return json.loads(text.split(begin)[1].split("</script>")[0])
+
+
+def png(width, height, colour):
+    """A picture whose pixels are `colour(x, y)`, three numbers to 255."""
+    rows = b"".join(b"\0" + bytes(code for x in range(width) for code in colour(x, y)) for y in range(height))
+    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(
+        b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+def bounded(value=None, width=0.01):
+    return {"value": value, "low": value and value * (1 - width), "high": value and value * (1 + width)}
+
+
+def case(name, ending="pass", ratio=None, **more):
+    return {"name": name, "technique": "flow", "devices": ["vulkan", "new"], "seconds": 2.5, "ending": ending, "message": "", "details": "",
+            "attachments": [], "ratio": bounded(ratio), "smallest_visible": None, "time_ms": bounded(4.0 if ratio else None), "baseline_ms": None,
+            **more}
+
+
+def gate(*cases, **more):
+    return {"format": 1, "passport_text": "", "endings": {}, "gated": list(cases), **more}
+
+
+def write(path, document):
+    path.write_text(document if isinstance(document, str) else json.dumps(document), encoding="utf-8")
+    return path
+
+
+def run(checks, *args):
+    """Prints TAP: each check is a function that returns its problems, and is named by its docstring."""
+    print("1..%d" % len(checks))
+    failed = False
+    for number, check in enumerate(checks, 1):
+        problems = check(*args)
+        failed = failed or bool(problems)
+        print("%sok %d - %s" % ("not " if problems else "", number, check.__doc__))
+        for problem in problems:
+            print("# " + str(problem).replace("\n", "\n# "))
+    return 1 if failed else 0

@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""What `raingauge report` puts into its page, and what it refuses: pages.py RAINGAUGE. No browser is needed."""
+import base64
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+from xml.etree import ElementTree
+
+sys.dont_write_bytecode = True
+
+import made
+
+JUST = {"format": 1, "devices": [], "checks": []}
+
+
+def page_of(raingauge, folder, *records):
+    result = made.report(raingauge, folder, *records, "-o", "page.html")
+    if result.returncode or result.stderr:
+        raise AssertionError(f"{result.returncode}: {result.stderr}")
+    return made.data_of(folder / "page.html")
+
+
+def check_tables(raingauge, folder):
+    """all tables of the repository are in one page below 5 MB, with print's rows and the verdicts that `table --claims` gives"""
+    data = page_of(raingauge, folder, made.TABLES, made.ROOT / "docs" / "pictures.md")
+    tables = {record["document"]["table"]: record for record in data["records"]}
+    claims = json.loads(subprocess.run([raingauge, "table", "--claims", "--from", made.TABLES, "--json"], capture_output=True, check=True).stdout)
+    problems = []
+    if len(tables) != len(list(made.TABLES.glob("*.json"))) or (folder / "page.html").stat().st_size >= 5e6:
+        problems.append(f"{len(tables)} tables, {(folder / 'page.html').stat().st_size} bytes")
+    if data["claims"] != claims:
+        problems.append("the claims are not those of table --claims")
+    printed = tables["creus-5.4"]["printed"]
+    if printed["columns"][0] != "culling_radius_m" or printed["rows"][0]["values"][:2] != [5, 70303] or printed["paper"] != "creus":
+        problems.append(printed)
+    if any("samples_ms" in cell.get("measured", {}) for record in tables.values() for cell in record["document"]["cells"]):
+        problems.append("samples are in the page, which shows medians and intervals alone")
+    if len(data["gallery"]) != 3 or any(shown["file"] not in data["files"] or not shown["caption"].endswith(".") for shown in data["gallery"]):
+        problems.append(data["gallery"])
+    return problems
+
+
+def check_policy(raingauge, folder):
+    """a page runs one script and has one style, by their digests, and loads nothing"""
+    made.write(folder / "a.json", JUST)
+    page_of(raingauge, folder, "a.json")
+    text = (folder / "page.html").read_text(encoding="utf-8")
+    policy = re.search(r'Content-Security-Policy" content="([^"]*)"', text)[1]
+    digest = lambda part: "'sha256-%s'" % base64.b64encode(hashlib.sha256(part.encode()).digest()).decode()
+    script, style = text.split("<script>")[1].split("</script>")[0], text.split("<style>")[1].split("</style>")[0]
+    wanted = f"default-src 'none'; script-src {digest(script)}; style-src {digest(style)}; img-src data:; base-uri 'none'; form-action 'none'"
+    around = text.replace(script, "").replace(style, "")
+    problems = [] if policy == wanted else [policy, wanted]
+    return problems + re.findall(r'(?:src|href)="(?!#|data:)[^"]*"|\son\w+="[^"]*"|\sstyle="[^"]*"', around)
+
+
+def check_hostile(raingauge, folder):
+    """a text that would end the page's script, or begin one, stays a text"""
+    made.write(folder / "a.json", made.gate(made.case(made.HOSTILE, "differs", message=made.HOSTILE, details=made.HOSTILE, technique=made.HOSTILE,
+                                                      devices=[made.HOSTILE], attachments=[made.HOSTILE]), passport_text=made.HOSTILE))
+    data = page_of(raingauge, folder, "a.json")
+    text = (folder / "page.html").read_text(encoding="utf-8")
+    problems = [] if data["records"][0]["document"]["gated"][0]["message"] == made.HOSTILE else [data["records"]]
+    if text.count("<script") != 2 or text.count("<!--") or text.count("<img"):
+        problems.append("the text is more than a text")
+    return problems
+
+
+def check_kinds(raingauge, folder):
+    """each kind of record is told apart, and fields that are not known are kept"""
+    records = {"gate": made.gate(), "verify": JUST, "diff": {"format": 1, "devices": [], "pairs": [], "failures": []},
+               "doctor": {"format": 1, "passport": {}, "devices": [], "missing": [], "warnings": []},
+               "baseline": {"format": 1, "devices": [], "baseline": []}, "claims": {"format": 1, "tables": [], "claims": [], "launches": 7},
+               "render": {"format": 1, "file": "none.png"}, "bisect": {"format": 1, "candidates": 3}}
+    for kind, document in records.items():
+        made.write(folder / (kind + ".json"), document)
+    data = page_of(raingauge, folder, ".")
+    found = {record["kind"]: record["document"] for record in data["records"]}
+    return [] if found == records else [found]
+
+
+def check_older(raingauge, folder):
+    """a record from before there were checksums is read, and one with newer fields too"""
+    record = json.loads((made.TABLES / "stuppacher-2.json").read_text(encoding="utf-8"))
+    for cell in record["cells"]:
+        del cell["checksum"]
+        cell["launches"] = [{"ms": 1}]
+    record["of_tomorrow"] = {"a": 1}
+    made.write(folder / "a.json", record)
+    data = page_of(raingauge, folder, "a.json")
+    return [] if data["records"][0]["document"]["table"] == "stuppacher-2" and data["claims"]["claims"] else [data]
+
+
+# What is refused: the files, the arguments, and what the one line matches.
+TABLE = (made.TABLES / "raster-1.json").read_text(encoding="utf-8")
+REFUSED = [
+    ({}, [], r"report: names no records; name files or folders, such as results/tables"),
+    ({}, ["none.json"], r"none\.json: cannot be read: No such file or directory; name what a command wrote"),
+    ({}, ["."], r"\.: holds no \.json and no figures\.md"),
+    ({"a.json": ""}, ["a.json"], r"a\.json: line 1 is no JSON: .*; name what a command wrote"),
+    ({"a.json": '{"format": 1, "checks": ['}, ["a.json"], r"a\.json: line 1 is no JSON"),
+    ({"a.json": '{"format": 1, "checks": [NaN]}'}, ["a.json"], r"a\.json: line 1 is no JSON"),
+    ({"a.json": "[" * 100000}, ["a.json"], r"a\.json: line 1 is no JSON: maximum parsing depth"),
+    ({"a.json": "[]"}, ["a.json"], r"a\.json: is no record of raingauge"),
+    ({"a.json": '{"format": "1", "checks": []}'}, ["a.json"], r"a\.json: is no record of raingauge"),
+    ({"a.json": '{"format": 1}'}, ["a.json"], r"a\.json: is no record of raingauge"),
+    ({"a.json": '{"format": 2, "checks": []}'}, ["a.json"], r"a\.json: is of format 2, and this raingauge knows format 1; use the raingauge that wrote"),
+    ({"a.json": TABLE.replace('"format":1', '"format":2').replace('"format": 1', '"format": 2')}, ["a.json"], r"a\.json: .*format"),
+    ({"a.json": TABLE, "b.json": TABLE}, ["a.json", "b.json"], r"b\.json: holds table 'raster-1', which a\.json holds too; name one of them"),
+    ({"a.json": re.sub(r'"samples_ms": ?\[[0-9.]+', '"samples_ms":[1', TABLE, count=1)}, ["a.json"], r"a\.json: .*checksum"),
+    ({"a.json": json.dumps(JUST)}, ["a.json", "-o", "none/none/page.html"], r"none/none/: cannot be made: No such file or directory"),
+]
+
+
+def check_refused(raingauge, folder):
+    """what is no record, is damaged or of a newer format ends with 2 and one line, and leaves no page"""
+    problems = []
+    for files, words, line in REFUSED:
+        for name in list(folder.iterdir()):
+            name.unlink()
+        for name, text in files.items():
+            made.write(folder / name, text)
+        result = made.report(raingauge, folder, *words)
+        if result.returncode != 2 or result.stderr.count("\n") != 1 or not re.search(line, result.stderr) or list(folder.glob("*.html")):
+            problems.append(f"{words}: {result.returncode}, {result.stderr}")
+    return problems
+
+
+def check_pictures(raingauge, folder):
+    """pictures stand in the page once, and come from the record's folder, the current one and below alone; other files do not"""
+    inside, outside = folder / "in", folder / "out"
+    (inside / "pictures").mkdir(parents=True)
+    outside.mkdir()
+    red, blue = made.png(2, 2, lambda x, y: (255, 0, 0)), made.png(2, 2, lambda x, y: (0, 0, 255))
+    (inside / "pictures" / "a.png").write_bytes(red)
+    (inside / "pictures" / "again.png").write_bytes(red)
+    (outside / "secret.png").write_bytes(blue)
+    (inside / "text.png").write_text("no picture", encoding="utf-8")
+    os.symlink(outside / "secret.png", inside / "link.png")
+    os.mkfifo(inside / "pipe.png")
+    names = ["pictures/a.png", "pictures/again.png", "text.png", "link.png", "pipe.png", "../out/secret.png", str(outside / "secret.png"), "none.png"]
+    made.write(inside / "gate.json", made.gate(made.case("a", "differs", attachments=names)))
+    made.write(inside / "figures.md", "# Figures\n\n![a](pictures/a.png)\n\n**a.** Red, `all` of\nit.\n\n    raingauge render\n\n![b](../out/secret.png)\n\nNone.\n")
+    data = page_of(raingauge, inside, ".")
+    problems = [] if sorted(data["files"]) == ["pictures/a.png", "pictures/again.png"] and len(data["pictures"]) == 1 else [data["files"]]
+    if base64.b64decode(list(data["pictures"].values())[0].split(",")[1]) != red:
+        problems.append("the picture is another")
+    if data["gallery"] != [{"file": "pictures/a.png", "caption": "a. Red, all of it."}, {"file": "../out/secret.png", "caption": "b"}]:
+        problems.append(data["gallery"])
+    return problems
+
+
+def brief(raingauge, folder, form, *records):
+    result = made.report(raingauge, folder, *records, "--format", form)
+    assert not result.returncode and not result.stderr, result.stderr
+    return result.stdout
+
+
+def check_markdown(raingauge, folder):
+    """Markdown has what was found, the three worst first, is below 60 kB, and takes no text for a mark; of gates it tells the last"""
+    endings = ["pass"] * 400 + ["regressed"] * 400 + ["differs", "crash", "inconclusive"]
+    cases = [made.case(f"{ending} {i}", ending, message="a" * 200) for i, ending in enumerate(endings)]
+    made.write(folder / "a.json", made.gate(made.case("of an earlier run", "crash")))
+    made.write(folder / "b.json", made.gate(*cases, made.case("| @user `x` <b>", "timeout", message=made.HOSTILE)))
+    text = brief(raingauge, folder, "md", "a.json", "b.json")
+    rows = [line for line in text.split("\n") if line.startswith("| ") and "---" not in line and "| found" not in line]
+    problems = [] if rows[0].startswith("| crash | crash 801 |") and rows[1].startswith("| timeout |") and rows[2].startswith("| differs |") else rows[:3]
+    if "Of 804 cases of the gate, 403 fail." not in text or "earlier" in text or "data:" in text or "lines had no room here" not in text:
+        problems.append(text[:500])
+    if len(text.encode()) > 60000 or re.search(r"(?<!\\)<(?!/?details|/?summary)|@", text) or len(re.findall(r"(?<!\\)\|", rows[1])) != 4:
+        problems.append((len(text), rows[1]))
+    text = brief(raingauge, folder, "md", made.TABLES)
+    return problems + ([] if re.search(r"^Of \d+ claims that papers make, \d+ hold here", text, re.M) and "camera 2" in text else [text[:500]])
+
+
+def check_badge(raingauge, folder):
+    """a badge is an SVG that says how many claims of a paper hold, or how many cases fail"""
+    made.write(folder / "a.json", made.gate(made.case("a", "crash"), made.case("b")))
+    made.write(folder / "b.json", {"format": 1, "devices": [], "checks": []})
+    titles = [ElementTree.fromstring(brief(raingauge, folder, "badge", record)).findtext("{http://www.w3.org/2000/svg}title")
+              for record in ("a.json", "b.json", made.TABLES / "creus-5.6.json", made.TABLES)]
+    wanted = [r"raingauge: 1 of 2 fail", r"raingauge: nothing measured", r"creus: \d of 3 claims hold", r"raingauge: \d+ of \d+ claims hold"]
+    return [] if all(map(re.fullmatch, wanted, titles)) else [titles]
+
+
+def main():
+    raingauge = str(pathlib.Path(sys.argv[1]).resolve())
+
+    def in_folder(check):
+        def checked():
+            with tempfile.TemporaryDirectory() as folder:
+                try:
+                    return check(raingauge, pathlib.Path(folder))
+                except AssertionError as error:
+                    return [error]
+        checked.__doc__ = check.__doc__
+        return checked
+    return made.run([in_folder(check) for check in (check_tables, check_policy, check_hostile, check_kinds, check_older, check_refused, check_pictures, check_markdown, check_badge)])
+
+
+if __name__ == "__main__":
+    sys.exit(main())
