@@ -86,11 +86,13 @@ static bool is_first(const struct rg_page *page, const char *path, const char *t
 
 static bool add_tables(struct rg_page *page, const char *path)
 {
+    static const struct rg_claims_shown all = {0};
     struct rg_stored stored = {0};
     bool ok = rg_stored_read(&stored, path);
     for (int i = 0; ok && i < stored.count; i++) {
         const char *table = stored.results[i].table;
-        ok = is_first(page, path, table) && rg_claims_add(&page->outcomes, &stored.results[i]);
+        ok = is_first(page, path, table) &&
+             rg_claims_add(&page->outcomes, &stored.results[i], NULL, &all);
         json_t *document = ok ? rg_result_json(&stored.results[i]) : NULL;
         trim(document);
         ok = ok && append(page, "table", path, document, rg_page_printed(table));

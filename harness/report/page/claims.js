@@ -2,11 +2,14 @@
 // Claims: what papers say of their tables, and whether it holds on each device.
 
 const VERDICTS = {
-  "reproduced": {mark: "✓", word: "holds", cls: "yes", about: "what was measured bears it out, with 95 % confidence"},
-  "not reproduced": {mark: "✗", word: "does not hold", cls: "no", about: "what was measured refutes it, with 95 % confidence"},
+  "reproduced": {mark: "✓", word: "holds", cls: "yes", about: "launches bear it out, at an error of 1 %"},
+  "not reproduced": {mark: "✗", word: "does not hold", cls: "no", about: "launches refute it, at an error of 1 %"},
   "at the bound": {mark: "≈", word: "at the bound", cls: "bound", about: "what was measured lies where the claim's bound is, so that no more of it would decide"},
-  "undecided": {mark: "?", word: "open", cls: "open", about: "what was measured does not settle it"},
-  "not seen": {mark: "○", word: "not seen", cls: "other", about: "the picture does not show what the claim is about"},
+  "undecided": {mark: "?", word: "open", cls: "open", about: "launches have not settled it yet"},
+  "one launch: fits": {mark: "(✓)", word: "one launch fits", cls: "open", about: "figures of one launch fit the claim, which is no verdict"},
+  "one launch: misses": {mark: "(✗)", word: "one launch misses", cls: "open", about: "figures of one launch do not fit the claim, which is no verdict"},
+  "one launch: near the bound": {mark: "(≈)", word: "one launch, near the bound", cls: "open", about: "figures of one launch lie near the bound, which is no verdict"},
+  "not seen": {mark: "○", word: "not seen", cls: "other", about: "rows that the claim needs were not measured"},
   "other work": {mark: "≠", word: "other work", cls: "other", about: "what was measured is not the work that was printed"},
 };
 const verdictOf = text => VERDICTS[text] || {mark: "•", word: String(text), cls: "other", about: "a verdict that this page does not know"};
