@@ -46,7 +46,9 @@ RG_STRUCT(streaks_billboard)
     uint look;     // STREAKS_LOOK_*
     uint rows;     // of a drop's two views: their first rows in the atlas, 12 bits each
 };
-#define RG_RECORD streaks_billboard
+#define RG_RECORD      streaks_billboard
+#define RG_GROUP_ITEMS STREAKS_BLOCK
+#define RG_GROUP       streaks_block
 
 // Of a drop, which of its streak textures a light shows, and each one's part in what is seen: one
 // in either view, for the nearest column, or for its neighbours too.

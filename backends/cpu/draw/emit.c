@@ -172,18 +172,19 @@ static void put_part(struct cpu_items *items, int place, const rg_snapped *part)
 }
 
 // Processes a batch with items to be clipped.
-static bool take_clipped(const struct cpu_emitter *e, struct cpu_chunk *chunk, int begin, int count)
+static bool take_clipped(const struct cpu_emitter *e, struct cpu_chunk *chunk)
 {
     struct cpu_items *items = &e->sorter->items;
     struct cpu_shapes *shapes = &e->sorter->shapes;
     int place = CPU_BATCH;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < items->count; i++) {
+        const int item = items->item[i];
         if (items->fate[i] == RG_FATE_WHOLE)
-            add_shape(shapes, i, begin + i);
+            add_shape(shapes, i, item);
         if (items->fate[i] != RG_FATE_CLIP)
             continue;
         rg_snapped parts[CPU_MOST_PARTS];
-        const int part_count = e->program->clip(e->call, begin + i, parts);
+        const int part_count = e->program->clip(e->call, item, parts);
         if (place + part_count > CPU_PLACES) {
             if (!take_shapes(e, chunk))
                 return false;
@@ -191,29 +192,31 @@ static bool take_clipped(const struct cpu_emitter *e, struct cpu_chunk *chunk, i
         }
         for (int k = 0; k < part_count; k++) {
             put_part(items, place, &parts[k]);
-            add_shape(shapes, place++, begin + i);
+            add_shape(shapes, place++, item);
         }
     }
     return take_shapes(e, chunk);
 }
 
-static bool take_batch(const struct cpu_emitter *e, struct cpu_chunk *chunk, int begin, int count)
+// Takes a batch of the items before `end`; false, with none taken, where room or memory is lacking.
+static bool take_batch(const struct cpu_emitter *e, struct cpu_chunk *chunk, int end)
 {
     struct cpu_items *items = &e->sorter->items;
     struct cpu_shapes *shapes = &e->sorter->shapes;
     shapes->count = 0;
-    e->program->items(e->call, begin, count, items);
+    const int next = e->program->items(e->call, chunk->end, end, items);
     int whole = 0, clipped = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < items->count; i++) {
         shapes->place[whole] = i;
-        shapes->item[whole] = begin + i;
+        shapes->item[whole] = items->item[i];
         whole += items->fate[i] != RG_FATE_DEAD ? 1 : 0;
         clipped |= items->fate[i] & RG_FATE_CLIP;
     }
-    if (clipped)
-        return take_clipped(e, chunk, begin, count);
-    shapes->count = whole;
-    return take_shapes(e, chunk);
+    shapes->count = clipped != 0 ? 0 : whole;
+    if (clipped != 0 ? !take_clipped(e, chunk) : !take_shapes(e, chunk))
+        return false;
+    chunk->end = next;
+    return true;
 }
 
 void cpu_emit(const struct cpu_emitter *e, int index, int end)
@@ -227,13 +230,11 @@ void cpu_emit(const struct cpu_emitter *e, int index, int end)
     chunk->pixels = 0;
     while (chunk->end < end && sorter->count < MOST_REFS &&
            !__atomic_load_n(&bins->full, __ATOMIC_RELAXED)) {
-        const int count = rg_imin(end - chunk->end, CPU_BATCH);
         const int before = sorter->count;
-        if (!take_batch(e, chunk, chunk->end, count)) {
+        if (!take_batch(e, chunk, end)) {
             cpu_sorter_drop(sorter, before);
             break;
         }
-        chunk->end += count;
     }
     if (!cpu_sorter_sort(sorter, bins, index))
         chunk->end = chunk->begin;

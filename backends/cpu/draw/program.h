@@ -22,8 +22,10 @@ static inline int cpu_padded(int count)
     return (count + CPU_LANES - 1) & -CPU_LANES;
 }
 
-// Corners of a batch's items, and after them those of clipped parts.
+// A batch: items, their corners, and after these those of clipped parts.
 struct cpu_items {
+    int count;
+    int item[CPU_BATCH];
     int fate[CPU_BATCH];
     int x[4][CPU_PLACES], y[4][CPU_PLACES];
 };
@@ -56,8 +58,9 @@ struct cpu_program {
     size_t record_size; // of an item, in bytes
     size_t light_size;  // of the record of an item and a light; 0: none
 
-    // Computes fate and corners of items from `begin` on.
-    void (*items)(const struct cpu_call *call, int begin, int count, struct cpu_items *items);
+    // Computes fate and corners of a batch of the items from `begin` on, without those that say
+    // that they are unseen. Returns the first item behind the batch, at most `end`.
+    int (*items)(const struct cpu_call *call, int begin, int end, struct cpu_items *items);
     // Clips an item into parts; returns their number.
     int (*clip)(const struct cpu_call *call, int item, rg_snapped parts[CPU_MOST_PARTS]);
     // Computes the records of items, from primitive `first` on.

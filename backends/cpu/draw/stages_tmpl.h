@@ -6,14 +6,54 @@
 #include "backends/cpu/draw/program.h"
 #include "backends/cpu/kernels/bind_tmpl.h"
 
-static void make_items(const struct cpu_call *call, int begin, int count, struct cpu_items *items)
+#if defined(RG_GROUP_ITEMS)
+
+// Lists items that may be seen; returns the first behind those that were asked. Groups begin at
+// multiples of RG_GROUP_ITEMS, and each is asked as a whole. What is beyond the items repeats the
+// nearest one, and is not listed.
+static int list_items(const struct cpu_call *call, int begin, int end, struct cpu_items *items)
+{
+    const rg_ctx rg = bind_context(call);
+    const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
+    int from = begin;
+    items->count = 0;
+    while (from < end && items->count <= CPU_BATCH - RG_GROUP_ITEMS) {
+        const int first = from & -RG_GROUP_ITEMS, last = rg_imin(first + RG_GROUP_ITEMS, end) - 1;
+        const RG_GROUP group = rg_program_group(rg, p, first / RG_GROUP_ITEMS);
+        int unseen[RG_GROUP_ITEMS];
+#pragma omp simd
+        for (int i = 0; i < RG_GROUP_ITEMS; i++)
+            unseen[i] = rg_program_unseen(rg, p, group, rg_iclamp(first + i, begin, last));
+        for (; from <= last; from++) {
+            items->item[items->count] = from;
+            items->count += unseen[from - first] == 0 ? 1 : 0;
+        }
+    }
+    return from;
+}
+
+#else
+
+static int list_items(const struct cpu_call *call RG_UNUSED, int begin, int end,
+                      struct cpu_items *items)
+{
+    items->count = rg_imin(end - begin, CPU_BATCH);
+    for (int i = 0; i < items->count; i++)
+        items->item[i] = begin + i;
+    return begin + items->count;
+}
+
+#endif
+
+static int make_items(const struct cpu_call *call, int begin, int end, struct cpu_items *items)
 {
     const rg_ctx rg = bind_context(call);
     const rg_draw_call p = *(const rg_draw_call *)call->params;
-    const int last = count - 1, padded = cpu_padded(count);
+    const int next = list_items(call, begin, end, items);
+    const int last = items->count - 1, padded = cpu_padded(items->count);
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
-        const int item = begin + rg_imin(i, last);
+        const int item = items->item[rg_imin(i, last)];
         const rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, item), RG_CORNERS);
         const rg_projected s = rg_project(p.draw, t);
         items->fate[i] = s.fate;
@@ -26,6 +66,7 @@ static void make_items(const struct cpu_call *call, int begin, int count, struct
         items->x[3][i] = s.corners.x3;
         items->y[3][i] = s.corners.y3;
     }
+    return next;
 }
 
 static int clip_item(const struct cpu_call *call, int item, rg_snapped parts[CPU_MOST_PARTS])

@@ -1,6 +1,7 @@
 // streaks: particles, with 4 streak textures a light.
 #define STREAKS_TAPS 4
 #include "kernels/streaks/rain.h"
+#include "kernels/streaks/taps/unseen.h"
 
 RG_DRAW_ITEM(streaks_rain_4)
 {
@@ -8,6 +9,16 @@ RG_DRAW_ITEM(streaks_rain_4)
     rg_item item = streaks_item_of(p, streaks_shape_of(rg, p, t));
     item.alive = t.state != STREAKS_NOTHING ? 1 : 0;
     return item;
+}
+
+RG_DRAW_GROUP(streaks_rain_4)
+{
+    return streaks_block_at(rg, p, number);
+}
+
+RG_DRAW_UNSEEN(streaks_rain_4)
+{
+    return streaks_unseen(rg, p, streaks_particle_of(rg, p, group, i & (STREAKS_BLOCK - 1)));
 }
 
 RG_DRAW_RECORD(streaks_rain_4)
