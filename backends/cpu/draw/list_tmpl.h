@@ -6,7 +6,10 @@
 #include "backends/cpu/draw/bins.h"
 #include "backends/cpu/draw/blend_tmpl.h"
 
-enum { LISTED_PX = 128 }; // side of the square of pixels that a list distinguishes
+enum {
+    LISTED_PX = 128,   // side of the square of pixels that a list distinguishes
+    FETCHED_PX = 16384 // after so many listed pixels a tile's texels are taken to be in cache
+};
 
 // State of shading a tile.
 struct shader {
@@ -20,6 +23,7 @@ struct shader {
     struct cpu_list list;
     struct cpu_fragments fragments;
     struct pixels pixels;
+    int drawn;           // listed pixels so far
     bool drops_hidden;   // drops hidden fragments before lighting them
     int recorded_lights; // lights with records
     // The last list that each pixel was in, by the low bits of x and y; pixels that share an entry
@@ -68,6 +72,15 @@ static void gather_texels(struct shader *s, const size_t *texel, int count)
         gather(s->pixels.texels, s->target.colour, texel, count, 4);
     if (s->draw.depth_mode != RG_DEPTH_IS_OFF)
         gather(s->pixels.depth, s->target.depth, texel, count, 1);
+}
+
+// Prefetches what gather_texels will read: it comes while the fragments are computed.
+static void fetch_texels(const struct shader *s, const size_t *texel, int count)
+{
+    for (int i = 0; i < count; i++) {
+        __builtin_prefetch(s->target.colour + texel[i] * (size_t)s->texel_words, 1);
+        __builtin_prefetch(s->target.depth + texel[i], 1);
+    }
 }
 
 static void scatter_texels(struct shader *s, const size_t *texel, int count)
@@ -122,10 +135,13 @@ static void draw_list(struct shader *s)
     struct cpu_list *list = &s->list;
     const int count = list->count;
     size_t texel[CPU_FRAGMENTS];
-    pad_list(list);
-    s->program->list(s->call, s->bins->records, list, &s->fragments);
     for (int i = 0; i < count; i++)
         texel[i] = texel_of(s, list->at[i]);
+    if (s->drawn < FETCHED_PX)
+        fetch_texels(s, texel, count);
+    s->drawn += count;
+    pad_list(list);
+    s->program->list(s->call, s->bins->records, list, &s->fragments);
     gather_texels(s, texel, count);
     meet(s);
     scatter_texels(s, texel, count);

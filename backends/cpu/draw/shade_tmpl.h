@@ -126,7 +126,7 @@ static void begin_tile(struct shader *s, int tile)
     s->y0 = tile / tiling->across * side;
     s->x1 = s->x0 + side;
     s->y1 = s->y0 + side;
-    s->list.count = 0;
+    s->list.count = s->drawn = 0;
     // Vectors reach beyond the last pixel, where they must find initialised memory.
     memset(&s->pixels, 0, sizeof(s->pixels));
     begin_listing(s);
