@@ -112,15 +112,17 @@ static rg_snapped corners_at(const struct cpu_items *items, int place)
     };
 }
 
-static bool bin_shape(const struct cpu_emitter *e, struct cpu_chunk *chunk, int shape, int prim)
+static bool bin_shape(const struct cpu_emitter *e, struct cpu_chunk *chunk, int shape, int prim,
+                      bool plain)
 {
     const struct cpu_shapes *shapes = &e->sorter->shapes;
+    const int named = prim | (plain ? CPU_PLAIN : 0);
     if (shapes->cover[shape] == CPU_COVERS_MASK) {
         chunk->pixels += 8;
-        return bin_masks(e, shape, prim);
+        return bin_masks(e, shape, named);
     }
     e->bins->corners[prim] = corners_at(&e->sorter->items, shapes->place[shape]);
-    return bin_corners(e, &e->bins->corners[prim], prim, &chunk->pixels);
+    return bin_corners(e, &e->bins->corners[prim], named, &chunk->pixels);
 }
 
 // Makes primitives of the shapes that cover pixels.
@@ -129,6 +131,7 @@ static bool take_shapes(const struct cpu_emitter *e, struct cpu_chunk *chunk)
     struct cpu_shapes *shapes = &e->sorter->shapes;
     struct cpu_bins *bins = e->bins;
     int which[CPU_PLACES], item[CPU_PLACES], count = 0;
+    uint8_t plain[CPU_PLACES];
     if (!shapes->count)
         return true;
     e->raster->cover(e->draw, &e->sorter->items, shapes);
@@ -141,10 +144,10 @@ static bool take_shapes(const struct cpu_emitter *e, struct cpu_chunk *chunk)
     const int first = count ? cpu_bins_prims(bins, count) : 0;
     if (first < 0)
         return false;
-    e->program->records(e->call, item, count, bins->records, first);
+    e->program->records(e->call, item, count, bins->records, first, plain);
     memcpy(bins->items + first, item, (size_t)count * sizeof(*item));
     for (int i = 0; i < count; i++) {
-        if (!bin_shape(e, chunk, which[i], first + i)) {
+        if (!bin_shape(e, chunk, which[i], first + i, plain[i])) {
             __atomic_store_n(&bins->failed, true, __ATOMIC_RELAXED);
             return false;
         }

@@ -13,7 +13,7 @@ RG_DRAW_ITEM(streaks_rain_2)
 
 RG_DRAW_GROUP(streaks_rain_2)
 {
-    return streaks_block_at(rg, p, number);
+    return streaks_block_ahead(rg, p, number);
 }
 
 RG_DRAW_UNSEEN(streaks_rain_2)
@@ -24,6 +24,11 @@ RG_DRAW_UNSEEN(streaks_rain_2)
 RG_DRAW_RECORD(streaks_rain_2)
 {
     return streaks_billboard_of(rg, draw, p, i);
+}
+
+RG_DRAW_PLAIN(streaks_rain_2)
+{
+    return 1 - streaks_is(r, STREAKS_LOOK_SPLASH);
 }
 
 RG_DRAW_RECORD_LIGHT(streaks_rain_2)

@@ -6,6 +6,16 @@
 
 #include "kernels/streaks/material.h"
 
+// What the particles of a block share; their words are fetched, a cache line at a time.
+RG_FN streaks_block streaks_block_ahead(rg_ctx rg, streaks_params p, int i)
+{
+    streaks_block b = streaks_block_at(rg, p, i);
+    for (int word = 0; word < 3 * STREAKS_BLOCK; word += 16) {
+        RG_FETCH(rg, particles, 3 * rg_to_int(b.first) + word)
+    }
+    return b;
+}
+
 RG_FN float streaks_most(float x, float y, float z, float w)
 {
     return rg_max(rg_max(rg_abs(x), rg_abs(y)), rg_max(rg_abs(z), rg_abs(w)));
