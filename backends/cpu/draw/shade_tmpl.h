@@ -8,6 +8,7 @@
 
 enum {
     WIDE_SPAN = 24,   // pixels that are worth a vectorised row of their own
+    REFS_AHEAD = 12,  // for which corners are fetched
     WORTH_LIGHTS = 2, // from this number of lights on, hidden fragments are dropped first
 };
 
@@ -135,6 +136,8 @@ static void begin_tile(struct shader *s, int tile)
 static void draw_refs(struct shader *s, const struct cpu_ref *ref, const struct cpu_ref *end)
 {
     for (; ref < end; ref++) {
+        if (end - ref > REFS_AHEAD && ref[REFS_AHEAD].place < 0)
+            __builtin_prefetch(s->bins->corners + (ref[REFS_AHEAD].prim & (CPU_PLAIN - 1)));
         if (ref->place < 0)
             draw_corners(s, ref->prim);
         else
