@@ -34,6 +34,8 @@ static int list_items(const struct cpu_call *call, int begin, int end, struct cp
     return from;
 }
 
+#define LISTED_ITEM(items, begin, i) (items)->item[i]
+
 #else
 
 static int list_items(const struct cpu_call *call RG_UNUSED, int begin, int end,
@@ -45,6 +47,8 @@ static int list_items(const struct cpu_call *call RG_UNUSED, int begin, int end,
     return begin + items->count;
 }
 
+#define LISTED_ITEM(items, begin, i) ((begin) + (i))
+
 #endif
 
 static int make_items(const struct cpu_call *call, int begin, int end, struct cpu_items *items)
@@ -55,7 +59,7 @@ static int make_items(const struct cpu_call *call, int begin, int end, struct cp
     const int last = items->count - 1, padded = cpu_padded(items->count);
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
-        const int item = items->item[rg_imin(i, last)];
+        const int item = LISTED_ITEM(items, begin, rg_imin(i, last));
         const rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, item), RG_CORNERS);
         const rg_projected s = rg_project(p.draw, t);
         items->fate[i] = s.fate;
