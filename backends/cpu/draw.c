@@ -131,19 +131,21 @@ static int64_t count_clipped(const struct cpu_program *program, const struct cpu
     return fragments;
 }
 
-static void count_batch(const struct cpu_program *program, const struct cpu_call *call, int begin,
-                        int count, struct rg_counts *counts)
+// Returns the first item behind the batch.
+static int count_batch(const struct cpu_program *program, const struct cpu_call *call, int begin,
+                       struct rg_counts *counts)
 {
     const rg_draw_state *draw = call->params;
     struct cpu_items items;
-    program->items(call, begin, count, &items);
-    for (int i = 0; i < count; i++) {
+    const int next = program->items(call, begin, draw->item_end, &items);
+    for (int i = 0; i < items.count; i++) {
         counts->records += items.fate[i] != RG_FATE_DEAD;
         if (items.fate[i] == RG_FATE_WHOLE)
             counts->fragments += rg_covered_pixels(*draw, corners_of(&items, i), program->corners);
         else if (items.fate[i] == RG_FATE_CLIP)
-            counts->fragments += count_clipped(program, call, begin + i);
+            counts->fragments += count_clipped(program, call, items.item[i]);
     }
+    return next;
 }
 
 void cpu_count(const struct cpu_program *program, const struct cpu_call *call,
@@ -151,6 +153,6 @@ void cpu_count(const struct cpu_program *program, const struct cpu_call *call,
 {
     const rg_draw_state *draw = call->params;
     counts->records = counts->fragments = 0;
-    for (int i = draw->item_begin; i < draw->item_end; i += CPU_BATCH)
-        count_batch(program, call, i, rg_imin(draw->item_end - i, CPU_BATCH), counts);
+    for (int i = draw->item_begin; i < draw->item_end;)
+        i = count_batch(program, call, i, counts);
 }

@@ -52,20 +52,40 @@ RG_FN streaks_particle streaks_state(streaks_params p, streaks_particle particle
     return t;
 }
 
-RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
+// What the particles of a block share.
+RG_STRUCT(streaks_block)
 {
-    int block = p.sizes * STREAKS_SIZE_WORDS + (i >> 5) * STREAKS_BLOCK_WORDS;
-    int in_block = i & 31;
-    uint number = blocks_at(rg, block) + rg_to_uint(in_block);
+    uint first;   // particle
+    uint counted; // a bit for each
+    float shift_x;
+    float shift_y;
+    float turn;
+};
+
+RG_FN streaks_block streaks_block_at(rg_ctx rg, streaks_params p, int i)
+{
+    int word = p.sizes * STREAKS_SIZE_WORDS + i * STREAKS_BLOCK_WORDS;
+    streaks_block b;
+    b.first = blocks_at(rg, word);
+    b.counted = blocks_at(rg, word + 1);
+    b.shift_x = rg_bits_float(blocks_at(rg, word + 2));
+    b.shift_y = rg_bits_float(blocks_at(rg, word + 3));
+    b.turn = rg_bits_float(blocks_at(rg, word + 4));
+    return b;
+}
+
+RG_FN streaks_particle streaks_particle_of(rg_ctx rg, streaks_params p, streaks_block b,
+                                           int in_block)
+{
+    uint number = b.first + rg_to_uint(in_block);
     int size = streaks_size_class(number, p.sizes) * STREAKS_SIZE_WORDS;
     int at = 3 * rg_to_int(number);
     float both = particles_at(rg, at + 2);
     float oscillation = rg_floor(both);
-    float fallen = (both - oscillation) + rg_bits_float(blocks_at(rg, block + 4)) +
-                   rg_bits_float(blocks_at(rg, size + 4));
+    float fallen = (both - oscillation) + b.turn + rg_bits_float(blocks_at(rg, size + 4));
     streaks_particle t;
-    t.x = (particles_at(rg, at) + rg_bits_float(blocks_at(rg, block + 2))) * p.half_x;
-    t.y = (particles_at(rg, at + 1) + rg_bits_float(blocks_at(rg, block + 3))) * p.half_y;
+    t.x = (particles_at(rg, at) + b.shift_x) * p.half_x;
+    t.y = (particles_at(rg, at + 1) + b.shift_y) * p.half_y;
     t.s = p.top + p.local_height * (fallen - rg_floor(fallen));
     t.oscillation = rg_to_int(oscillation);
     t.number = number;
@@ -78,11 +98,16 @@ RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
     t.hit = streaks_hit(rg, p, under);
     t.age = 0.0f;
     t = streaks_state(p, t);
-    int counted = rg_to_int((blocks_at(rg, block + 1) >> rg_to_uint(in_block)) & 1u);
+    int counted = rg_to_int((b.counted >> rg_to_uint(in_block)) & 1u);
     float away = rg_max(rg_abs(t.x - p.eye_x), rg_abs(t.y - p.eye_y));
     t.state = t.state * counted * (1 - p.exact * streaks_below(p.radius, away)) *
               (1 - p.around * under.outside);
     return t;
+}
+
+RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
+{
+    return streaks_particle_of(rg, p, streaks_block_at(rg, p, i >> 5), i & 31);
 }
 
 // The part behind the last whole number.

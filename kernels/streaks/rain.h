@@ -47,6 +47,10 @@ RG_STRUCT(streaks_billboard)
     uint rows;     // of a drop's two views: their first rows in the atlas, 12 bits each
 };
 #define RG_RECORD streaks_billboard
+#define RG_PLAIN
+#define RG_COLUMNS
+#define RG_GROUP_ITEMS STREAKS_BLOCK
+#define RG_GROUP       streaks_block
 
 // Of a drop, which of its streak textures a light shows, and each one's part in what is seen: one
 // in either view, for the nearest column, or for its neighbours too.
@@ -556,6 +560,13 @@ RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, str
     return radiance;
 }
 
+// What is seen of a drop or of a splash (0 or 1). Where all are drops, nothing of splashes is
+// found.
+RG_FN float streaks_either(rg_ctx rg, float drop, float crown, float splash)
+{
+    return rg_all_plain(rg) != 0 ? drop : streaks_between(drop, crown, splash);
+}
+
 // Splashes are matt and face up from what they stand on.
 RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int px, int py,
                           int light, streaks_lighting by)
@@ -567,7 +578,7 @@ RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int 
     float streak = SCENERY_IRRADIANCE * streaks_streak(rg, p, r, spot, by);
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
     float share =
-        reach.share * scenery_unshadowed(rg, l, spot.at) * streaks_between(streak, matt, splash);
+        reach.share * scenery_unshadowed(rg, l, spot.at) * streaks_either(rg, streak, matt, splash);
     return rg_rgba(l.r * share, l.g * share, l.b * share, 0.0f);
 }
 
@@ -616,10 +627,10 @@ RG_FN rg_fragment streaks_fragment_of(rg_ctx rg, streaks_params p, streaks_billb
     float sky = share * scenery_sky(rg, p, r, spot);
     float crown = r.share * streaks_crown(rg, r, spot);
     // What stands for many covers no pixel more than once, and shines no more than that.
-    float once = 1.0f / rg_max(streaks_between(sky, crown, splash), 1.0f);
-    float from_sky = once * streaks_between(sky * p.gain, crown * p.splash_gain, splash);
-    float from_lights = once * streaks_between(share * p.gain, crown * p.splash_gain, splash);
-    float opacity = once * streaks_between(sky * p.opacity, crown * p.splash_opacity, splash);
+    float once = 1.0f / rg_max(streaks_either(rg, sky, crown, splash), 1.0f);
+    float from_sky = once * streaks_either(rg, sky * p.gain, crown * p.splash_gain, splash);
+    float from_lights = once * streaks_either(rg, share * p.gain, crown * p.splash_gain, splash);
+    float opacity = once * streaks_either(rg, sky * p.opacity, crown * p.splash_opacity, splash);
     rgba c =
         rg_rgba(from_sky * p.sky_r + from_lights * lit.r, from_sky * p.sky_g + from_lights * lit.g,
                 from_sky * p.sky_b + from_lights * lit.b, rg_min(opacity, 1.0f));

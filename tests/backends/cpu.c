@@ -266,6 +266,98 @@ static void idle_items_are_left_out(void **state)
     assert_above(left_out, TEST_IDLE_ITEMS * IDLE_ROWS / 2);
 }
 
+// --- items that are unseen ---
+
+// Runs that begin and end within groups, and that take more than a batch.
+enum { UNSEEN_PX = 96, UNSEEN_ITEMS = 1500, UNSEEN_GROUPS = (UNSEEN_ITEMS + 31) / 32 };
+
+// What a device draws of the items from `begin` to `end`, and what it counts. Without marks, of the
+// program that has plain items.
+static void draw_marked(const char *name, const float *quads, const uint32_t *marks, int begin,
+                        int end, uint32_t *texels, struct rg_counts *counts)
+{
+    const uint32_t unmarked[UNSEEN_GROUPS] = {0};
+    struct rg_device *device = rg_device_open(name);
+    assert_non_null(device);
+    const struct rg_image_desc desc = {RG_RGBA32F, UNSEEN_PX, UNSEEN_PX, 1, 1};
+    const uint32_t none[4] = {0};
+    struct rg_image *image = rg_image_create_with(device, &desc, none, "target");
+    struct rg_buf *input = rg_buf_create_with(
+        device, quads, UNSEEN_ITEMS * TEST_QUAD_WORDS * (int64_t)sizeof(*quads), "quads");
+    struct rg_buf *marked =
+        rg_buf_create_with(device, marks ? marks : unmarked, UNSEEN_GROUPS * 4, "marks");
+    struct rg_pass *pass = rg_pass_create(device, marks ? "test_unseen" : "test_plain");
+    assert_true(image && input && marked && pass);
+    const struct rg_draw to = {.colour = image, .blend = marks ? RG_BLEND_ADD : RG_BLEND_OFF};
+    assert_true(rg_pass_run(
+        pass, &(struct rg_run){.params = &(test_quads_params){0},
+                               .slots = {[1].buf = input, [2].buf = marks ? marked : NULL},
+                               .origin = {begin, 0, 0},
+                               .extent = {end - begin, 1, 1},
+                               .draw = &to,
+                               .counts = counts}));
+    assert_true(rg_image_read(image, 0, 0, texels));
+    rg_pass_destroy(pass);
+    rg_buf_destroy(input);
+    rg_buf_destroy(marked);
+    rg_image_destroy(image);
+    assert_true(rg_device_close(device));
+}
+
+// cpu draws what the reference, which draws all, draws where marked quads have no area.
+static void unseen_items_are_left_out(void **state)
+{
+    (void)state;
+    const int runs[][2] = {{0, UNSEEN_ITEMS}, {31, 33}, {5, 6}, {64, 96}, {45, 1003}, {700, 1499}};
+    static float quads[UNSEEN_ITEMS * TEST_QUAD_WORDS], left[UNSEEN_ITEMS * TEST_QUAD_WORDS];
+    static uint32_t texels[2][UNSEEN_PX * UNSEEN_PX * 4];
+    uint32_t marks[UNSEEN_GROUPS], none[UNSEEN_GROUPS] = {0};
+    quads_fill(quads, UNSEEN_ITEMS, UNSEEN_PX, UNSEEN_PX, QUAD_STREAK, 5);
+    memcpy(left, quads, sizeof(left));
+    for (uint32_t i = 0; i < UNSEEN_GROUPS; i++)
+        marks[i] = i % 4 ? (i * 0x9e3779b9u) ^ (i * 0x85ebca6bu) >> 7 : i % 8 ? ~0u : 0;
+    for (int i = 0; i < UNSEEN_ITEMS; i++)
+        if (marks[i / 32] >> i % 32 & 1)
+            memset(left + (ptrdiff_t)i * TEST_QUAD_WORDS, 0, 16 * sizeof(float));
+    for (int i = 0; i < COUNT_OF(runs); i++) {
+        struct rg_counts counts[2];
+        draw_marked("cpu:reference", left, none, runs[i][0], runs[i][1], texels[0], &counts[0]);
+        draw_marked("cpu", quads, marks, runs[i][0], runs[i][1], texels[1], &counts[1]);
+        assert_memory_equal(texels[0], texels[1], sizeof(texels[0]));
+        assert_int_equal(counts[0].fragments, counts[1].fragments);
+        draw_marked("cpu:reference", quads, none, runs[i][0], runs[i][1], texels[0], NULL);
+        draw_marked("cpu:reference", quads, marks, runs[i][0], runs[i][1], texels[1], NULL);
+        assert_memory_equal(texels[0], texels[1], sizeof(texels[0]));
+    }
+}
+
+// cpu takes the pixels of plain items for plain, and no others, but for long rows, which it does
+// not list; the reference takes none.
+static void plain_items_are_listed_apart(void **state)
+{
+    (void)state;
+    static float quads[UNSEEN_ITEMS * TEST_QUAD_WORDS];
+    static uint32_t texels[2][UNSEEN_PX * UNSEEN_PX * 4];
+    quads_fill(quads, UNSEEN_ITEMS, UNSEEN_PX, UNSEEN_PX, QUAD_STREAK, 7);
+    draw_marked("cpu:reference", quads, NULL, 0, UNSEEN_ITEMS, texels[0], NULL);
+    draw_marked("cpu", quads, NULL, 0, UNSEEN_ITEMS, texels[1], NULL);
+    int plain = 0, others = 0, taken = 0;
+    for (int i = 0; i < UNSEEN_PX * UNSEEN_PX; i++) {
+        float due[4], drawn[4];
+        memcpy(due, texels[0] + (ptrdiff_t)4 * i, sizeof(due));
+        memcpy(drawn, texels[1] + (ptrdiff_t)4 * i, sizeof(drawn));
+        const bool is_plain = due[3] > 0 && (int)due[0] % 3 == 0;
+        assert_true(due[0] == drawn[0] && due[3] == drawn[3] && due[1] == 0);
+        assert_true(drawn[1] == 0 || (is_plain && drawn[1] == 1));
+        taken += drawn[1] == 1;
+        plain += is_plain;
+        others += due[3] > 0 && !is_plain;
+    }
+    assert_above(plain, 1000);
+    assert_above(taken, plain * 3 / 4);
+    assert_above(others, 2000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -278,6 +370,8 @@ int main(void)
         cmocka_unit_test(many_items_are_drawn),
         cmocka_unit_test(many_clipped_items_are_drawn),
         cmocka_unit_test(idle_items_are_left_out),
+        cmocka_unit_test(unseen_items_are_left_out),
+        cmocka_unit_test(plain_items_are_listed_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

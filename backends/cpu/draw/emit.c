@@ -112,15 +112,17 @@ static rg_snapped corners_at(const struct cpu_items *items, int place)
     };
 }
 
-static bool bin_shape(const struct cpu_emitter *e, struct cpu_chunk *chunk, int shape, int prim)
+static bool bin_shape(const struct cpu_emitter *e, struct cpu_chunk *chunk, int shape, int prim,
+                      bool plain)
 {
     const struct cpu_shapes *shapes = &e->sorter->shapes;
+    const int named = prim | (plain ? CPU_PLAIN : 0);
     if (shapes->cover[shape] == CPU_COVERS_MASK) {
         chunk->pixels += 8;
-        return bin_masks(e, shape, prim);
+        return bin_masks(e, shape, named);
     }
     e->bins->corners[prim] = corners_at(&e->sorter->items, shapes->place[shape]);
-    return bin_corners(e, &e->bins->corners[prim], prim, &chunk->pixels);
+    return bin_corners(e, &e->bins->corners[prim], named, &chunk->pixels);
 }
 
 // Makes primitives of the shapes that cover pixels.
@@ -129,6 +131,7 @@ static bool take_shapes(const struct cpu_emitter *e, struct cpu_chunk *chunk)
     struct cpu_shapes *shapes = &e->sorter->shapes;
     struct cpu_bins *bins = e->bins;
     int which[CPU_PLACES], item[CPU_PLACES], count = 0;
+    uint8_t plain[CPU_PLACES];
     if (!shapes->count)
         return true;
     e->raster->cover(e->draw, &e->sorter->items, shapes);
@@ -141,10 +144,10 @@ static bool take_shapes(const struct cpu_emitter *e, struct cpu_chunk *chunk)
     const int first = count ? cpu_bins_prims(bins, count) : 0;
     if (first < 0)
         return false;
-    e->program->records(e->call, item, count, bins->records, first);
+    e->program->records(e->call, item, count, bins->records, first, plain);
     memcpy(bins->items + first, item, (size_t)count * sizeof(*item));
     for (int i = 0; i < count; i++) {
-        if (!bin_shape(e, chunk, which[i], first + i)) {
+        if (!bin_shape(e, chunk, which[i], first + i, plain[i])) {
             __atomic_store_n(&bins->failed, true, __ATOMIC_RELAXED);
             return false;
         }
@@ -172,18 +175,19 @@ static void put_part(struct cpu_items *items, int place, const rg_snapped *part)
 }
 
 // Processes a batch with items to be clipped.
-static bool take_clipped(const struct cpu_emitter *e, struct cpu_chunk *chunk, int begin, int count)
+static bool take_clipped(const struct cpu_emitter *e, struct cpu_chunk *chunk)
 {
     struct cpu_items *items = &e->sorter->items;
     struct cpu_shapes *shapes = &e->sorter->shapes;
     int place = CPU_BATCH;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < items->count; i++) {
+        const int item = items->item[i];
         if (items->fate[i] == RG_FATE_WHOLE)
-            add_shape(shapes, i, begin + i);
+            add_shape(shapes, i, item);
         if (items->fate[i] != RG_FATE_CLIP)
             continue;
         rg_snapped parts[CPU_MOST_PARTS];
-        const int part_count = e->program->clip(e->call, begin + i, parts);
+        const int part_count = e->program->clip(e->call, item, parts);
         if (place + part_count > CPU_PLACES) {
             if (!take_shapes(e, chunk))
                 return false;
@@ -191,29 +195,31 @@ static bool take_clipped(const struct cpu_emitter *e, struct cpu_chunk *chunk, i
         }
         for (int k = 0; k < part_count; k++) {
             put_part(items, place, &parts[k]);
-            add_shape(shapes, place++, begin + i);
+            add_shape(shapes, place++, item);
         }
     }
     return take_shapes(e, chunk);
 }
 
-static bool take_batch(const struct cpu_emitter *e, struct cpu_chunk *chunk, int begin, int count)
+// Takes a batch of the items before `end`; false, with none taken, where room or memory is lacking.
+static bool take_batch(const struct cpu_emitter *e, struct cpu_chunk *chunk, int end)
 {
     struct cpu_items *items = &e->sorter->items;
     struct cpu_shapes *shapes = &e->sorter->shapes;
     shapes->count = 0;
-    e->program->items(e->call, begin, count, items);
+    const int next = e->program->items(e->call, chunk->end, end, items);
     int whole = 0, clipped = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < items->count; i++) {
         shapes->place[whole] = i;
-        shapes->item[whole] = begin + i;
+        shapes->item[whole] = items->item[i];
         whole += items->fate[i] != RG_FATE_DEAD ? 1 : 0;
         clipped |= items->fate[i] & RG_FATE_CLIP;
     }
-    if (clipped)
-        return take_clipped(e, chunk, begin, count);
-    shapes->count = whole;
-    return take_shapes(e, chunk);
+    shapes->count = clipped != 0 ? 0 : whole;
+    if (clipped != 0 ? !take_clipped(e, chunk) : !take_shapes(e, chunk))
+        return false;
+    chunk->end = next;
+    return true;
 }
 
 void cpu_emit(const struct cpu_emitter *e, int index, int end)
@@ -227,13 +233,11 @@ void cpu_emit(const struct cpu_emitter *e, int index, int end)
     chunk->pixels = 0;
     while (chunk->end < end && sorter->count < MOST_REFS &&
            !__atomic_load_n(&bins->full, __ATOMIC_RELAXED)) {
-        const int count = rg_imin(end - chunk->end, CPU_BATCH);
         const int before = sorter->count;
-        if (!take_batch(e, chunk, chunk->end, count)) {
+        if (!take_batch(e, chunk, end)) {
             cpu_sorter_drop(sorter, before);
             break;
         }
-        chunk->end += count;
     }
     if (!cpu_sorter_sort(sorter, bins, index))
         chunk->end = chunk->begin;

@@ -6,7 +6,10 @@
 #include "backends/cpu/draw/bins.h"
 #include "backends/cpu/draw/blend_tmpl.h"
 
-enum { LISTED_PX = 128 }; // side of the square of pixels that a list distinguishes
+enum {
+    LISTED_PX = 128,   // side of the square of pixels that a list distinguishes
+    FETCHED_PX = 16384 // after so many listed pixels a tile's texels are taken to be in cache
+};
 
 // State of shading a tile.
 struct shader {
@@ -15,11 +18,13 @@ struct shader {
     const struct cpu_bins *bins;
     struct cpu_target target;
     rg_draw_state draw;
-    int texel_words;    // of the colour target; 0: none
-    int x0, y0, x1, y1; // the tile's pixels
-    struct cpu_list list;
+    int texel_words;          // of the colour target; 0: none
+    int x0, y0, x1, y1;       // the tile's pixels
+    struct cpu_list lists[2]; // of plain records the second
+    struct cpu_columns columns;
     struct cpu_fragments fragments;
     struct pixels pixels;
+    int drawn;           // listed pixels so far
     bool drops_hidden;   // drops hidden fragments before lighting them
     int recorded_lights; // lights with records
     // The last list that each pixel was in, by the low bits of x and y; pixels that share an entry
@@ -70,6 +75,15 @@ static void gather_texels(struct shader *s, const size_t *texel, int count)
         gather(s->pixels.depth, s->target.depth, texel, count, 1);
 }
 
+// Prefetches what gather_texels will read: it comes while the fragments are computed.
+static void fetch_texels(const struct shader *s, const size_t *texel, int count)
+{
+    for (int i = 0; i < count; i++) {
+        __builtin_prefetch(s->target.colour + texel[i] * (size_t)s->texel_words, 1);
+        __builtin_prefetch(s->target.depth + texel[i], 1);
+    }
+}
+
 static void scatter_texels(struct shader *s, const size_t *texel, int count)
 {
     if (s->texel_words == 1)
@@ -102,9 +116,8 @@ static inline bool is_seen(const struct shader *s, int i, size_t texel)
 }
 
 // Removes fragments from the list that will fail the depth test.
-static void drop_hidden(struct shader *s)
+static void drop_hidden(struct shader *s, struct cpu_list *list)
 {
-    struct cpu_list *list = &s->list;
     int seen = 0;
     pad_list(list);
     s->program->list_depth(s->call, s->bins->records, list, &s->fragments);
@@ -116,16 +129,69 @@ static void drop_hidden(struct shader *s)
     list->count = seen;
 }
 
-// Draws the listed pixels, at least one.
-static void draw_list(struct shader *s)
+// Spreads a record's words over the columns from `column` on, for pixels from `begin` to `end`, and
+// some beyond, which the next record overwrites.
+static inline __attribute__((always_inline)) void stage_words(struct cpu_columns *columns,
+                                                              int column, const char *record,
+                                                              size_t size, int begin, int end,
+                                                              int lanes)
 {
-    struct cpu_list *list = &s->list;
+    for (size_t at = 0; at < size; at += sizeof(uint), column++) {
+        uint word;
+        memcpy(&word, record + at, sizeof(word));
+        for (int i = begin; i < end; i += lanes)
+            for (int lane = 0; lane < lanes; lane++)
+                columns->words[column][i + lane] = word;
+    }
+}
+
+// Most records have few pixels, and short vectors lie within a cache line more often.
+static inline __attribute__((always_inline)) void stage_record(struct cpu_columns *columns,
+                                                               int column, const char *record,
+                                                               size_t size, int begin, int end)
+{
+    if (end - begin <= 4)
+        stage_words(columns, column, record, size, begin, begin + 1, 4);
+    else if (end - begin <= 8)
+        stage_words(columns, column, record, size, begin, begin + 1, 8);
+    else
+        stage_words(columns, column, record, size, begin, end, CPU_LANES);
+}
+
+// Stages the records of a padded list. Each is read once, for all of its pixels in a row.
+static void stage_list(struct shader *s, const struct cpu_list *list)
+{
+    const size_t size = s->program->record_size;
+    const size_t light_size = s->recorded_lights ? s->program->light_size : 0;
+    const char *records = s->bins->records.of_items;
+    const char *lights = records + (size_t)s->bins->records.room * size;
+    const int padded = cpu_padded(list->count);
+    for (int begin = 0, end; begin < padded; begin = end) {
+        const int prim = list->prim[begin];
+        for (end = begin + 1; end < padded && list->prim[end] == prim;)
+            end++;
+        stage_record(&s->columns, 0, records + (size_t)prim * size, size, begin, end);
+        stage_record(&s->columns, (int)(size / sizeof(uint)), lights + (size_t)prim * light_size,
+                     light_size, begin, end);
+    }
+}
+
+// Draws the listed pixels, at least one.
+static void draw_list(struct shader *s, struct cpu_list *list)
+{
     const int count = list->count;
     size_t texel[CPU_FRAGMENTS];
-    pad_list(list);
-    s->program->list(s->call, s->bins->records, list, &s->fragments);
     for (int i = 0; i < count; i++)
         texel[i] = texel_of(s, list->at[i]);
+    if (s->drawn < FETCHED_PX)
+        fetch_texels(s, texel, count);
+    s->drawn += count;
+    pad_list(list);
+    if (s->program->has_columns)
+        stage_list(s, list);
+    const bool plain = list == &s->lists[1];
+    (plain ? s->program->plain_list : s->program->list)(s->call, s->bins->records, list,
+                                                        &s->columns, &s->fragments);
     gather_texels(s, texel, count);
     meet(s);
     scatter_texels(s, texel, count);
@@ -140,22 +206,31 @@ static void begin_listing(struct shader *s)
     memset(s->listed, 0, sizeof(s->listed));
 }
 
+static void flush_list(struct shader *s, struct cpu_list *list)
+{
+    if (list->count && s->drops_hidden)
+        drop_hidden(s, list);
+    if (list->count)
+        draw_list(s, list);
+    list->count = 0;
+}
+
+// Lists are of different pixels, so that either may be drawn first.
 static void flush(struct shader *s)
 {
-    if (!s->list.count)
-        return;
-    if (s->drops_hidden)
-        drop_hidden(s);
-    if (s->list.count)
-        draw_list(s);
-    s->list.count = 0;
+    flush_list(s, &s->lists[0]);
+    flush_list(s, &s->lists[1]);
     if (++s->listing == 0)
         begin_listing(s);
 }
 
-static inline void list_pixel(struct shader *s, int prim, int x, int y)
+static struct cpu_list *list_for(struct shader *s, int named)
 {
-    struct cpu_list *list = &s->list;
+    return &s->lists[(named & CPU_PLAIN) != 0 ? 1 : 0];
+}
+
+static inline void list_pixel(struct shader *s, struct cpu_list *list, int prim, int x, int y)
+{
     uint16_t *listed = &s->listed[y & (LISTED_PX - 1)][x & (LISTED_PX - 1)];
     if (*listed == s->listing || list->count == CPU_FRAGMENTS)
         flush(s);
@@ -181,11 +256,12 @@ static inline __attribute__((always_inline)) void fetch_record(const struct shad
 
 static void list_mask(struct shader *s, const struct cpu_ref *ref)
 {
-    const int x = ref->place & 0xffff, y = ref->place >> 16;
-    fetch_record(s, ref->prim);
+    struct cpu_list *list = list_for(s, ref->prim);
+    const int x = ref->place & 0xffff, y = ref->place >> 16, prim = ref->prim & (CPU_PLAIN - 1);
+    fetch_record(s, prim);
     for (uint64_t rest = ref->mask; rest; rest &= rest - 1) {
         const int bit = __builtin_ctzll(rest);
-        list_pixel(s, ref->prim, x + (bit & 7), y + (bit >> 3));
+        list_pixel(s, list, prim, x + (bit & 7), y + (bit >> 3));
     }
 }
 

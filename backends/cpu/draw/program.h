@@ -15,6 +15,7 @@ enum {
     CPU_PLACES = CPU_BATCH + CPU_PARTS, // a multiple of CPU_LANES
     CPU_MOST_PARTS = RG_MOST_PRIMS(3),  // parts of one item
     CPU_FRAGMENTS = 256,                // pixels in a list
+    CPU_MOST_WORDS = 64,                // of a record, with that of its first light
 };
 
 static inline int cpu_padded(int count)
@@ -22,8 +23,10 @@ static inline int cpu_padded(int count)
     return (count + CPU_LANES - 1) & -CPU_LANES;
 }
 
-// Corners of a batch's items, and after them those of clipped parts.
+// A batch: items, their corners, and after these those of clipped parts.
 struct cpu_items {
+    int count;
+    int item[CPU_BATCH];
     int fate[CPU_BATCH];
     int x[4][CPU_PLACES], y[4][CPU_PLACES];
 };
@@ -33,6 +36,12 @@ struct cpu_list {
     int count;
     int at[CPU_FRAGMENTS]; // y << 16 | x
     int prim[CPU_FRAGMENTS];
+};
+
+// The words of a list's records, by pixel: a column for each word of the item's record, then those
+// of the first light's. The last lanes are room for whole vectors.
+struct cpu_columns {
+    uint words[CPU_MOST_WORDS][CPU_FRAGMENTS + CPU_LANES];
 };
 
 // The fragments of a list, or of neighbouring pixels of one primitive.
@@ -55,18 +64,25 @@ struct cpu_program {
     int corners;        // RG_CORNERS
     size_t record_size; // of an item, in bytes
     size_t light_size;  // of the record of an item and a light; 0: none
+    bool has_columns;   // `list` and `plain_list` need them
 
-    // Computes fate and corners of items from `begin` on.
-    void (*items)(const struct cpu_call *call, int begin, int count, struct cpu_items *items);
+    // Computes fate and corners of a batch of the items from `begin` on, without those that say
+    // that they are unseen. Returns the first item behind the batch, at most `end`.
+    int (*items)(const struct cpu_call *call, int begin, int end, struct cpu_items *items);
     // Clips an item into parts; returns their number.
     int (*clip)(const struct cpu_call *call, int item, rg_snapped parts[CPU_MOST_PARTS]);
-    // Computes the records of items, from primitive `first` on.
+    // Computes the records of items, from primitive `first` on, and which of them are plain: 0
+    // or 1.
     void (*records)(const struct cpu_call *call, const int *items, int count,
-                    struct cpu_records records, int first);
-    // Compute the fragments of a list, which is padded to a multiple of CPU_LANES, and of `count`
-    // pixels from (x, y) on.
+                    struct cpu_records records, int first, uint8_t *plain);
+    // Compute the fragments of a list, which is padded to a multiple of CPU_LANES, of a list of
+    // plain records alone, and of `count` pixels from (x, y) on.
     void (*list)(const struct cpu_call *call, struct cpu_records records,
-                 const struct cpu_list *list, struct cpu_fragments *fragments);
+                 const struct cpu_list *list, const struct cpu_columns *columns,
+                 struct cpu_fragments *fragments);
+    void (*plain_list)(const struct cpu_call *call, struct cpu_records records,
+                       const struct cpu_list *list, const struct cpu_columns *columns,
+                       struct cpu_fragments *fragments);
     void (*row)(const struct cpu_call *call, struct cpu_records records, int prim, int x, int y,
                 int count, struct cpu_fragments *fragments);
     // For programs with lights, else NULL: the number of lights; and variants of `list` and `row`

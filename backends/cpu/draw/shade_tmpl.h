@@ -8,6 +8,7 @@
 
 enum {
     WIDE_SPAN = 24,   // pixels that are worth a vectorised row of their own
+    REFS_AHEAD = 12,  // for which corners are fetched
     WORTH_LIGHTS = 2, // from this number of lights on, hidden fragments are dropped first
 };
 
@@ -55,7 +56,7 @@ static void draw_row(struct shader *s, int prim, int x, int y, int count)
 
 // Draws a shape's pixels in a block. The list is drawn before the shape's first long row, except
 // pixels of the shape itself, which are all different and can wait.
-static void draw_block(struct shader *s, int prim, const struct convex *shape, int x, int y,
+static void draw_block(struct shader *s, int named, const struct convex *shape, int x, int y,
                        int width, int height, bool *flushed)
 {
     struct spans spans;
@@ -66,15 +67,15 @@ static void draw_block(struct shader *s, int prim, const struct convex *shape, i
             if (!*flushed)
                 flush(s);
             *flushed = true;
-            draw_row(s, prim, x + begin, y + row, count);
+            draw_row(s, named & (CPU_PLAIN - 1), x + begin, y + row, count);
         } else if (count > 0) {
             for (int i = 0; i < count; i++)
-                list_pixel(s, prim, x + begin + i, y + row);
+                list_pixel(s, list_for(s, named), named & (CPU_PLAIN - 1), x + begin + i, y + row);
         }
     }
 }
 
-static void draw_convex(struct shader *s, int prim, const struct convex *shape)
+static void draw_convex(struct shader *s, int named, const struct convex *shape)
 {
     const rg_triangle *t = &shape->t;
     const int begin_x = rg_imax(t->first_x, s->x0), end_x = rg_imin(t->end_x, s->x1);
@@ -82,26 +83,26 @@ static void draw_convex(struct shader *s, int prim, const struct convex *shape)
     bool flushed = false;
     for (int y = begin_y; y < end_y; y += BLOCK_PX)
         for (int x = begin_x; x < end_x; x += BLOCK_PX)
-            draw_block(s, prim, shape, x, y, rg_imin(end_x - x, BLOCK_PX),
+            draw_block(s, named, shape, x, y, rg_imin(end_x - x, BLOCK_PX),
                        rg_imin(end_y - y, BLOCK_PX), &flushed);
 }
 
-static void draw_triangle(struct shader *s, int prim, rg_triangle t)
+static void draw_triangle(struct shader *s, int named, rg_triangle t)
 {
-    draw_convex(s, prim, &(struct convex){.t = t});
+    draw_convex(s, named, &(struct convex){.t = t});
 }
 
-static void draw_corners(struct shader *s, int prim)
+static void draw_corners(struct shader *s, int named)
 {
-    const rg_snapped c = s->bins->corners[prim];
+    const rg_snapped c = s->bins->corners[named & (CPU_PLAIN - 1)];
     struct convex quad;
     if (s->program->corners == 4 && make_convex(&s->draw, c, &quad)) {
-        draw_convex(s, prim, &quad);
+        draw_convex(s, named, &quad);
         return;
     }
-    draw_triangle(s, prim, rg_triangle_make(s->draw, c.x0, c.y0, c.x1, c.y1, c.x2, c.y2));
+    draw_triangle(s, named, rg_triangle_make(s->draw, c.x0, c.y0, c.x1, c.y1, c.x2, c.y2));
     if (s->program->corners == 4)
-        draw_triangle(s, prim, rg_triangle_make(s->draw, c.x0, c.y0, c.x2, c.y2, c.x3, c.y3));
+        draw_triangle(s, named, rg_triangle_make(s->draw, c.x0, c.y0, c.x2, c.y2, c.x3, c.y3));
 }
 
 static int texel_words(int format)
@@ -126,7 +127,7 @@ static void begin_tile(struct shader *s, int tile)
     s->y0 = tile / tiling->across * side;
     s->x1 = s->x0 + side;
     s->y1 = s->y0 + side;
-    s->list.count = 0;
+    s->lists[0].count = s->lists[1].count = s->drawn = 0;
     // Vectors reach beyond the last pixel, where they must find initialised memory.
     memset(&s->pixels, 0, sizeof(s->pixels));
     begin_listing(s);
@@ -135,6 +136,8 @@ static void begin_tile(struct shader *s, int tile)
 static void draw_refs(struct shader *s, const struct cpu_ref *ref, const struct cpu_ref *end)
 {
     for (; ref < end; ref++) {
+        if (end - ref > REFS_AHEAD && ref[REFS_AHEAD].place < 0)
+            __builtin_prefetch(s->bins->corners + (ref[REFS_AHEAD].prim & (CPU_PLAIN - 1)));
         if (ref->place < 0)
             draw_corners(s, ref->prim);
         else

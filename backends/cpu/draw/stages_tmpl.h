@@ -6,14 +6,60 @@
 #include "backends/cpu/draw/program.h"
 #include "backends/cpu/kernels/bind_tmpl.h"
 
-static void make_items(const struct cpu_call *call, int begin, int count, struct cpu_items *items)
+#if defined(RG_GROUP_ITEMS)
+
+// Lists items that may be seen; returns the first behind those that were asked. Groups begin at
+// multiples of RG_GROUP_ITEMS, and each is asked as a whole. What is beyond the items repeats the
+// nearest one, and is not listed.
+static int list_items(const struct cpu_call *call, int begin, int end, struct cpu_items *items)
+{
+    const rg_ctx rg = bind_context(call);
+    const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
+    int from = begin;
+    items->count = 0;
+    RG_GROUP next = rg_program_group(rg, p, begin / RG_GROUP_ITEMS);
+    while (from < end && items->count <= CPU_BATCH - RG_GROUP_ITEMS) {
+        const int first = from & -RG_GROUP_ITEMS, last = rg_imin(first + RG_GROUP_ITEMS, end) - 1;
+        const RG_GROUP group = next; // asked one turn ahead, so that what it fetches is there
+        next = rg_program_group(rg, p, rg_imin(last + 1, end - 1) / RG_GROUP_ITEMS);
+        int unseen[RG_GROUP_ITEMS];
+#pragma omp simd
+        for (int i = 0; i < RG_GROUP_ITEMS; i++)
+            unseen[i] = rg_program_unseen(rg, p, group, rg_iclamp(first + i, begin, last));
+        for (; from <= last; from++) {
+            items->item[items->count] = from;
+            items->count += unseen[from - first] == 0 ? 1 : 0;
+        }
+    }
+    return from;
+}
+
+#define LISTED_ITEM(items, begin, i) (items)->item[i]
+
+#else
+
+static int list_items(const struct cpu_call *call RG_UNUSED, int begin, int end,
+                      struct cpu_items *items)
+{
+    items->count = rg_imin(end - begin, CPU_BATCH);
+    for (int i = 0; i < items->count; i++)
+        items->item[i] = begin + i;
+    return begin + items->count;
+}
+
+#define LISTED_ITEM(items, begin, i) ((begin) + (i))
+
+#endif
+
+static int make_items(const struct cpu_call *call, int begin, int end, struct cpu_items *items)
 {
     const rg_ctx rg = bind_context(call);
     const rg_draw_call p = *(const rg_draw_call *)call->params;
-    const int last = count - 1, padded = cpu_padded(count);
+    const int next = list_items(call, begin, end, items);
+    const int last = items->count - 1, padded = cpu_padded(items->count);
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
-        const int item = begin + rg_imin(i, last);
+        const int item = LISTED_ITEM(items, begin, rg_imin(i, last));
         const rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, item), RG_CORNERS);
         const rg_projected s = rg_project(p.draw, t);
         items->fate[i] = s.fate;
@@ -26,6 +72,7 @@ static void make_items(const struct cpu_call *call, int begin, int count, struct
         items->x[3][i] = s.corners.x3;
         items->y[3][i] = s.corners.y3;
     }
+    return next;
 }
 
 static int clip_item(const struct cpu_call *call, int item, rg_snapped parts[CPU_MOST_PARTS])
@@ -110,8 +157,10 @@ static inline __attribute__((always_inline)) void make_lit_records(rg_ctx rg, rg
 
 #endif
 
-static void make_records(const struct cpu_call *call, const int *items, int count,
-                         struct cpu_records records, int first)
+static inline __attribute__((always_inline)) void make_all_records(const struct cpu_call *call,
+                                                                   const int *items, int count,
+                                                                   struct cpu_records records,
+                                                                   int first)
 {
     const rg_ctx rg = bind_context(call);
     const rg_draw_call p = *(const rg_draw_call *)call->params;
@@ -129,6 +178,19 @@ static void make_records(const struct cpu_call *call, const int *items, int coun
     }
 #endif
     make_item_records(rg, p, items, count, made);
+}
+
+static void make_records(const struct cpu_call *call, const int *items, int count,
+                         struct cpu_records records, int first, uint8_t *plain)
+{
+    make_all_records(call, items, count, records, first);
+#if defined(RG_PLAIN)
+    const RG_RECORD *made = (const RG_RECORD *)records.of_items + first;
+    for (int i = 0; i < count; i++)
+        plain[i] = rg_program_plain(made[i]) != 0;
+#else
+    memset(plain, 0, (size_t)count);
+#endif
 }
 
 // Stores a fragment, except its depth.
@@ -197,6 +259,50 @@ record_of(struct cpu_records records, const struct cpu_list *list, int i)
     return (const RG_RECORD *)(records.of_items + begin);
 }
 
+// The record of a listed fragment, and that of its item and the first light: gathered word by word,
+// or, of programs that say that this is worth it, taken from columns.
+#if defined(RG_COLUMNS)
+
+// A loop without turns left is what lets gcc keep the words in registers.
+#define RG_COLUMN_WORDS(record, columns, first, i)                                                 \
+    uint words[sizeof(record) / sizeof(uint)];                                                     \
+    _Pragma("GCC unroll 64") for (int k = 0; k < (int)(sizeof(record) / sizeof(uint)); k++)        \
+        words[k] = (columns)->words[(first) + k][i];                                               \
+    memcpy(&(record), words, sizeof(record));
+
+static inline __attribute__((always_inline)) RG_RECORD
+column_record(const struct cpu_columns *columns, int i)
+{
+    RG_RECORD r;
+    RG_COLUMN_WORDS(r, columns, 0, i)
+    return r;
+}
+
+#define RG_LISTED(records, list, i) column_record(columns, i)
+
+#if defined(RG_LIGHT_RECORD)
+
+static inline __attribute__((always_inline)) RG_LIGHT_RECORD
+column_light_record(const struct cpu_columns *columns, int i)
+{
+    RG_LIGHT_RECORD r;
+    RG_COLUMN_WORDS(r, columns, sizeof(RG_RECORD) / sizeof(uint), i)
+    return r;
+}
+
+#define RG_BY_FIRST(by, list, i) , column_light_record(columns, i)
+#define RG_ALL_WORDS             ((sizeof(RG_RECORD) + sizeof(RG_LIGHT_RECORD)) / sizeof(uint))
+#else
+#define RG_BY_FIRST(by, list, i)
+#define RG_ALL_WORDS (sizeof(RG_RECORD) / sizeof(uint))
+#endif
+static_assert(RG_ALL_WORDS <= CPU_MOST_WORDS, "each word of a record has a column");
+
+#else
+#define RG_LISTED(records, list, i) *record_of(records, list, i)
+#define RG_BY_FIRST(by, list, i)    RG_BY(by, list, i)
+#endif
+
 #if defined(RG_LIGHTS)
 
 static inline __attribute__((always_inline)) rgba added_to_none(rgba c)
@@ -206,32 +312,36 @@ static inline __attribute__((always_inline)) rgba added_to_none(rgba c)
 
 // A single light is added in the loop that makes colours, so that common terms are computed once.
 static inline __attribute__((always_inline)) void
-shade_lit_list(rg_ctx rg, RG_PARAMS p, struct cpu_records records, const struct cpu_list *list,
-               int padded, struct cpu_fragments *fragments)
+shade_lit_list(rg_ctx rg, RG_PARAMS p, struct cpu_records records RG_UNUSED,
+               const struct cpu_list *list, const struct cpu_columns *columns RG_UNUSED, int padded,
+               struct cpu_fragments *fragments)
 {
-    RG_LIGHT_RECORDS(by, records, 0)
+    RG_LIGHT_RECORDS(by RG_UNUSED, records, 0)
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
         const int x = list->at[i] & 0xffff, y = list->at[i] >> 16;
-        const RG_RECORD *r = record_of(records, list, i);
-        const rgba c = rg_program_light(rg, p, *r, x, y, 0 RG_BY(by, list, i));
-        put_fragment(fragments, i, rg_program_fragment(rg, p, *r, x, y, added_to_none(c)));
+        const RG_RECORD r = RG_LISTED(records, list, i);
+        const rgba c = rg_program_light(rg, p, r, x, y, 0 RG_BY_FIRST(by, list, i));
+        put_fragment(fragments, i, rg_program_fragment(rg, p, r, x, y, added_to_none(c)));
     }
     settle_depths(fragments, padded);
 }
 
 #endif
 
-static void shade_list(const struct cpu_call *call, struct cpu_records records,
-                       const struct cpu_list *list, struct cpu_fragments *fragments)
+static inline __attribute__((always_inline)) void
+shade_any_list(const struct cpu_call *call, struct cpu_records records RG_UNUSED,
+               const struct cpu_list *list, const struct cpu_columns *columns RG_UNUSED,
+               struct cpu_fragments *fragments, int plain)
 {
-    const rg_ctx rg = bind_context(call);
+    rg_ctx rg = bind_context(call);
+    rg.plain = plain;
     const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
     const int padded = cpu_padded(list->count);
     fragments->count = list->count;
 #if defined(RG_LIGHTS)
     if (p.lights == 1) {
-        shade_lit_list(rg, p, records, list, padded, fragments);
+        shade_lit_list(rg, p, records, list, columns, padded, fragments);
         return;
     }
     struct lit lit;
@@ -242,7 +352,7 @@ static void shade_list(const struct cpu_call *call, struct cpu_records records,
         for (int i = 0; i < padded; i++) {
             const int at = list->at[i];
             add_light(&lit, i,
-                      rg_program_light(rg, p, *record_of(records, list, i), at & 0xffff, at >> 16,
+                      rg_program_light(rg, p, RG_LISTED(records, list, i), at & 0xffff, at >> 16,
                                        light RG_BY(by, list, i)));
         }
     }
@@ -251,11 +361,31 @@ static void shade_list(const struct cpu_call *call, struct cpu_records records,
     for (int i = 0; i < padded; i++) {
         const int at = list->at[i];
         put_fragment(fragments, i,
-                     rg_program_fragment(rg, p, *record_of(records, list, i), at & 0xffff,
+                     rg_program_fragment(rg, p, RG_LISTED(records, list, i), at & 0xffff,
                                          at >> 16 RG_LIT(&lit, i)));
     }
     settle_depths(fragments, padded);
 }
+
+static void shade_list(const struct cpu_call *call, struct cpu_records records,
+                       const struct cpu_list *list, const struct cpu_columns *columns,
+                       struct cpu_fragments *fragments)
+{
+    shade_any_list(call, records, list, columns, fragments, 0);
+}
+
+#if defined(RG_PLAIN)
+
+static void shade_plain_list(const struct cpu_call *call, struct cpu_records records,
+                             const struct cpu_list *list, const struct cpu_columns *columns,
+                             struct cpu_fragments *fragments)
+{
+    shade_any_list(call, records, list, columns, fragments, 1);
+}
+
+#else
+#define shade_plain_list shade_list
+#endif
 
 static void shade_row(const struct cpu_call *call, struct cpu_records records, int prim, int x,
                       int y, int count, struct cpu_fragments *fragments)
@@ -341,6 +471,10 @@ static const struct cpu_program program = {
     .clip = clip_item,
     .records = make_records,
     .list = shade_list,
+    .plain_list = shade_plain_list,
+#if defined(RG_COLUMNS)
+    .has_columns = true,
+#endif
     .row = shade_row,
 #if defined(RG_LIGHTS)
     .lights = count_lights,

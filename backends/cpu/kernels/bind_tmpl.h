@@ -27,5 +27,6 @@ static inline __attribute__((always_inline)) rg_ctx bind_context(const struct cp
     rg_ctx rg;
     RG_ALL_SLOTS
     rg.notes = call->notes;
+    rg.plain = 0;
     return rg;
 }

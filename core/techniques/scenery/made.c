@@ -57,9 +57,10 @@ static void paint_levels(const struct city_painter *painter, int texture, int si
     }
 }
 
-static bool write_levels(struct scenery_made *s, int texture, const uint32_t *texels)
+static bool write_levels(struct scenery_paint *s, const struct city *city, int texture,
+                         const uint32_t *texels)
 {
-    int size = s->city->texture_px;
+    int size = city->texture_px;
     for (int level = 0; level < s->levels; level++) {
         if (!rg_image_write(s->textures, texture, level, texels))
             return false;
@@ -69,9 +70,8 @@ static bool write_levels(struct scenery_made *s, int texture, const uint32_t *te
     return true;
 }
 
-static bool create_textures(struct scenery_made *s)
+static bool create_textures(struct scenery_paint *s, const struct city *city)
 {
-    const struct city *city = s->city;
     const int size = city->texture_px;
     s->levels = levels_of(size);
     const struct rg_image_desc desc = {RG_RGBA8, size, size, city->texture_count, s->levels};
@@ -92,7 +92,7 @@ static bool create_textures(struct scenery_made *s)
         for (int i = first; i < end; i++)
             paint_levels(painter, i, size, s->levels, texels + (size_t)(i - first) * room);
         for (int i = first; ok && i < end; i++)
-            ok = write_levels(s, i, texels + (size_t)(i - first) * room);
+            ok = write_levels(s, city, i, texels + (size_t)(i - first) * room);
     }
     city_painter_destroy(painter);
     free(texels);
@@ -101,10 +101,10 @@ static bool create_textures(struct scenery_made *s)
 
 // --- buffers ---
 
-static bool create_openness(struct scenery_made *s)
+static bool create_openness(struct scenery_paint *s, const struct city *city)
 {
     uint32_t *words = rg_alloc(SCENERY_OPEN_WORDS, sizeof(*words), "scene");
-    if (words && city_openness(s->city, words))
+    if (words && city_openness(city, words))
         s->openness =
             rg_buf_create_with(s->device, words, SCENERY_OPEN_WORDS * 4, "openness to the sky");
     free(words);
@@ -131,8 +131,6 @@ static void destroy(void *thing)
     rg_buf_destroy(s->faces);
     rg_buf_destroy(s->surface_of);
     rg_buf_destroy(s->surfaces);
-    rg_buf_destroy(s->openness);
-    rg_image_destroy(s->textures);
     city_destroy(s->city);
     free(s);
 }
@@ -145,25 +143,65 @@ static void *make(struct rg_device *device, const void *arg)
         return NULL;
     s->device = device;
     s->city = settings->model[0] ? city_of_mesh(settings->model) : city_create(&settings->city);
-    if (s->city && create_buffers(s) && create_openness(s) && create_textures(s))
+    if (s->city && create_buffers(s))
         return s;
     destroy(s);
     return NULL;
+}
+
+static void destroy_paint(void *thing)
+{
+    struct scenery_paint *s = thing;
+    rg_buf_destroy(s->openness);
+    rg_image_destroy(s->textures);
+    free(s);
+}
+
+static void *make_paint(struct rg_device *device, const void *arg)
+{
+    const struct scenery_made *made = arg;
+    struct scenery_paint *s = rg_alloc(1, sizeof(*s), "scene");
+    if (!s)
+        return NULL;
+    s->device = device;
+    if (create_openness(s, made->city) && create_textures(s, made->city))
+        return s;
+    destroy_paint(s);
+    return NULL;
+}
+
+// Gets what `made` or its light needs, by the scene's name.
+static void *get(struct rg_device *device, const struct scenery_settings *settings,
+                 const struct rg_shared_kind *kind, const void *arg)
+{
+    char key[RG_PATH_SIZE + 64];
+    if (settings->model[0])
+        snprintf(key, sizeof(key), "mesh %s", settings->model);
+    else
+        snprintf(key, sizeof(key), "city %d %d", settings->city.seed, (int)settings->city.size);
+    return rg_shared_get(device, key, kind, arg);
 }
 
 const struct scenery_made *scenery_made_get(struct rg_device *device,
                                             const struct scenery_settings *settings)
 {
     static const struct rg_shared_kind kind = {"scene", make, destroy};
-    char key[RG_PATH_SIZE + 64];
-    if (settings->model[0])
-        snprintf(key, sizeof(key), "mesh %s", settings->model);
-    else
-        snprintf(key, sizeof(key), "city %d %d", settings->city.seed, (int)settings->city.size);
-    return rg_shared_get(device, key, &kind, settings);
+    return get(device, settings, &kind, settings);
+}
+
+const struct scenery_paint *scenery_paint_get(const struct scenery_made *made,
+                                              const struct scenery_settings *settings)
+{
+    static const struct rg_shared_kind kind = {"scene's paint", make_paint, destroy_paint};
+    return get(made->device, settings, &kind, made);
 }
 
 void scenery_made_put(struct rg_device *device, const struct scenery_made *made)
 {
     rg_shared_put(device, (void *)(uintptr_t)made);
+}
+
+void scenery_paint_put(struct rg_device *device, const struct scenery_paint *paint)
+{
+    rg_shared_put(device, (void *)(uintptr_t)paint);
 }

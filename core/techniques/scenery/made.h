@@ -8,9 +8,15 @@
 struct scenery_made {
     struct rg_device *device;
     struct city *city;
-    struct rg_buf *faces, *surface_of, *surfaces, *openness;
+    struct rg_buf *faces, *surface_of, *surfaces;
+};
+
+// What a scene's light needs besides, for which the whole of it is looked at and painted.
+struct scenery_paint {
+    struct rg_device *device;
+    struct rg_buf *openness;
     struct rg_image *textures;
-    int levels; // levels of the textures
+    int levels; // of the textures
 };
 
 // Gets the shared parts; NULL, and one logged line, on failure. Call scenery_made_put before the
@@ -18,5 +24,10 @@ struct scenery_made {
 const struct scenery_made *scenery_made_get(struct rg_device *device,
                                             const struct scenery_settings *settings);
 void scenery_made_put(struct rg_device *device, const struct scenery_made *made);
+
+// The same for what the light of `made` needs, whose settings these are.
+const struct scenery_paint *scenery_paint_get(const struct scenery_made *made,
+                                              const struct scenery_settings *settings);
+void scenery_paint_put(struct rg_device *device, const struct scenery_paint *paint);
 
 #endif

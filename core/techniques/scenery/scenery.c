@@ -17,6 +17,7 @@ enum scenery_pass { FACES, SHADE, PASS_COUNT };
 struct scenery {
     struct rg_instance *instance;
     const struct scenery_made *made;
+    const struct scenery_paint *paint; // NULL: it is never lit
     int first_stage;
     // Assets that each draw sets: visible blocks, surface numbers of the target's size, and the
     // caller's objects.
@@ -35,6 +36,8 @@ void scenery_close(struct scenery *s)
 {
     if (!s)
         return;
+    if (s->paint)
+        scenery_paint_put(s->instance->device, s->paint);
     if (s->made)
         scenery_made_put(s->instance->device, s->made);
     free(s->seen);
@@ -63,8 +66,8 @@ static void lend(struct scenery *s)
     rg_lend_buf(i, "scene.faces", s->made->faces);
     rg_lend_buf(i, "scene.surface_of", s->made->surface_of);
     rg_lend_buf(i, "scene.surfaces", s->made->surfaces);
-    rg_lend_buf(i, "scene.openness", s->made->openness);
-    rg_lend_image(i, "scene.textures", s->made->textures);
+    rg_lend_buf(i, "scene.openness", s->paint ? s->paint->openness : NULL);
+    rg_lend_image(i, "scene.textures", s->paint ? s->paint->textures : NULL);
     s->numbers = rg_lend_image(i, "scene.numbers", NULL);
     s->depths = rg_lend_image(i, "scene.depths", NULL);
     s->lights = rg_lend_buf(i, "scene.lights", NULL);
@@ -83,7 +86,8 @@ struct scenery *scenery_open(struct rg_instance *instance, const struct scenery_
     if (!s)
         return NULL;
     s->instance = instance;
-    if ((s->made = scenery_made_get(instance->device, settings)) && make_blocks(s)) {
+    if ((s->made = scenery_made_get(instance->device, settings)) && make_blocks(s) &&
+        (settings->bare || (s->paint = scenery_paint_get(s->made, settings)))) {
         lend(s);
         s->first_stage = rg_open_stages(instance, stages, PASS_COUNT, s, "scene");
         if (s->first_stage >= 0)
@@ -184,7 +188,7 @@ static bool shade(struct scenery *s, const struct scenery_view *view,
         .wet = look->wet,
         .lights = lights->count,
         .texture_px = s->made->city->texture_px,
-        .last_level = s->made->levels - 1,
+        .last_level = s->paint->levels - 1,
     };
     if (!rg_matrix_from_pixel(&view->to_clip, d->width, d->height, &p->from_pixel))
         return rg_error("scene: its matrix maps space to less; move the camera");

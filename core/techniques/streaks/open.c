@@ -47,8 +47,9 @@ static bool create_space(struct streaks *s)
 static bool create_scene(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    const struct scenery_settings settings =
+    struct scenery_settings settings =
         scenery_named(set->scene, (enum city_size)set->city, set->city_seed);
+    settings.bare = !set->geometry;
     s->scene = scenery_open(&s->base, &settings);
     return s->scene;
 }

@@ -31,10 +31,40 @@
 // Its RG_DRAW_FRAGMENT also gets `rgba lit`: zero and what lights 0 to p.lights - 1 add, in order.
 // Only the colour may depend on `lit`: devices ask for depth and `kept` before they run the lights,
 // so that they need not light what is hidden.
+//
+// A program many of whose items are out of sight says which. It defines RG_GROUP_ITEMS, a power of
+// 2 up to 64, and RG_GROUP, a struct of 4-byte scalars that as many items in a row share, and
+// holds:
+//
+//   RG_DRAW_GROUP(name)  { ... }  returns what items RG_GROUP_ITEMS * number and following share.
+//   RG_DRAW_UNSEEN(name)  { ... }  returns 1 only where item i, of `group`, covers no pixel: its
+//                                  corners are dead, whatever the scissor.
+//
+// `cpu` asks, and makes no corners of what is unseen; others ask for the corners of all. It asks
+// for a group before it needs it: RG_DRAW_GROUP may RG_FETCH what the items of the group will read.
+//
+// A program with records of which many need a part of its fragments' arithmetic alone defines
+// RG_PLAIN, and holds:
+//
+//   RG_DRAW_PLAIN(name)  { ... }  returns 1 where r is such a record.
+//
+// Its RG_DRAW_LIGHT and RG_DRAW_FRAGMENT may leave the other part out where rg_all_plain(rg) is not
+// 0, and return the same. `cpu` lists pixels of plain records apart; for others it is 0.
+//
+// A program whose fragments read most words of a long record defines RG_COLUMNS: `cpu` then reads
+// the record once for a primitive's listed pixels, and spreads its words, instead of gathering
+// them.
 #ifndef RG_KERNELS_DIALECT_DRAW_DRAW_H
 #define RG_KERNELS_DIALECT_DRAW_DRAW_H
 
 #include "kernels/dialect/draw/clip.h"
+
+// Has the cache fetch element i of a slot's buffer, where that is up to the program.
+#if RG_GLSL || RG_OPENCL || RG_CHECKED
+#define RG_FETCH(rg, name, i)
+#else
+#define RG_FETCH(rg, name, i) __builtin_prefetch(&(rg).name[i]);
+#endif
 
 #define RG_DRAW_SLOTS 12 // the stages take the last four of the 16 slots
 
@@ -92,6 +122,11 @@ RG_FN rg_fragment rg_fragment_make(rgba colour, float depth)
 #define RG_DRAW_RECORD(name)                                                                       \
     RG_FN RG_RECORD rg_program_record(rg_ctx rg RG_UNUSED, rg_draw_state draw RG_UNUSED,           \
                                       RG_PARAMS p RG_UNUSED, int i RG_UNUSED)
+#define RG_DRAW_GROUP(name)                                                                        \
+    RG_FN RG_GROUP rg_program_group(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED, int number)
+#define RG_DRAW_UNSEEN(name)                                                                       \
+    RG_FN int rg_program_unseen(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED, RG_GROUP group, int i)
+#define RG_DRAW_PLAIN(name) RG_FN int rg_program_plain(RG_RECORD r)
 #if defined(RG_LIGHT_RECORD)
 #define RG_DRAW_RECORD_LIGHT(name)                                                                 \
     RG_FN RG_LIGHT_RECORD rg_program_record_light(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED,      \

@@ -6,6 +6,8 @@ struct rg_ctx {
     RG_RUN_PARAMS p;
 };
 
+#define rg_all_plain(rg) 0
+
 #define RG_LAYOUT_RGBA8   rgba8
 #define RG_LAYOUT_RGBA16F rgba16f
 #define RG_LAYOUT_RGBA32F rgba32f

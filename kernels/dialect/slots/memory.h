@@ -33,8 +33,15 @@ typedef struct rg_ctx {
     RG_ALL_SLOTS
 #if !RG_OPENCL
     struct rg_notes *notes;
+    int plain; // kernels/dialect/draw/draw.h
 #endif
 } rg_ctx;
+
+#if RG_OPENCL
+#define rg_all_plain(rg) 0
+#else
+#define rg_all_plain(rg) ((rg).plain)
+#endif
 
 #undef IN
 #undef OUT

@@ -1,6 +1,7 @@
 // streaks: particles, with 2 streak textures a light.
 #define STREAKS_TAPS 2
 #include "kernels/streaks/rain.h"
+#include "kernels/streaks/taps/unseen.h"
 
 RG_DRAW_ITEM(streaks_rain_2)
 {
@@ -10,9 +11,24 @@ RG_DRAW_ITEM(streaks_rain_2)
     return item;
 }
 
+RG_DRAW_GROUP(streaks_rain_2)
+{
+    return streaks_block_ahead(rg, p, number);
+}
+
+RG_DRAW_UNSEEN(streaks_rain_2)
+{
+    return streaks_unseen(rg, p, streaks_particle_of(rg, p, group, i & (STREAKS_BLOCK - 1)));
+}
+
 RG_DRAW_RECORD(streaks_rain_2)
 {
     return streaks_billboard_of(rg, draw, p, i);
+}
+
+RG_DRAW_PLAIN(streaks_rain_2)
+{
+    return 1 - streaks_is(r, STREAKS_LOOK_SPLASH);
 }
 
 RG_DRAW_RECORD_LIGHT(streaks_rain_2)

@@ -67,6 +67,6 @@ ROWS = [
     Fault(IMAGE, "memcpy(first + at, pattern, «total - at < step ? total - at : step»);", "total - at < step ? 0 : step", "clearing leaves out the last texels"),
     Fault(DRAW, "cpu_emit(&mine, i, d->end - begin > size ? «begin + size» : d->end);", "begin + size - 1", "a chunk's last item is not drawn"),
     Fault(SHADE, "memset(&s->pixels, 0, «sizeof(s->pixels)»);", "0 * sizeof(s->pixels)", "vectors reach for texels that nobody has set", tests=("values, raster",)),
-    Fault(DRAW, "for (int i = draw->item_begin; i < draw->item_end; i += «CPU_BATCH»)", "CPU_BATCH + 1", "counting leaves out items"),
+    Fault(DRAW, "i = «count_batch(program, call, i, counts)»;", "count_batch(program, call, i, counts) + 1", "counting leaves out items"),
     Fault(DRAW, "counts->records += «items.fate[i] != RG_FATE_DEAD»;", "1", "items that are not seen count as records"),
 ]

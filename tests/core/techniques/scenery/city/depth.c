@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/device/work.h"
+#include "kernels/scenery/openness_grid.h"
 #include "tests/core/techniques/scenery/city/stage.h"
 #include "tests/tools/expect.h"
 
@@ -19,7 +21,7 @@ static void without_geometry_all_is_horizon(void **state)
     const struct scenery_look look = scenery_night();
     const float due[4] = {look.sky.horizon_r, look.sky.horizon_g, look.sky.horizon_b, 1};
     struct scenery_view view;
-    stage_open(*state, &(struct stage_settings){.time = SCENERY_NIGHT}, &stage);
+    stage_open(*state, &(struct stage_settings){.time = SCENERY_NIGHT, .bare = true}, &stage);
     view = (struct scenery_view){.colour = stage.colour, .depth = stage.depth};
     assert_true(scenery_draw(stage.scene, &view, &look, stage.lights, false));
     assert_true(rg_image_read(stage.colour, 0, 0, picture->colour));
@@ -38,6 +40,29 @@ static void without_geometry_all_is_horizon(void **state)
 }
 
 // --- what is left out ---
+
+static int64_t bytes_of(struct rg_device *device, bool bare)
+{
+    const int64_t before = rg_device_work(device)->live_bytes;
+    struct stage stage;
+    stage_open(device, &(struct stage_settings){.bare = bare}, &stage);
+    const int64_t bytes = rg_device_work(device)->live_bytes - before;
+    stage_close(&stage);
+    return bytes;
+}
+
+// What only light needs, textures and the openness to the sky, is not there where none is asked
+// for.
+static void what_is_never_lit_is_not_painted(void **state)
+{
+    struct stage stage;
+    stage_open(*state, &(struct stage_settings){.bare = true}, &stage);
+    const struct city *city = scenery_city(stage.scene);
+    const int64_t texels = (int64_t)city->texture_px * city->texture_px * city->texture_count;
+    stage_close(&stage);
+    assert_at_least(bytes_of(*state, false) - bytes_of(*state, true),
+                    4 * (texels + SCENERY_OPEN_WORDS));
+}
 
 static void culling_changes_no_pixel(void **state)
 {
@@ -193,6 +218,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_geometry_all_is_horizon),
+        cmocka_unit_test(what_is_never_lit_is_not_painted),
         cmocka_unit_test(culling_changes_no_pixel),
         cmocka_unit_test(depth_from_above_is_the_height),
         cmocka_unit_test(depth_is_where_rays_end),

@@ -17,6 +17,7 @@ void stage_open(struct rg_device *device, const struct stage_settings *settings,
                 struct stage *stage)
 {
     struct scenery_settings scene = {.city = {1, settings->whole ? CITY_FULL : CITY_SMALL}};
+    scene.bare = settings->bare;
     if (settings->model)
         strcpy(scene.model, settings->model);
     *stage = (struct stage){.instance = {.device = device}};

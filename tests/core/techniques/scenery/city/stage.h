@@ -28,6 +28,7 @@ struct stage_settings {
     int lights;
     bool unshadowed;
     bool whole; // the whole city, not the small one
+    bool bare;  // it cannot be lit
 };
 
 // The caller closes it.
