@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/console/duration.h"
 #include "harness/tables/claims/evidence.h"
 
 const char *rg_claim_verdict_text(enum rg_claim_verdict verdict)
@@ -105,11 +106,12 @@ static void say_launches(struct evidence *e, const struct rg_settling *s)
         return;
     if (s->is_unconfirmed)
         say(e, ", whose second half does not confirm the first");
+    char took[RG_DURATION_TEXT];
     const int left = s->needed - s->launches;
+    if (left > 0)
+        say(e, "; some %d more would probably decide", left);
     if (left > 0 && j->launch_s > 0)
-        say(e, "; some %d more would decide, %.2g hours", left, left * j->launch_s / 3600);
-    else if (left > 0)
-        say(e, "; some %d more would decide", left);
+        say(e, ", in %s", rg_duration_text(left * j->launch_s, took));
 }
 
 static struct rg_judgement judge_launches(struct evidence *e, struct rg_claim_parts *parts)

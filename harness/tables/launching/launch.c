@@ -150,7 +150,8 @@ static bool time_group(struct launch *l)
     bool ok = go_through(l, false) && go_through(l, true);
     for (int round = 1, rounds = ok ? rounds_of(l) : 0; ok && round < rounds; round++)
         ok = go_through(l, false) && go_through(l, true);
-    rg_load_since(&before, process, &stolen, &others);
+    const struct rg_load after = rg_load_now(process);
+    rg_load_shares(&before, &after, &stolen, &others);
     if (ok)
         keep(l, stolen, others);
     for (int i = 0; !ok && !rg_interrupted() && i < l->count; i++)

@@ -2,7 +2,6 @@
 
 #include <dirent.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <time.h>
 #include <unistd.h>
@@ -75,13 +74,13 @@ struct rg_load rg_load_now(pid_t worker)
     return load;
 }
 
-void rg_load_since(const struct rg_load *before, pid_t worker, double *stolen, double *others)
+void rg_load_shares(const struct rg_load *before, const struct rg_load *now, double *stolen,
+                    double *others)
 {
-    const struct rg_load now = rg_load_now(worker);
-    const double all = now.all - before->all, ran = now.ran - before->ran;
-    const double waited = fmax(now.waited - before->waited, 0);
-    const double taken = now.busy - before->busy - (now.own - before->own) - ROUNDING * tick_s();
-    *stolen = all > 0 ? fmax(now.stolen - before->stolen, 0) / all : 0;
+    const double all = now->all - before->all, ran = now->ran - before->ran;
+    const double waited = fmax(now->waited - before->waited, 0);
+    const double taken = now->busy - before->busy - (now->own - before->own) - ROUNDING * tick_s();
+    *stolen = all > 0 ? fmax(now->stolen - before->stolen, 0) / all : 0;
     *others = all > 0 ? fmax(taken, 0) / all : 0;
     if (ran + waited >
         0) // a kernel without statistics of threads leaves the other processes' share

@@ -15,10 +15,11 @@ struct rg_load {
 
 // Reads it; `worker` is the worker's process, 0: this one.
 struct rg_load rg_load_now(pid_t worker);
-// Shares since `before`: of all processor time that other machines took; and of the worker's time,
-// that it waited for a processor, as far as other processes took so much. Threads of the worker
-// that wait for each other are no disturbance, and neither is a process on a core that it leaves
-// idle.
-void rg_load_since(const struct rg_load *before, pid_t worker, double *stolen, double *others);
+// Shares between two readings: of all processor time that other machines took; and of the worker's
+// time, that it waited for a processor, as far as other processes took so much. Threads of the
+// worker that wait for each other are no disturbance, and neither is a process on a core that it
+// leaves idle.
+void rg_load_shares(const struct rg_load *before, const struct rg_load *now, double *stolen,
+                    double *others);
 
 #endif

@@ -204,3 +204,30 @@ const struct rg_table rg_table_creus_5_6 = {
     .note = "Particles are those of the packets that a frame draws. The second camera, whose "
             "number of particles is nearest (the thesis does not say which).",
 };
+
+// Ways of packing, and bounds of the selection. Without packets all 55 million particles are drawn.
+static const struct rg_table_row rows_packets[] = {
+    {"camera=second packets=grid", {0}, "grid"},
+    {"camera=second packets=quad", {0}, "quad-tree"},
+    {"camera=second packets=kd", {0}, "kd-tree"},
+};
+
+const struct rg_table rg_table_creus_packets = {
+    .technique = "streaks",
+    .width = 1280,
+    .height = 720,
+    .check_frames = 2,
+    .quick = "atlas=small city=small depth_map_px=2048",
+    .smaller = {"sparse=16", "sparse=4"},
+    .id = "creus-packets",
+    .about = "frame rate by the way of packing, and the bounds of selection (Creus, section 4.3.3)",
+    .names = "packets",
+    .variants = {{"rect", POINTS " blocks=all taps=2 select=rect", NULL},
+                 {"hull", POINTS " blocks=all taps=2 select=hull", NULL}},
+    .row_count = 3,
+    .rows = rows_packets,
+    .note =
+        "Nothing of this is in print. The thesis takes the way with the fewest packets, which is "
+        "the grid here (231, 2,124 and 2,048), and selects them by the rectangles around view and "
+        "culling radius (rect); their convex hulls are its future work (hull).",
+};
