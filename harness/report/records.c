@@ -37,7 +37,7 @@ static const char *kind_of(const json_t *document)
     return NULL;
 }
 
-static bool lacks_memory(const char *path)
+bool rg_page_lacks_memory(const char *path)
 {
     return rg_harness_error("%s: no memory for its page; name fewer records", path);
 }
@@ -49,7 +49,7 @@ static bool append(struct rg_page *page, const char *kind, const char *path, jso
         page->records = json_array();
     json_t *record = json_pack("{ss so so so*}", "kind", kind, "file", rg_json_text(path),
                                "document", document, "printed", printed);
-    return (record && !json_array_append_new(page->records, record)) || lacks_memory(path);
+    return (record && !json_array_append_new(page->records, record)) || rg_page_lacks_memory(path);
 }
 
 // --- tables ---
@@ -148,6 +148,16 @@ static bool add_records(struct rg_page *page, const char *path)
     if (!ok && *why)
         rg_error("%s", why);
     return ok && (!is_table || add_tables(page, path));
+}
+
+bool rg_page_add_text(struct rg_page *page, const char *path, const char *text)
+{
+    char why[RG_WHY_SIZE] = "";
+    size_t at = 0;
+    json_t *document = rg_document_next(path, text, strlen(text), &at, mend, why);
+    const bool ok = document ? add_document(page, path, document) : rg_error("%s", why);
+    json_decref(document);
+    return ok;
 }
 
 static bool add_markdown(struct rg_page *page, const char *path)

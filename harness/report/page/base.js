@@ -38,8 +38,12 @@ function choice(id, label, options, value, change) {
 
 const isNumber = x => typeof x === "number" && isFinite(x);
 const plural = (n, one, many) => `${n.toLocaleString("en")} ${n === 1 ? one : many || one + "s"}`;
-// A name for people: what stands behind its last underscore is often its unit.
-const words = key => String(key).replace(/_(m2_s|m|mm|px|ms|s|deg)$/, (_, unit) => ", " + (unit === "m2_s" ? "1/(m² s)" : unit)).replace(/_/g, " ");
+// A name for people, and its unit, which often stands behind its last underscore: ["culling radius", "m"].
+function nameAndUnit(key) {
+  const [, name, unit] = /^(.*?)(?:(?<!per)_(m2_s|m|mm|px|ms|s|deg))?$/.exec(String(key)) || [null, String(key)];
+  return [name.replace(/_/g, " "), unit === "m2_s" ? "1/(m² s)" : unit || ""];
+}
+const words = key => nameAndUnit(key).filter(Boolean).join(", ");
 const list = texts => texts.length < 2 ? texts.join("") : texts.slice(0, -1).join(", ") + " and " + texts[texts.length - 1];
 
 // Three digits, as many as a median is worth.
@@ -119,7 +123,7 @@ const shell = text => /^[\w.,:=/@%+-]+$/.test(text) ? text : `'${String(text).re
 
 const arrayOf = x => Array.isArray(x) ? x : [];
 const objectOf = x => x && typeof x === "object" && !Array.isArray(x) ? x : {};
-const records = kind => arrayOf(DATA.records).filter(record => record.kind === kind);
+const records = (kind, source = DATA) => arrayOf(source.records).filter(record => record.kind === kind);
 const picture = name => DATA.pictures[DATA.files[name]] || null;
 
 // Devices by name, in one order everywhere, so that each keeps its colour and its mark.

@@ -12,12 +12,13 @@ const VERDICTS = {
 const verdictOf = text => VERDICTS[text] || {mark: "•", word: String(text), cls: "other", about: "a verdict that this page does not know"};
 
 // Claims of the records, and those that were judged from their tables; each once.
-const CLAIMS = (() => {
+function claimsOf(source) {
   const all = new Map();
-  for (const document of [objectOf(DATA.claims), ...records("claims").map(record => objectOf(record.document))])
+  for (const document of [objectOf(source.claims), ...records("claims", source).map(record => objectOf(record.document))])
     for (const claim of arrayOf(document.claims)) if (claim && claim.id) all.set(claim.id, {...claim, verdicts: arrayOf(claim.verdicts)});
   return [...all.values()];
-})();
+}
+const CLAIMS = claimsOf(DATA);
 const CLAIM_DEVICES = DEVICES.filter(d => CLAIMS.some(c => c.verdicts.some(v => v.device === d.name))).map(d => d.name);
 const judged = (claim, device) => claim.verdicts.find(v => v.device === device);
 

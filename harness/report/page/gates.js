@@ -8,9 +8,10 @@ const ENDINGS = {
 };
 const endingClass = ending => ENDINGS[ending] || "bad";
 const endingOrder = ending => Object.keys(ENDINGS).indexOf(ending);
-const GATES = records("gate").map(record => ({file: record.file, document: objectOf(record.document),
+const gatesOf = source => records("gate", source).map(record => ({file: record.file, document: objectOf(record.document),
   cases: arrayOf(objectOf(record.document).gated).filter(c => c && typeof c === "object").map(c => ({...c, name: String(c.name), ratio: objectOf(c.ratio), time_ms: objectOf(c.time_ms), attachments: arrayOf(c.attachments), devices: arrayOf(c.devices)}))
     .map((c, i) => [c, i]).sort((a, b) => endingOrder(a[0].ending) - endingOrder(b[0].ending) || a[1] - b[1]).map(([c]) => c)}));
+const GATES = gatesOf(DATA);
 const fails = c => endingClass(c.ending) === "bad";
 const countsOf = gate => [...d3.rollup ? d3.rollup(gate.cases, v => v.length, c => c.ending) : d3.nest().key(c => c.ending).rollup(v => v.length).entries(gate.cases).map(e => [e.key, e.value])];
 const ending = text => el("span", {class: "ending " + endingClass(text)}, text);

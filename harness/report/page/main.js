@@ -43,6 +43,7 @@ function foundText() {
   const checks = records("verify").flatMap(r => arrayOf(r.document.checks)), bad = checks.filter(c => statusClass(c.status) === "no");
   if (checks.length) texts.push(bad.length ? `${bad.length} of ${plural(checks.length, "check")} of the models do not hold.` : `None of ${plural(checks.length, "check")} of the models fails.`);
   for (const doctor of records("doctor")) texts.push(wellText(arrayOf(doctor.document.devices)));
+  if (BEFORE) texts.push(changedText());
   if (!texts.length && TABLES.length) texts.push(`${plural(TABLES.length, "table")} with ${plural(CELLS.length, "cell")} ${TABLES.length === 1 ? "was" : "were"} measured; no paper claims anything of ${TABLES.length === 1 ? "it" : "them"}.`);
   return texts.length ? texts.join(" ") : "The records hold nothing that was measured or compared.";
 }
@@ -68,7 +69,7 @@ function viewOverview() {
 
 const VIEWS = {
   overview: ["Overview", () => true, viewOverview], claims: ["Claims", () => CLAIMS.length, viewClaims], claim: [null, () => CLAIMS.length, viewClaim],
-  tables: ["Tables", () => TABLES.length, viewTables], table: [null, () => TABLES.length, viewTable], gate: ["A and B", () => GATES.length, viewGate], ci: ["CI", () => GATES.length, viewCi],
+  tables: ["Tables", () => TABLES.length, viewTables], table: [null, () => TABLES.length, viewTable], changes: ["Changes", () => BEFORE, viewChanges], gate: ["A and B", () => GATES.length, viewGate], ci: ["CI", () => GATES.length, viewCi],
   checks: ["Checks", () => ["verify", "diff", "baseline", "bisect"].some(kind => records(kind).length), viewChecks], devices: ["Devices", () => DEVICES.length, viewDevices], pictures: ["Pictures", () => shots().length, viewPictures],
 };
 const PARENT = {claim: "claims", table: "tables"};

@@ -1,7 +1,7 @@
 "use strict";
 // Tables of papers: which rows they have, what is printed of them and what was measured.
 
-const TABLES = records("table").map(record => {
+const tablesOf = source => records("table", source).map(record => {
   const document = objectOf(record.document), cells = arrayOf(document.cells), printed = record.printed || null;
   const rows = new Map();
   for (const cell of cells) if (!rows.has(cell.row_number)) rows.set(cell.row_number, objectOf(cell.row));
@@ -10,6 +10,7 @@ const TABLES = records("table").map(record => {
     works: arrayOf(document.works).map(w => w.name), paper: printed ? printed.paper : "", about: printed ? printed.about : words(document.table),
     isTimed: document.timed !== false};
 });
+const TABLES = tablesOf(DATA);
 const tableOf = id => TABLES.find(table => table.id === id);
 const worksOf = table => table.works.length ? table.works : [undefined];
 const isCell = (cell, variant, work) => cell.variant === variant && (work === undefined || cell.work === work);
@@ -24,7 +25,7 @@ function keysOf(table) {
   return telling.length ? telling : names.slice(0, 1);
 }
 const rowText = (row, keys) => keys.filter(key => key in row)
-  .map(key => typeof row[key] === "string" && !/^(on|off)$/.test(row[key]) ? row[key] : `${words(key)} ${exact(row[key])}`).join(", ");
+  .map(key => typeof row[key] === "string" && !/^(on|off)$/.test(row[key]) ? row[key] : [nameAndUnit(key)[0], exact(row[key]), nameAndUnit(key)[1]].filter(Boolean).join(" ")).join(", ");
 
 // The axis along which rates go: the first setting of numbers that the rows have in several values. Rows that share its
 // values, as those of two cameras, are groups of their own.
@@ -177,10 +178,10 @@ function viewTable(params) {
       choice("choose-work", "Work", works.map(w => [w, w]), work, w => choose({work: w})),
       choice("choose-group", "Rows of", groups.map(([name]) => [name, name]), group[0], name => choose({group: name})),
       table.isTimed && rates.length ? choice("choose-scale", "Rates", [["fps", "frames a second"], ["first", "by the first row"]], isBy ? "first" : "fps", s => choose({scale: s})) : null),
-    table.isTimed && rates.length ? part("Print and devices", el("p", {class: "story"}, axis ? story(rates) : ""),
+    table.isTimed && rates.length ? part(rates[0].name === "print" ? "Print and devices" : "Devices", el("p", {class: "story"}, axis ? story(rates) : ""),
       plot({lines, all: rates.map(l => l.name), hidden, axis: axis ? words(axis) : null, value: isBy ? "rate by that of the first row" : "frames a second", name: table.id, isLog: !isBy || d3.max(lines.flatMap(l => l.points), p => p.value / d3.max([1e-9, 1])) > 4}),
       note("Bars are intervals that hold the median with 95 % confidence. Print has none.")) : null,
-    part("The table, print beside ours", sheet(`${table.id}, ${words(variant)}${work ? `, work ${work}` : ""}: frames a second, with the interval that holds the median with 95 % confidence`, beside.columns, beside.shown, "beside"),
+    part(table.printed && table.printed.is_published ? "The table, print beside ours" : "The table", sheet(`${table.id}, ${words(variant)}${work ? `, work ${work}` : ""}: frames a second, with the interval that holds the median with 95 % confidence`, beside.columns, beside.shown, "beside"),
       el("div", {class: "buttons"}, el("button", {type: "button", onclick: () => save(table.id + ".csv", "text/csv", csv([beside.columns.map(c => c.text || c), ...beside.plain]))}, "CSV"))),
     table.isTimed ? part("Where a frame's time goes", choice("choose-row", "Row", [...table.rows].map(([n, row]) => [String(n), rowText(row, keysOf(table))]), String(rowChoice), n => choose({row: n})),
       passesOf(table, rowChoice, variant, work)) : null,

@@ -17,7 +17,7 @@ KNOWN = os.path.join(runners.TESTS, os.pardir, "results", "expectations.txt")
 
 
 FOLDER = "gate-results"  # used in the examples
-TIMES = FOLDER + "/launches.csv"
+TIMES, PAGE = FOLDER + "/launches.csv", FOLDER + "/page.html"
 
 
 def lint(path):
@@ -42,7 +42,7 @@ def ends_in_xml(path):
 def check_gitlab(runner):
     """docs/ci/gitlab-ci.yml: what is not decided is a warning, a crash fails, and the report that it names is JUnit's"""
     problems = []
-    for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES]), (runner.crasher, "failed", ["error"], []),
+    for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES, PAGE]), (runner.crasher, "failed", ["error"], []),
                                     ("/nonexistent", "failed", ["error"], [])):  # a device that --require misses
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)

@@ -3,6 +3,7 @@
 
 FOLDER gets pictures of it. FILE is axe.min.js of axe-core (`npm pack axe-core`), which then looks for what keeps people out. The browser is Debian's chromium, without a network, and Debian's Python, for which python3-selenium is. Without either the test is skipped.
 """
+import json
 import pathlib
 import sys
 import tempfile
@@ -24,7 +25,7 @@ import made
 
 CHROMIUM, DRIVER = pathlib.Path("/usr/bin/chromium"), pathlib.Path("/usr/bin/chromedriver")
 WIDTHS = (1440, 768, 390)
-VIEWS = ("overview", "claims", "tables", "gate", "ci", "checks", "devices", "pictures")
+VIEWS = ("overview", "claims", "tables", "gate", "ci", "changes", "checks", "devices", "pictures")
 
 
 class Browser:
@@ -68,12 +69,28 @@ class Browser:
         time.sleep(0.1)
 
 
+def older_table():
+    """A table of before, in which gl took half as long, vulkan had another driver and took a tenth, and cpu failed in its first row."""
+    record = json.loads((made.TABLES / "stuppacher-2.json").read_text(encoding="utf-8"))
+    for device in record["passport"]["devices"]:
+        device["key"] = "0" * 16 if device["name"] == "vulkan" else device["key"]
+    for cell in record["cells"]:
+        del cell["checksum"]
+        by = {"gl": 0.5, "vulkan": 0.1}.get(cell["device"], 1)
+        cell["measured"]["samples_ms"] = [by * ms for ms in cell["measured"]["samples_ms"]]
+        if cell["device"] == "cpu" and cell["row_number"] == 1:
+            cell.update(status="fail", detail="its image differed")
+            del cell["measured"]
+    return record
+
+
 def make_page(raingauge, folder):
     """Tables, pictures, gates with all endings and with hostile texts, a thousand cases, and the rest."""
     pictures = {"a": lambda x, y: (4 * x, 3 * y, 90), "b": lambda x, y: (4 * x, 3 * y, 200 if (x, y) == (40, 20) else 90), "flip": lambda x, y: (0, 0, 0)}
     for kind, colour in pictures.items():
         (folder / f"flow-{kind}.png").write_bytes(made.png(64, 48, colour))
     names = [f"flow-{kind}.png" for kind in pictures]
+    (folder / "old").mkdir()
     passport = '{"devices": [{"name": "vulkan", "driver": "Mesa 22"}, {"name": "new", "driver": "Mesa 25"}]}'
     cases = [made.case("flow/pane.new", "differs", message="1 pixel differs", details="stage flow_blur", attachments=names),
              made.case("raster/torus.new", "regressed", 1.071), made.case("drops/pane.new", "inconclusive", 1.02, seconds=None),
@@ -88,7 +105,9 @@ def make_page(raingauge, folder):
                                         "devices": [{"name": "gl", "status": "ok", "why": ""}, {"name": "new", "status": "crash", "why": made.HOSTILE}]})
     made.write(folder / "baseline.json", {"format": 1, "devices": [], "baseline": [
         {"cell": "flow/pane", "device": "gl", "outcome": "ok", "launches_ms": [1, 2, 3]}, {"cell": "flow/pane", "device": "new", "outcome": "crash", "why": "it crashed"}]})
-    result = made.report(raingauge, folder, made.TABLES, made.ROOT / "docs" / "pictures.md", ".", "-o", "page.html")
+    made.write(folder / "old" / "stuppacher-2.json", older_table())
+    made.write(folder / "old" / "gate.json", made.gate(made.case("flow/pane.new"), made.case("raster/torus.new", "regressed", 1.07)))
+    result = made.report(raingauge, folder, made.TABLES, made.ROOT / "docs" / "pictures.md", ".", "--against", "old", "-o", "page.html")
     if result.returncode or result.stderr:
         raise SystemExit(f"raingauge report: {result.returncode}, {result.stderr}")
     return folder / "page.html"
@@ -222,6 +241,18 @@ def check_gate(browser, page):
     return problems
 
 
+def check_changes(browser, page):
+    """against earlier records one sees which verdicts, endings and statuses are others, and which times, where they can be compared"""
+    browser.open(page, "#changes")
+    cells = browser.ask("changedCells().filter(c => c.change).map(c => [c.cell.device, c.change])")
+    slower, status = [c for c in cells if c[1] == "slower"], [c for c in cells if c[1] == "status"]
+    text = browser.find("main")[0].text
+    problems = [] if slower and {c[0] for c in slower} == {"gl"} and {c[0] for c in status} == {"cpu"} and len(slower) + len(status) == len(cells) else [cells]
+    if "another machine, driver or setting are not held against each other" not in text or "its image differed" in text or "not there" not in text:
+        problems.append(text[:600])
+    return problems + ([] if browser.ask("changedEndings().find(([c]) => c.name === 'flow/pane.new')[1].ending") == "pass" else ["an ending"])
+
+
 def check_looks(browser, page):
     """dark where the reader prefers it, and a print has all rows and no controls"""
     browser.open(page)
@@ -273,7 +304,7 @@ def main():
         page = make_page(raingauge, pathlib.Path(folder))
         browser = Browser()
         try:
-            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_gate, check_looks, check_open_to_all], browser, page)
+            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_gate, check_changes, check_looks, check_open_to_all], browser, page)
             if len(sys.argv) > 2 and sys.argv[2] != "--axe":
                 keep_pictures(browser, page, pathlib.Path(sys.argv[2]))
         finally:

@@ -113,6 +113,7 @@ REFUSED = [
     ({"a.json": TABLE.replace('"format":1', '"format":2').replace('"format": 1', '"format": 2')}, ["a.json"], r"a\.json: .*format"),
     ({"a.json": TABLE, "b.json": TABLE}, ["a.json", "b.json"], r"b\.json: holds table 'raster-1', which a\.json holds too; name one of them"),
     ({"a.json": re.sub(r'"samples_ms": ?\[[0-9.]+', '"samples_ms":[1', TABLE, count=1)}, ["a.json"], r"a\.json: .*checksum"),
+    ({"a.json": json.dumps(JUST)}, ["a.json", "--against", "b.json"], r"b\.json: cannot be read: No such file or directory"),
     ({"a.json": json.dumps(JUST)}, ["a.json", "-o", "none/none/page.html"], r"none/none/: cannot be made: No such file or directory"),
 ]
 
