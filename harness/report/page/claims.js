@@ -15,7 +15,7 @@ const verdictOf = text => VERDICTS[text] || {mark: "•", word: String(text), cl
 function claimsOf(source) {
   const all = new Map();
   for (const document of [objectOf(source.claims), ...records("claims", source).map(record => objectOf(record.document))])
-    for (const claim of arrayOf(document.claims)) if (claim && claim.id) all.set(claim.id, {...claim, verdicts: arrayOf(claim.verdicts)});
+    for (const claim of objectsOf(document.claims)) if (typeof claim.id === "string") all.set(claim.id, {...claim, verdicts: objectsOf(claim.verdicts)});
   return [...all.values()];
 }
 const CLAIMS = claimsOf(DATA);

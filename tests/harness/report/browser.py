@@ -3,8 +3,10 @@
 
 FOLDER gets pictures of it. FILE is axe.min.js of axe-core (`npm pack axe-core`), which then looks for what keeps people out. The browser is Debian's chromium, without a network, and Debian's Python, for which python3-selenium is. Without either the test is skipped.
 """
+import copy
 import json
 import pathlib
+import random
 import sys
 import tempfile
 import time
@@ -31,7 +33,8 @@ VIEWS = ("overview", "claims", "tables", "gate", "ci", "changes", "checks", "dev
 class Browser:
     """A page in a browser without a network."""
 
-    def __init__(self):
+    def __init__(self, raingauge):
+        self.raingauge = raingauge
         options = webdriver.ChromeOptions()
         options.binary_location = str(CHROMIUM)
         for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars"):
@@ -226,6 +229,55 @@ def check_hostile(browser, page):
     return problems + ([] if browser.ask("window.hacked") is None and not browser.messages() else ["a text ran"])
 
 
+def places(value, path=()):
+    """The paths of all values in a document, of arrays the first three."""
+    inner = value.items() if isinstance(value, dict) else enumerate(value[:3]) if isinstance(value, list) else ()
+    for key, part in inner:
+        yield path + (key,)
+        yield from places(part, path + (key,))
+
+
+def changed(document, chance):
+    """A record, three of whose values are others, of other kinds too."""
+    document = copy.deepcopy(document)
+    for _ in range(3):
+        *path, last = chance.choice([path for path in places(document) if path != ("format",)])
+        inner = document
+        for key in path:
+            inner = inner[key]
+        inner[last] = copy.deepcopy(chance.choice([None, 0, -1, 1e300, "text", [], {}, [None], [1], ["a"], {"a": 1}, True, [[]], [{}]]))
+    return document
+
+
+def check_broken(browser, page):
+    """records whose values are changed by chance are shown as far as they go: no view fails, and nothing is on the console"""
+    documents = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in page.parent.glob("*.json")}
+    documents["gate-1"]["gated"] = documents["gate-1"]["gated"][:9]
+    documents["bisect"] = {"format": 1, "candidates": 3, "end": "found", "first_bad": ["a"], "judged": [{"candidate": "a", "verdict": "bad", "seconds": 1}]}
+    problems = []
+    for seed in range(10):
+        with tempfile.TemporaryDirectory() as name:
+            folder, chance = pathlib.Path(name), random.Random(seed)
+            for kind, document in documents.items():
+                other = changed(document, chance)
+                # Each kind is told by one field of one type, without which it is no record.
+                mark = {"gate": "gated", "verify": "checks", "diff": "pairs", "doctor": "warnings", "baseline": "baseline", "bisect": "candidates"}[kind.split("-")[0]]
+                if not isinstance(other.get(mark), type(document[mark])):
+                    other[mark] = document[mark]
+                made.write(folder / (kind + ".json"), other)
+            result = made.report(browser.raingauge, folder, ".", "--against", ".", "-o", "page.html")
+            if result.returncode:
+                problems.append((seed, result.stderr))
+                continue
+            browser.open(folder / "page.html")
+            for view in VIEWS + ("gate?case=flow%2Fpane.new",):
+                browser.go("#" + view)
+                if "cannot be shown" in browser.find("h1")[0].text:
+                    problems.append((seed, view, browser.find("main")[0].text))
+            problems += [(seed, message) for message in browser.messages()]
+    return problems
+
+
 def check_gate(browser, page):
     """of a gate one sees the verdict, the worst case first, an ending of tomorrow, the pixel that differs, and of many cases the worst"""
     browser.open(page, "#ci")
@@ -302,9 +354,9 @@ def main():
     raingauge = str(pathlib.Path(sys.argv[1]).resolve())
     with tempfile.TemporaryDirectory() as folder:
         page = make_page(raingauge, pathlib.Path(folder))
-        browser = Browser()
+        browser = Browser(raingauge)
         try:
-            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_gate, check_changes, check_looks, check_open_to_all], browser, page)
+            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_broken, check_gate, check_changes, check_looks, check_open_to_all], browser, page)
             if len(sys.argv) > 2 and sys.argv[2] != "--axe":
                 keep_pictures(browser, page, pathlib.Path(sys.argv[2]))
         finally:
