@@ -48,7 +48,9 @@ enum rg_page_stand {
     RG_STAND_HOLDS, // reproduced on a device, refuted on none
     RG_STAND_MIXED, // either on some
     RG_STAND_FAILS,
-    RG_STAND_OPEN, // no device settles it
+    RG_STAND_FITS,   // no device settles it, and it holds by figures of one launch
+    RG_STAND_MISSES, // likewise, but it does not on some device
+    RG_STAND_OPEN,
     RG_STANDS
 };
 // Counts claims by how they stand; `claims` may be NULL. Returns their number.

@@ -14,9 +14,9 @@ function bar(parts) {
 const total = (title, number, text, more, to) => el("section", {class: "total"}, el("h2", {}, title), el("p", {class: "number"}, number), more, el("p", {}, text), to || null);
 
 function claimsTotal() {
-  const count = stand => CLAIMS.filter(c => standOf(c) === stand).length, row = (stand, cls, text) => count(stand) ? el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, `${count(stand)} ${text}`)) : null;
-  return total("Claims", [`${count("holds")}`, el("small", {}, ` of ${CLAIMS.length} hold`)], el("ul", {class: "plain"}, row("holds", "yes", "hold wherever it is settled"), row("mixed", "bound", "hold on some devices only"), row("fails", "no", "do not hold"), row("open", "open", "are open")),
-    bar([["yes", count("holds")], ["bound", count("mixed")], ["no", count("fails")], ["open", count("open")]]));
+  const stands = standings();
+  return total("Claims", [`${standing("holds")}`, el("small", {}, ` of ${CLAIMS.length} ${standing("holds") === 1 ? "holds" : "hold"}`)],
+    el("ul", {class: "plain"}, stands.map(([stand, text, cls]) => el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, text)))), bar(stands.map(([, , cls, n]) => [cls, n])));
 }
 function devicesTotal() {
   const doctor = records("doctor")[0], asked = doctor ? objectsOf(doctor.document.devices) : DEVICES.filter(d => CELLS.some(c => c.device === d.name));
@@ -36,9 +36,8 @@ function picturesTotal() {
 }
 
 function foundText() {
-  const count = stand => CLAIMS.filter(c => standOf(c) === stand).length, papers = new Set(CLAIMS.map(c => c.paper)).size;
-  const texts = [];
-  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${count("holds")} hold here, ${count("fails")} do not, ${count("mixed")} hold on some devices only, and ${count("open")} stay open.`);
+  const papers = new Set(CLAIMS.map(c => c.paper)).size, texts = [];
+  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${list(standings().map(([, text]) => text))}.${standing("fits") + standing("misses") ? " One launch is no verdict." : ""}`);
   for (const gate of GATES.slice(-1)) texts.push(verdictLine(gate));
   const checks = records("verify").flatMap(r => objectsOf(r.document.checks)), bad = checks.filter(c => statusClass(c.status) === "no");
   if (checks.length) texts.push(bad.length ? `${bad.length} of ${plural(checks.length, "check")} of the models do not hold.` : `None of ${plural(checks.length, "check")} of the models fails.`);
