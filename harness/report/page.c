@@ -32,9 +32,10 @@ static json_t *before_json(const struct rg_page *before)
 static json_t *data_json(const struct rg_page *page, const struct rg_page *before)
 {
     return json_pack(
-        "{si ss ss si so so so so so so}", "format", RG_FORMAT_VERSION, "version", rg_build_version,
-        "commit", rg_build_commit, "pictures_left_out", page->left_out, "claims", claims_json(page),
-        "before", before_json(before), "records", or_empty(page->records, json_array), "pictures",
+        "{si ss ss si si so so so so so so}", "format", RG_FORMAT_VERSION, "version",
+        rg_build_version, "commit", rg_build_commit, "pictures_left_out", page->left_out,
+        "gates_left_out", page->gates_left_out, "claims", claims_json(page), "before",
+        before_json(before), "records", or_empty(page->records, json_array), "pictures",
         or_empty(page->pictures, json_object), "files", or_empty(page->files, json_object),
         "gallery", or_empty(page->gallery, json_array));
 }

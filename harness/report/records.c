@@ -42,6 +42,23 @@ bool rg_page_lacks_memory(const char *path)
     return rg_harness_error("%s: no memory for its page; name fewer records", path);
 }
 
+// Drops the first gate where there are too many.
+static void drop_gate(struct rg_page *page)
+{
+    size_t i;
+    json_t *record;
+    if (++page->gates <= RG_PAGE_GATES)
+        return;
+    json_array_foreach(page->records, i, record)
+    {
+        if (strcmp(json_string_value(json_object_get(record, "kind")), "gate") != 0)
+            continue;
+        json_array_remove(page->records, i);
+        page->gates_left_out++;
+        return;
+    }
+}
+
 static bool append(struct rg_page *page, const char *kind, const char *path, json_t *document,
                    json_t *printed)
 {
@@ -49,6 +66,8 @@ static bool append(struct rg_page *page, const char *kind, const char *path, jso
         page->records = json_array();
     json_t *record = json_pack("{ss so so so*}", "kind", kind, "file", rg_json_text(path),
                                "document", document, "printed", printed);
+    if (!strcmp(kind, "gate"))
+        drop_gate(page);
     return (record && !json_array_append_new(page->records, record)) || rg_page_lacks_memory(path);
 }
 

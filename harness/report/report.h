@@ -16,10 +16,14 @@ struct rg_page {
     json_t *gallery;  // array of {file, caption}: pictures that a text of Markdown shows
     int64_t picture_bytes;
     int left_out; // pictures for which there was no room
+    int gates, gates_left_out;
     struct rg_claim_outcomes outcomes;
 };
 
-enum { RG_PAGE_PICTURES = 32 << 20 }; // bytes of all pictures together
+enum {
+    RG_PAGE_PICTURES = 32 << 20, // bytes of all pictures together
+    RG_PAGE_GATES = 30,          // the last gates, of which the page shows how they went
+};
 
 // Adds a file of records, a text of Markdown with pictures, or all such files of a folder. False,
 // with one logged line that names the file, the place and the mend, where one is neither.

@@ -68,6 +68,7 @@ bool rg_gate_outputs_settle(const struct rg_reports_asked *asked, const char *pi
     if (length >= ROOM || (pictures && strlen(pictures) >= ROOM))
         return rg_error("%.80s...: is too long a path; choose a shorter one",
                         pictures ? pictures : file);
+    outputs->is_folder_asked = pictures != NULL;
     if (pictures)
         snprintf(outputs->pictures, PATH_MAX, "%s", pictures);
     else if (length)
@@ -180,15 +181,26 @@ static bool put(const struct rg_gate *gate, int number, const char *file)
     return form->write(&gate->report, stdout);
 }
 
-// Writes the page into the folder of pictures and launches, where there is one, beside what it
-// shows.
+// Whether the folder gets a page: it is there, for pictures or launches, or it was asked for and
+// something failed.
+static bool has_page(const struct rg_gate_outputs *outputs, const struct rg_report *report)
+{
+    struct stat found;
+    int failures = 0;
+    for (int i = 0; i < RG_ENDING_COUNT; i++)
+        if (rg_ending_fails((enum rg_ending)i))
+            failures += rg_report_count(report, (enum rg_ending)i);
+    return *outputs->pictures &&
+           (!stat(outputs->pictures, &found) || (outputs->is_folder_asked && failures));
+}
+
+// Writes the page into the folder of pictures and launches, beside what it shows.
 static bool write_page(const struct rg_gate_outputs *outputs, const struct rg_gate *gate)
 {
     char path[PATH_MAX + 32], *text = NULL;
     struct rg_page page = {0};
-    struct stat found;
     size_t size;
-    if (!*outputs->pictures || stat(outputs->pictures, &found) != 0)
+    if (!has_page(outputs, &gate->report))
         return true;
     snprintf(path, sizeof(path), "%s/page.html", outputs->pictures);
     FILE *out = open_memstream(&text, &size);

@@ -130,7 +130,7 @@ function lastRuns() {
     svg.append("path").attr("class", "line d0").attr("d", d3.line().defined(v => isNumber(v) && v > 0).x((v, i) => x(i)).y(v => y(v))(values));
     return svg.node();
   };
-  return part("The last runs", sheet(`Ratios of ${plural(runs.length, "run")}, in the order of their files`, ["case", "B by A", {text: "first", number: true}, {text: "last", number: true}, "last ending"], names.slice(0, 200).map(name => {
+  return part("The last runs", sheet(`Ratios of ${plural(runs.length, "run")}, in the order of their files${DATA.gates_left_out ? `; ${plural(DATA.gates_left_out, "earlier one")} left out` : ""}`, ["case", "B by A", {text: "first", number: true}, {text: "last", number: true}, "last ending"], names.slice(0, 200).map(name => {
     const at = runs.map(g => g.cases.find(c => c.name === name)).filter(Boolean);
     return [name, spark(name), ratioText(at[0]), ratioText(at[at.length - 1]), ending(at[at.length - 1].ending)];
   })));

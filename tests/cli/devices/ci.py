@@ -42,8 +42,8 @@ def ends_in_xml(path):
 def check_gitlab(runner):
     """docs/ci/gitlab-ci.yml: what is not decided is a warning, a crash fails, and the report that it names is JUnit's"""
     problems = []
-    for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES, PAGE]), (runner.crasher, "failed", ["error"], []),
-                                    ("/nonexistent", "failed", ["error"], [])):  # a device that --require misses
+    for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES, PAGE]), (runner.crasher, "failed", ["error"], [PAGE]),
+                                    ("/nonexistent", "failed", ["error"], [PAGE])):  # a device that --require misses
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
             found, log, kept, junit = runners.gitlab(runner, folder, BUDGET="0.1s")
@@ -57,8 +57,8 @@ def check_github(runner):
     """docs/ci/github.yml: annotations, a summary and files for the upload, whether the gate passes or not"""
     problems = []
     for new, status, command, head, more in ((runner.misbehaver, "success", ["warning", "notice"], "1 case, 1 inconclusive", [FOLDER]),
-                                             (runner.crasher, "failure", ["error"], "1 case, 1 crash", []),
-                                             ("/nonexistent", "failure", ["error"], "1 case, 1 error", [])):
+                                             (runner.crasher, "failure", ["error"], "1 case, 1 crash", [FOLDER]),
+                                             ("/nonexistent", "failure", ["error"], "1 case, 1 error", [FOLDER])):
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
             found, log, summary, uploaded = runners.github(runner, folder, BUDGET="0.1s")

@@ -142,9 +142,12 @@ def check_pictures(raingauge, folder):
     (inside / "pictures" / "again.png").write_bytes(red)
     (outside / "secret.png").write_bytes(blue)
     (inside / "text.png").write_text("no picture", encoding="utf-8")
+    beside = folder / "in2"
+    beside.mkdir()
+    (beside / "secret.png").write_bytes(blue)
     os.symlink(outside / "secret.png", inside / "link.png")
     os.mkfifo(inside / "pipe.png")
-    names = ["pictures/a.png", "pictures/again.png", "text.png", "link.png", "pipe.png", "../out/secret.png", str(outside / "secret.png"), "none.png"]
+    names = ["pictures/a.png", "pictures/again.png", "text.png", "link.png", "pipe.png", "../out/secret.png", "../in2/secret.png", str(outside / "secret.png"), "none.png"]
     made.write(inside / "gate.json", made.gate(made.case("a", "differs", attachments=names)))
     made.write(inside / "figures.md", "# Figures\n\n![a](pictures/a.png)\n\n**a.** Red, `all` of\nit.\n\n    raingauge render\n\n![b](../out/secret.png)\n\nNone.\n")
     data = page_of(raingauge, inside, ".")
@@ -177,6 +180,15 @@ def check_markdown(raingauge, folder):
         problems.append((len(text), rows[1]))
     text = brief(raingauge, folder, "md", made.TABLES)
     return problems + ([] if re.search(r"^Of \d+ claims that papers make, \d+ holds?, ", text, re.M) and "camera 2" in text else [text[:500]])
+
+
+def check_many(raingauge, folder):
+    """of a thousand gates the last thirty are in the page, which says how many are not"""
+    for i in range(1000):
+        made.write(folder / f"{i:04}.json", made.gate(made.case(str(i), "pass", 1.0)))
+    data = page_of(raingauge, folder, ".")
+    names = [record["document"]["gated"][0]["name"] for record in data["records"]]
+    return [] if names == [str(i) for i in range(970, 1000)] and data["gates_left_out"] == 970 else [names, data["gates_left_out"]]
 
 
 def check_stands(raingauge, folder):
@@ -215,7 +227,7 @@ def main():
                     return [error]
         checked.__doc__ = check.__doc__
         return checked
-    return made.run([in_folder(check) for check in (check_tables, check_policy, check_hostile, check_kinds, check_older, check_refused, check_pictures, check_markdown, check_stands, check_badge)])
+    return made.run([in_folder(check) for check in (check_tables, check_policy, check_hostile, check_kinds, check_older, check_refused, check_pictures, check_markdown, check_many, check_stands, check_badge)])
 
 
 if __name__ == "__main__":
