@@ -345,6 +345,9 @@ char *rg_page_badge(const struct rg_page *page)
     else if (all)
         snprintf(said, sizeof(said), "%d of %d claims hold", stands[RG_STAND_HOLDS], all);
     json_decref(claims);
-    char *text = draw(title, said, failures ? "#b3261e" : all || found.cases ? "#17733a" : "#666");
+    char *text = draw(title, said,
+                      failures                                ? "#b3261e"
+                      : stands[RG_STAND_HOLDS] || found.cases ? "#17733a"
+                                                              : "#666");
     return text ? text : rg_harness_error_null("report: no memory for a badge; name fewer records");
 }

@@ -44,6 +44,7 @@ function foundText() {
   for (const doctor of records("doctor")) texts.push(wellText(objectsOf(doctor.document.devices)));
   if (BEFORE) texts.push(changedText());
   if (!texts.length && TABLES.length) texts.push(`${plural(TABLES.length, "table")} with ${plural(CELLS.length, "cell")} ${TABLES.length === 1 ? "was" : "were"} measured; no paper claims anything of ${TABLES.length === 1 ? "it" : "them"}.`);
+  if (!texts.length && shots().length) texts.push(`${plural(shots().length, "picture")}, with what each shows.`);
   return texts.length ? texts.join(" ") : "The records hold nothing that was measured or compared.";
 }
 function overviewPlot() {
