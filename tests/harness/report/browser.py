@@ -306,14 +306,20 @@ def check_changes(browser, page):
 
 
 def check_looks(browser, page):
-    """dark where the reader prefers it, and a print has all rows and no controls"""
+    """dark where the reader prefers it, and a print has all rows, whole tables and no controls"""
     browser.open(page)
     paper = lambda: browser.ask("getComputedStyle(document.documentElement).backgroundColor")
     browser.prefer("dark")
     dark = paper()
     browser.prefer("light")
+    browser.open(page, "#table?id=creus-5.3")
+    browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    browser.size(720)
+    cut = browser.ask("[...document.querySelectorAll('table, svg')].filter(t => t.getBoundingClientRect().right > 721).length")
+    browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": [{"name": "prefers-color-scheme", "value": "light"}]})
+    browser.size(1440)
     printed = browser.driver.execute_cdp_cmd("Page.printToPDF", {})["data"]
-    return [] if dark != paper() == "rgb(255, 255, 255)" and len(printed) > 50000 else [dark, paper(), len(printed)]
+    return [] if dark != paper() == "rgb(255, 255, 255)" and len(printed) > 50000 and not cut else [dark, paper(), len(printed), cut]
 
 
 def check_open_to_all(browser, page):
