@@ -213,16 +213,35 @@ static void put_claims(struct brief *brief, const json_t *claims)
     fprintf(brief->out, "\n</details>\n");
 }
 
+// "2 hold, 1 does not hold, 15 are open."
+static void put_stands(struct brief *brief, const int stands[RG_STANDS], int all)
+{
+    static const char *const texts[RG_STANDS][2] = {
+        [RG_STAND_HOLDS] = {"holds", "hold"},
+        [RG_STAND_MIXED] = {"holds on some devices only", "hold on some devices only"},
+        [RG_STAND_FAILS] = {"does not hold", "do not hold"},
+        [RG_STAND_FITS] = {"fits by one launch alone", "fit by one launch alone"},
+        [RG_STAND_MISSES] = {"misses by one launch alone", "miss by one launch alone"},
+        [RG_STAND_OPEN] = {"is open", "are open"},
+    };
+    const char *glue = "";
+    put(brief, "Of %d claims that papers make, ", all);
+    for (int i = 0; i < RG_STANDS; i++) {
+        if (!stands[i])
+            continue;
+        put(brief, "%s%d %s", glue, stands[i], texts[i][stands[i] > 1]);
+        glue = ", ";
+    }
+    put(brief, ".%s\n",
+        stands[RG_STAND_FITS] + stands[RG_STAND_MISSES] ? " One launch is no verdict." : "");
+}
+
 static void put_counts(struct brief *brief, const struct counts *found, const json_t *claims)
 {
     int stands[RG_STANDS];
     const int all = rg_page_stands(claims, stands);
     if (all)
-        put(brief,
-            "Of %d claims that papers make, %d hold here, %d do not, %d hold on some devices only, "
-            "and %d stay open.\n",
-            all, stands[RG_STAND_HOLDS], stands[RG_STAND_FAILS], stands[RG_STAND_MIXED],
-            stands[RG_STAND_OPEN]);
+        put_stands(brief, stands, all);
     if (found->cases)
         put(brief, "Of %d cases of the gate, %d fail.\n", found->cases, found->failing);
     if (found->checks)
@@ -326,6 +345,9 @@ char *rg_page_badge(const struct rg_page *page)
     else if (all)
         snprintf(said, sizeof(said), "%d of %d claims hold", stands[RG_STAND_HOLDS], all);
     json_decref(claims);
-    char *text = draw(title, said, failures ? "#b3261e" : all || found.cases ? "#17733a" : "#666");
+    char *text = draw(title, said,
+                      failures                                ? "#b3261e"
+                      : stands[RG_STAND_HOLDS] || found.cases ? "#17733a"
+                                                              : "#666");
     return text ? text : rg_harness_error_null("report: no memory for a badge; name fewer records");
 }

@@ -16,16 +16,28 @@ static json_t *or_empty(json_t *json, json_t *(*make)(void))
     return json ? json_incref(json) : make();
 }
 
-// All that the page shows. NULL without memory.
-static json_t *data_json(const struct rg_page *page)
+static json_t *claims_json(const struct rg_page *page)
 {
-    json_t *claims = page->outcomes.count ? rg_claims_json(&page->outcomes) : json_null();
+    return page->outcomes.count ? rg_claims_json(&page->outcomes) : json_null();
+}
+
+static json_t *before_json(const struct rg_page *before)
+{
+    return before ? json_pack("{so so}", "claims", claims_json(before), "records",
+                              or_empty(before->records, json_array))
+                  : json_null();
+}
+
+// All that the page shows. NULL without memory.
+static json_t *data_json(const struct rg_page *page, const struct rg_page *before)
+{
     return json_pack(
-        "{si ss ss si so so so so so}", "format", RG_FORMAT_VERSION, "version", rg_build_version,
-        "commit", rg_build_commit, "pictures_left_out", page->left_out, "claims", claims, "records",
-        or_empty(page->records, json_array), "pictures", or_empty(page->pictures, json_object),
-        "files", or_empty(page->files, json_object), "gallery",
-        or_empty(page->gallery, json_array));
+        "{si ss ss si si so so so so so so}", "format", RG_FORMAT_VERSION, "version",
+        rg_build_version, "commit", rg_build_commit, "pictures_left_out", page->left_out,
+        "gates_left_out", page->gates_left_out, "claims", claims_json(page), "before",
+        before_json(before), "records", or_empty(page->records, json_array), "pictures",
+        or_empty(page->pictures, json_object), "files", or_empty(page->files, json_object),
+        "gallery", or_empty(page->gallery, json_array));
 }
 
 // Writes JSON so that no text in it can end the element that holds it.
@@ -40,19 +52,18 @@ static int put(const char *buffer, size_t size, void *user)
     return ferror(out) ? -1 : 0;
 }
 
-bool rg_page_write(const struct rg_page *page, const char *path)
+bool rg_page_write(const struct rg_page *page, const struct rg_page *before, const char *path)
 {
     char *text = NULL;
     size_t size;
-    json_t *data = data_json(page);
+    json_t *data = data_json(page, before);
     FILE *out = data ? open_memstream(&text, &size) : NULL;
     bool ok = out && fputs(rg_page_head, out) >= 0 &&
               !json_dump_callback(data, put, out, JSON_COMPACT | RG_JSON_FLAGS) &&
               fputs(rg_page_tail, out) >= 0;
     ok = out && !fclose(out) && ok;
     json_decref(data);
-    ok = ok ? rg_output_write_file(path, text)
-            : rg_harness_error("%s: no memory for the page; name fewer records", path);
+    ok = ok ? rg_output_write_file(path, text) : rg_page_lacks_memory(path);
     free(text);
     return ok;
 }

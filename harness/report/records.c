@@ -37,9 +37,26 @@ static const char *kind_of(const json_t *document)
     return NULL;
 }
 
-static bool lacks_memory(const char *path)
+bool rg_page_lacks_memory(const char *path)
 {
     return rg_harness_error("%s: no memory for its page; name fewer records", path);
+}
+
+// Drops the first gate where there are too many.
+static void drop_gate(struct rg_page *page)
+{
+    size_t i;
+    json_t *record;
+    if (++page->gates <= RG_PAGE_GATES)
+        return;
+    json_array_foreach(page->records, i, record)
+    {
+        if (strcmp(json_string_value(json_object_get(record, "kind")), "gate") != 0)
+            continue;
+        json_array_remove(page->records, i);
+        page->gates_left_out++;
+        return;
+    }
 }
 
 static bool append(struct rg_page *page, const char *kind, const char *path, json_t *document,
@@ -49,7 +66,9 @@ static bool append(struct rg_page *page, const char *kind, const char *path, jso
         page->records = json_array();
     json_t *record = json_pack("{ss so so so*}", "kind", kind, "file", rg_json_text(path),
                                "document", document, "printed", printed);
-    return (record && !json_array_append_new(page->records, record)) || lacks_memory(path);
+    if (!strcmp(kind, "gate"))
+        drop_gate(page);
+    return (record && !json_array_append_new(page->records, record)) || rg_page_lacks_memory(path);
 }
 
 // --- tables ---
@@ -150,6 +169,16 @@ static bool add_records(struct rg_page *page, const char *path)
     if (!ok && *why)
         rg_error("%s", why);
     return ok && (!is_table || add_tables(page, path));
+}
+
+bool rg_page_add_text(struct rg_page *page, const char *path, const char *text)
+{
+    char why[RG_WHY_SIZE] = "";
+    size_t at = 0;
+    json_t *document = rg_document_next(path, text, strlen(text), &at, mend, why);
+    const bool ok = document ? add_document(page, path, document) : rg_error("%s", why);
+    json_decref(document);
+    return ok;
 }
 
 static bool add_markdown(struct rg_page *page, const char *path)

@@ -16,18 +16,27 @@ struct rg_page {
     json_t *gallery;  // array of {file, caption}: pictures that a text of Markdown shows
     int64_t picture_bytes;
     int left_out; // pictures for which there was no room
+    int gates, gates_left_out;
     struct rg_claim_outcomes outcomes;
 };
 
-enum { RG_PAGE_PICTURES = 32 << 20 }; // bytes of all pictures together
+enum {
+    RG_PAGE_PICTURES = 32 << 20, // bytes of all pictures together
+    RG_PAGE_GATES = 30,          // the last gates, of which the page shows how they went
+};
 
 // Adds a file of records, a text of Markdown with pictures, or all such files of a folder. False,
 // with one logged line that names the file, the place and the mend, where one is neither.
 bool rg_page_add(struct rg_page *page, const char *path);
+// Adds the JSON of a record that is in memory; its pictures lie beside `path`.
+bool rg_page_add_text(struct rg_page *page, const char *path, const char *text);
+// Logs that there is no memory for a page, and returns false.
+bool rg_page_lacks_memory(const char *path);
 void rg_page_free(struct rg_page *page);
 
-// Writes the page: one file, which needs no other and no network. False, with one logged line.
-bool rg_page_write(const struct rg_page *page, const char *path);
+// Writes the page: one file, which needs no other and no network. With records from `before` (NULL:
+// none) it shows what changed since. False, with one logged line.
+bool rg_page_write(const struct rg_page *page, const struct rg_page *before, const char *path);
 
 // The same in short, as text that the caller frees: Markdown for a merge request, below
 // RG_PAGE_BRIEF bytes and without pictures, and a badge as SVG. NULL, with one logged line, without
@@ -43,7 +52,9 @@ enum rg_page_stand {
     RG_STAND_HOLDS, // reproduced on a device, refuted on none
     RG_STAND_MIXED, // either on some
     RG_STAND_FAILS,
-    RG_STAND_OPEN, // no device settles it
+    RG_STAND_FITS,   // no device settles it, and it holds by figures of one launch
+    RG_STAND_MISSES, // likewise, but it does not on some device
+    RG_STAND_OPEN,
     RG_STANDS
 };
 // Counts claims by how they stand; `claims` may be NULL. Returns their number.

@@ -3,20 +3,29 @@
 #include "harness/report/report.h"
 #include "harness/tables/claims/json.h"
 
+static bool is(const json_t *object, const char *field, const char *value)
+{
+    const char *text = json_string_value(json_object_get(object, field));
+    return text && !strcmp(text, value);
+}
+
+// Figures of one launch are no verdict, so that they count where there is none.
 static enum rg_page_stand stand_of(const json_t *claim)
 {
-    bool holds = false, fails = false;
+    bool holds = false, fails = false, fits = false, misses = false;
     size_t i;
     json_t *verdict;
     json_array_foreach(json_object_get(claim, "verdicts"), i, verdict)
     {
-        const char *text = json_string_value(json_object_get(verdict, "verdict"));
-        holds = holds || (text && !strcmp(text, rg_claim_verdict_text(RG_CLAIM_REPRODUCED)));
-        fails = fails || (text && !strcmp(text, rg_claim_verdict_text(RG_CLAIM_NOT_REPRODUCED)));
+        const bool is_one = is(verdict, "verdict", "one launch");
+        holds = holds || is(verdict, "verdict", rg_claim_verdict_text(RG_CLAIM_REPRODUCED));
+        fails = fails || is(verdict, "verdict", rg_claim_verdict_text(RG_CLAIM_NOT_REPRODUCED));
+        fits = fits || (is_one && is(verdict, "figures", "fits"));
+        misses = misses || (is_one && is(verdict, "figures", "misses"));
     }
-    if (holds && fails)
-        return RG_STAND_MIXED;
-    return holds ? RG_STAND_HOLDS : fails ? RG_STAND_FAILS : RG_STAND_OPEN;
+    if (holds || fails)
+        return holds && fails ? RG_STAND_MIXED : holds ? RG_STAND_HOLDS : RG_STAND_FAILS;
+    return misses ? RG_STAND_MISSES : fits ? RG_STAND_FITS : RG_STAND_OPEN;
 }
 
 int rg_page_stands(const json_t *claims, int counts[RG_STANDS])

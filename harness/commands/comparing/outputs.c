@@ -3,12 +3,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/pictures/pictures.h"
 #include "harness/compare/gate/sides/journal.h"
 #include "harness/record/output.h"
+#include "harness/report/report.h"
 
 #define AT_FILE(id) offsetof(struct rg_reports_asked, files[RG_AS_##id])
 #define AT_FLAG(id) offsetof(struct rg_reports_asked, flags[RG_AS_##id])
@@ -66,6 +68,7 @@ bool rg_gate_outputs_settle(const struct rg_reports_asked *asked, const char *pi
     if (length >= ROOM || (pictures && strlen(pictures) >= ROOM))
         return rg_error("%.80s...: is too long a path; choose a shorter one",
                         pictures ? pictures : file);
+    outputs->is_folder_asked = pictures != NULL;
     if (pictures)
         snprintf(outputs->pictures, PATH_MAX, "%s", pictures);
     else if (length)
@@ -178,12 +181,46 @@ static bool put(const struct rg_gate *gate, int number, const char *file)
     return form->write(&gate->report, stdout);
 }
 
+// Whether the folder gets a page: it is there, for pictures or launches, or it was asked for and
+// something failed.
+static bool has_page(const struct rg_gate_outputs *outputs, const struct rg_report *report)
+{
+    struct stat found;
+    int failures = 0;
+    for (int i = 0; i < RG_ENDING_COUNT; i++)
+        if (rg_ending_fails((enum rg_ending)i))
+            failures += rg_report_count(report, (enum rg_ending)i);
+    return *outputs->pictures &&
+           (!stat(outputs->pictures, &found) || (outputs->is_folder_asked && failures));
+}
+
+// Writes the page into the folder of pictures and launches, beside what it shows.
+static bool write_page(const struct rg_gate_outputs *outputs, const struct rg_gate *gate)
+{
+    char path[PATH_MAX + 32], *text = NULL;
+    struct rg_page page = {0};
+    size_t size;
+    if (!has_page(outputs, &gate->report))
+        return true;
+    snprintf(path, sizeof(path), "%s/page.html", outputs->pictures);
+    FILE *out = open_memstream(&text, &size);
+    bool ok = (out && rg_report_json(&gate->report, out)) || rg_page_lacks_memory(path);
+    ok = (!out || !fclose(out)) && ok && rg_page_add_text(&page, path, text) &&
+         rg_page_write(&page, NULL, path);
+    if (ok && outputs->are_written[RG_AS_TEXT] && !outputs->files[RG_AS_TEXT])
+        printf("%s: the same, to look at in a browser\n", path);
+    rg_page_free(&page);
+    free(text);
+    return ok;
+}
+
 bool rg_gate_outputs_print(const struct rg_gate_outputs *outputs, const struct rg_known *known,
                            const struct rg_gate *gate)
 {
     bool ok = true;
     for (int i = 0; i < RG_REPORT_FORM_COUNT; i++)
         ok = (!outputs->are_written[i] || put(gate, i, outputs->files[i])) && ok;
+    ok = write_page(outputs, gate) && ok;
     return (!(outputs->updates || outputs->are_written[RG_AS_TEXT]) ||
             mend_files(outputs, known, gate)) &&
            ok;

@@ -18,6 +18,7 @@ struct rg_gate_outputs {
     const char *files[RG_REPORT_FORM_COUNT]; // that they go to; NULL: none
     char junit[PATH_MAX];                    // of the two that name one
     char pictures[PATH_MAX];                 // a folder; "": none
+    bool is_folder_asked;                    // and not only beside the file of JUnit
     bool updates;                            // files of expectations are written anew
     int today;                               // harness/compare/gate/text/date.h
 };

@@ -10,8 +10,9 @@
 #include "harness/report/report.h"
 
 struct report_options {
-    char *output; // NULL: report.html, or standard output for what is short
-    int format;   // index into `formats`
+    char *against; // NULL: nothing is compared
+    char *output;  // NULL: report.html, or standard output for what is short
+    int format;    // index into `formats`
     int64_t memory_bytes;
 };
 
@@ -26,6 +27,9 @@ static const struct rg_option options[] = {
      .about = "files or folders of the JSON that commands wrote: tables, gates, baselines, diffs, "
               "verify, doctor, render; a text of Markdown gives the pictures that it shows",
      .names = RG_NAMES_FILE, .first = 1},
+    {RG_OPTION_TEXT, "against", .argument = "RECORDS",
+     .about = "a file or folder of earlier records: the page shows what changed since",
+     .offset = AT(against), .names = RG_NAMES_FILE},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_CHOICE, "format",
@@ -37,10 +41,10 @@ static const struct rg_option options[] = {
     {RG_OPTION_END},
 };
 
-static bool write_page(const struct rg_page *page, const char *path)
+static bool write_page(const struct rg_page *page, const struct rg_page *before, const char *path)
 {
-    return rg_page_write(page, path) && printf("%s: %zu records; open it in a browser\n", path,
-                                               json_array_size(page->records)) > 0;
+    return rg_page_write(page, before, path) && printf("%s: %zu records; open it in a browser\n",
+                                                       path, json_array_size(page->records)) > 0;
 }
 
 // What is short is written or printed.
@@ -59,22 +63,25 @@ static bool write_brief(const struct rg_page *page, const struct report_options 
 static int report(const void *values, const struct rg_words *arguments)
 {
     const struct report_options *o = values;
-    struct rg_page page = {0};
+    struct rg_page page = {0}, before = {0};
     rg_memory_allow(o->memory_bytes);
     bool ok = arguments->count > 0 ||
               rg_error("report: names no records; name files or folders, such as results/tables");
     for (int i = 0; ok && i < arguments->count; i++)
         ok = rg_page_add(&page, arguments->items[i]);
-    ok = ok && (o->format == FORMAT_HTML ? write_page(&page, o->output ? o->output : "report.html")
+    ok = ok && (!o->against || rg_page_add(&before, o->against));
+    ok = ok && (o->format == FORMAT_HTML ? write_page(&page, o->against ? &before : NULL,
+                                                      o->output ? o->output : "report.html")
                                          : write_brief(&page, o));
     const int exit = ok ? RG_EXIT_PASS : rg_exit_of_error();
     rg_page_free(&page);
+    rg_page_free(&before);
     return exit;
 }
 
 const struct rg_command rg_command_report = {
     .name = "report",
-    .usage = "RECORDS... [--format html|md|badge] [-o FILE]",
+    .usage = "RECORDS... [--against RECORDS] [--format html|md|badge] [-o FILE]",
     .about = "shows records as one page for people: tables, claims, gates, pictures",
     .options = options,
     .options_size = sizeof(struct report_options),

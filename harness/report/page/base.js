@@ -19,7 +19,7 @@ function el(name, attributes = {}, ...children) {
 
 // A table whose first cells of rows are heads. Columns: texts or {text, number: true, title}.
 function sheet(caption, columns, rows, cls = "") {
-  const heads = columns.map(c => typeof c === "object" ? c : {text: c});
+  const heads = columns.map(c => c && typeof c === "object" ? c : {text: c});
   return [el("p", {class: "caption", "aria-hidden": "true"}, caption), el("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": caption},
     el("table", {class: cls}, el("caption", {class: "unseen"}, caption),
       el("thead", {}, el("tr", {}, heads.map(h => el("th", {scope: "col", class: h.number ? "n" : null, title: h.title}, h.text)))),
@@ -38,8 +38,12 @@ function choice(id, label, options, value, change) {
 
 const isNumber = x => typeof x === "number" && isFinite(x);
 const plural = (n, one, many) => `${n.toLocaleString("en")} ${n === 1 ? one : many || one + "s"}`;
-// A name for people: what stands behind its last underscore is often its unit.
-const words = key => String(key).replace(/_(m2_s|m|mm|px|ms|s|deg)$/, (_, unit) => ", " + (unit === "m2_s" ? "1/(m² s)" : unit)).replace(/_/g, " ");
+// A name for people, and its unit, which often stands behind its last underscore: ["culling radius", "m"].
+function nameAndUnit(key) {
+  const [, name, unit] = /^(.*?)(?:(?<!per)_(m2_s|m|mm|px|ms|s|deg))?$/.exec(String(key)) || [null, String(key)];
+  return [name.replace(/_/g, " "), unit === "m2_s" ? "1/(m² s)" : unit || ""];
+}
+const words = key => nameAndUnit(key).filter(Boolean).join(", ");
 const list = texts => texts.length < 2 ? texts.join("") : texts.slice(0, -1).join(", ") + " and " + texts[texts.length - 1];
 
 // Three digits, as many as a median is worth.
@@ -119,7 +123,9 @@ const shell = text => /^[\w.,:=/@%+-]+$/.test(text) ? text : `'${String(text).re
 
 const arrayOf = x => Array.isArray(x) ? x : [];
 const objectOf = x => x && typeof x === "object" && !Array.isArray(x) ? x : {};
-const records = kind => arrayOf(DATA.records).filter(record => record.kind === kind);
+// The objects of an array: what a broken record has between them is left out.
+const objectsOf = x => arrayOf(x).filter(y => y && typeof y === "object" && !Array.isArray(y));
+const records = (kind, source = DATA) => arrayOf(source.records).filter(record => record.kind === kind);
 const picture = name => DATA.pictures[DATA.files[name]] || null;
 
 // Devices by name, in one order everywhere, so that each keeps its colour and its mark.
@@ -127,12 +133,12 @@ const DEVICES = (() => {
   const usual = ["cpu", "cpu:reference", "gl", "vulkan", "opencl"], found = new Map();
   for (const record of arrayOf(DATA.records)) {
     const d = objectOf(record.document);
-    for (const device of [...arrayOf(d.devices), ...arrayOf(objectOf(d.passport).devices)])
-      if (device && typeof device.name === "string" && !(found.get(device.name) || {}).driver) found.set(device.name, device);
-    for (const cell of arrayOf(d.cells)) if (!found.has(cell.device)) found.set(cell.device, {name: cell.device});
+    for (const device of objectsOf([...arrayOf(d.devices), ...arrayOf(objectOf(d.passport).devices)]))
+      if (typeof device.name === "string" && !(found.get(device.name) || {}).driver) found.set(device.name, device);
+    for (const cell of objectsOf(d.cells)) if (!found.has(cell.device)) found.set(cell.device, {name: cell.device});
   }
-  for (const claim of arrayOf(objectOf(DATA.claims).claims))
-    for (const verdict of arrayOf(claim.verdicts)) if (!found.has(verdict.device)) found.set(verdict.device, {name: verdict.device});
+  for (const claim of objectsOf(objectOf(DATA.claims).claims))
+    for (const verdict of objectsOf(claim.verdicts)) if (!found.has(verdict.device)) found.set(verdict.device, {name: verdict.device});
   const order = name => usual.includes(name) ? usual.indexOf(name) : usual.length;
   return [...found.values()].sort((a, b) => order(a.name) - order(b.name));
 })();

@@ -14,26 +14,37 @@ const VERDICTS = {
 };
 const verdictOf = text => VERDICTS[text] || {mark: "•", word: String(text), cls: "other", about: "a verdict that this page does not know"};
 
+// Figures of one launch are no verdict, but they say which way it may go.
+const FIGURES = {fits: "fits", misses: "misses", near: "near the bound"};
+const withFigures = v => v.verdict === "one launch" && FIGURES[v.figures] ? {...v, verdict: `one launch: ${FIGURES[v.figures]}`} : v;
+
 // Claims of the records, and those that were judged from their tables; each once.
-const CLAIMS = (() => {
+function claimsOf(source) {
   const all = new Map();
-  for (const document of [objectOf(DATA.claims), ...records("claims").map(record => objectOf(record.document))])
-    for (const claim of arrayOf(document.claims)) if (claim && claim.id) all.set(claim.id, {...claim, verdicts: arrayOf(claim.verdicts)});
+  for (const document of [objectOf(source.claims), ...records("claims", source).map(record => objectOf(record.document))])
+    for (const claim of objectsOf(document.claims)) if (typeof claim.id === "string") all.set(claim.id, {...claim, verdicts: objectsOf(claim.verdicts).map(withFigures)});
   return [...all.values()];
-})();
+}
+const CLAIMS = claimsOf(DATA);
 const CLAIM_DEVICES = DEVICES.filter(d => CLAIMS.some(c => c.verdicts.some(v => v.device === d.name))).map(d => d.name);
 const judged = (claim, device) => claim.verdicts.find(v => v.device === device);
 
-// How a claim stands on all devices together.
-const STANDS = {holds: "holds wherever it is settled", mixed: "holds on some devices, not on others", fails: "does not hold wherever it is settled", open: "is open on every device"};
+// How a claim stands on all devices together. Verdicts go before figures of one launch.
+const STANDS = {holds: ["holds", "hold", "yes"], mixed: ["holds on some devices only", "hold on some devices only", "bound"], fails: ["does not hold", "do not hold", "no"],
+  fits: ["fits by one launch alone", "fit by one launch alone", "fits"], misses: ["misses by one launch alone", "miss by one launch alone", "misses"], open: ["is open", "are open", "open"]};
 function standOf(claim) {
   const has = verdict => claim.verdicts.some(v => v.verdict === verdict);
-  return has("reproduced") ? has("not reproduced") ? "mixed" : "holds" : has("not reproduced") ? "fails" : "open";
+  if (has("reproduced") || has("not reproduced")) return has("reproduced") ? has("not reproduced") ? "mixed" : "holds" : "fails";
+  return has("one launch: misses") ? "misses" : has("one launch: fits") ? "fits" : "open";
 }
+const standing = stand => CLAIMS.filter(claim => standOf(claim) === stand).length;
+// How claims stand, of those that there are: [stand, "14 hold", class, how many].
+const standings = () => Object.entries(STANDS).map(([stand, [one, many, cls]]) => [stand, `${standing(stand)} ${standing(stand) === 1 ? one : many}`, cls, standing(stand)]).filter(([, , , n]) => n);
 
 const claimWords = claim => [claim.source === "said" ? `“${claim.words}”` : claim.words, claim.part ? `, ${claim.part}` : ""].join("");
 const TESTS = {
-  falls: () => "each row is slower than the one before it", order: () => "rows stand in the order of print", ratio: c => `row ${c.rows[0]} is at least ${digits(c.least)} times as fast as row ${c.rows[1]}`,
+  falls: () => "frames get slower from row to row", order: () => "rows stand in the order of print", ratio: c => `row ${c.rows[0]} is at least ${digits(c.least)} times as fast as row ${c.rows[1]}`,
+  times: c => `row ${c.rows[0]} is from ${digits(c.least)} to ${digits(c.most)} times as fast as row ${c.rows[1]}`,
   alike: c => `no two rows are more than ${digits(c.most)} times apart`, apart: c => `some two rows are more than ${digits(c.least)} times apart`,
   exponent: c => `rates go with the axis to a power between ${c.least} and ${c.most}`, faster: c => `in each row ${words(c.variant)} is at least ${digits(c.least)} times as fast as ${words(c.other_variant)}`,
   rate: c => `each row makes at least ${digits(c.least)} frames a second`, optimum: c => `one of rows ${arrayOf(c.knee_rows).join(" to ")} is faster than all others`, slowest: c => `row ${arrayOf(c.knee_rows)[0]} is slower than all others`,
@@ -76,7 +87,7 @@ function viewClaims(params) {
     el("form", {class: "choices", role: "search", onsubmit: event => event.preventDefault()},
       el("label", {class: "choice"}, "Search ", el("input", {type: "search", id: "claims-q", value: asked.q, oninput: event => choose({q: event.target.value})})),
       choice("claims-paper", "Paper", [...any, ...[...new Set(CLAIMS.map(c => c.paper))].map(p => [p, paperTitle(p)])], asked.paper, paper => choose({paper})),
-      choice("claims-stand", "Claim", [...any, ...Object.entries(STANDS)], asked.stand, stand => choose({stand})),
+      choice("claims-stand", "Claims that", [...any, ...standings().map(([stand]) => [stand, STANDS[stand][1]])], asked.stand, stand => choose({stand})),
       choice("claims-verdict", "Verdict", [...any, ...Object.keys(VERDICTS).map(v => [v, verdictOf(v).word])], asked.verdict, verdict => choose({verdict})),
       choice("claims-device", "Device", [...any, ...CLAIM_DEVICES.map(d => [d, d])], asked.device, device => choose({device}))),
     el("p", {role: "status"}, found.length === CLAIMS.length ? plural(CLAIMS.length, "claim") : `${found.length} of ${plural(CLAIMS.length, "claim")}`),
@@ -87,7 +98,7 @@ function viewClaims(params) {
 function evidence(claim) {
   const table = tableOf(claim.table), span = arrayOf(claim.rows);
   if (!table || span.length < 2) return null;
-  const work = worksOf(table)[0], inside = [...table.rows.keys()].filter(n => claim.test === "ratio" ? span.includes(n) : n >= Math.min(...span) && n <= Math.max(...span));
+  const work = worksOf(table)[0], inside = [...table.rows.keys()].filter(n => ["ratio", "times"].includes(claim.test) ? span.includes(n) : n >= Math.min(...span) && n <= Math.max(...span));
   if (claim.test === "flattens") return errorPlot(table, inside, claim.variant, work);
   const variants = [claim.variant, claim.other_variant].filter(v => v && table.variants.includes(v));
   return variants.map(variant => {
@@ -102,9 +113,16 @@ function errorPlot(table, numbers, variant, work) {
     value: objectOf((cellOf(table, n, device, variant, work) || {}).error).flip_mask_mean, low: null, high: null})).filter(p => isNumber(p.value));
   return points.length ? plot({lines: [{name: device, points}], axis: axis && words(axis), value: "error of the picture, FLIP", name: table.id + "-error", isLog: false}) : null;
 }
+// How many launches a verdict rests on, and how many more would probably decide it.
+function launchesOf(v) {
+  const counted = v.launches || v.launches_disturbed ? `${plural(v.launches || 0, "launch", "launches")}${v.launches_disturbed ? `, ${v.launches_disturbed} disturbed` : ""}` : "";
+  const more = v.launches_needed ? `${v.launches_needed} more would probably decide it${v.hours_needed ? `, ${digits(v.hours_needed)} h` : ""}` : "";
+  const today = v.today ? `today's figures: ${v.today}` : "";
+  return [counted, more, today].filter(Boolean).join("; ");
+}
 // What a verdict says besides, as newer records have it: launches, intervals.
 function extras(verdict) {
-  const known = ["device", "verdict", "why", "probability", "rows_judged", "rows_needed"];
+  const known = ["device", "verdict", "why", "probability", "rows_judged", "rows_needed", "figures", "launches", "launches_disturbed", "launches_needed", "hours_needed", "kept", "today"];
   return Object.entries(verdict).filter(([key, x]) => !known.includes(key) && (isNumber(x) || typeof x === "string" || (Array.isArray(x) && x.length <= 4 && x.every(isNumber))))
     .map(([key, x]) => `${words(key)}: ${Array.isArray(x) ? x.map(digits).join(" to ") : isNumber(x) ? digits(x) : x}`).join("; ");
 }
@@ -116,15 +134,15 @@ function bibtex(key, p) {
 function viewClaim(params) {
   const claim = CLAIMS.find(c => c.id === params.get("id")) || null;
   if (!claim) return [head("Claim"), note("This page holds no such claim. "), link("claims", {}, "All claims")];
-  const paper = PAPERS[claim.paper], i = CLAIMS.indexOf(claim), near = [CLAIMS[i - 1], CLAIMS[i + 1]], open = claim.verdicts.some(v => v.verdict === "undecided");
+  const paper = PAPERS[claim.paper], i = CLAIMS.indexOf(claim), near = [CLAIMS[i - 1], CLAIMS[i + 1]], open = claim.verdicts.some(v => v.verdict === "undecided" || String(v.verdict).startsWith("one launch")), isByLaunches = claim.verdicts.some(v => "launches" in v);
   return [head(claimWords(claim), el("p", {class: "lead"}, `${paperTitle(claim.paper)}, section ${claim.section}, about `, link("table", {id: claim.table}, claim.table), claim.source === "said" ? "." : "; the words are ours, and say what the table shows."),
       el("p", {}, "It holds where ", testOf(claim), `. It is about rows ${arrayOf(claim.rows).join(" to ")}${claim.variant && claim.variant !== "full" ? `, ${words(claim.variant)}` : ""}.`),
       claim.print_contradicts ? el("p", {class: "warn"}, "The paper's own table contradicts it.") : null),
-    part("Verdicts", sheet("The verdict on each device, and why", ["device", "verdict", "why", {text: "by chance", number: true, title: "The probability of such samples if the opposite were true"}],
-      claim.verdicts.map(v => [v.device, badge(v.verdict), [v.why || "", v.rows_judged < v.rows_needed ? ` (by ${v.rows_judged} of ${v.rows_needed} rows)` : "", extras(v) ? el("small", {}, extras(v)) : null], isNumber(v.probability) ? v.probability < 0.001 ? "< 0.001" : digits(v.probability) : "–"]))),
+    part("Verdicts", sheet("The verdict on each device, and why", ["device", "verdict, and why", {text: "by chance", number: true, title: "The probability of such samples if the opposite were true"}],
+      claim.verdicts.map(v => [v.device, [badge(v.verdict), " ", v.why || "", v.rows_judged < v.rows_needed ? ` (by ${v.rows_judged} of ${v.rows_needed} rows)` : "", launchesOf(v) ? el("small", {}, launchesOf(v)) : null, extras(v) ? el("small", {}, extras(v)) : null], isNumber(v.probability) ? v.probability < 0.001 ? "< 0.001" : digits(v.probability) : "–"]))),
     tableOf(claim.table) ? part("The rows that decide", evidence(claim)) : null,
-    part(open ? "What would decide it" : "Measure it yourself", open ? el("p", {}, "More samples: full mode takes up to four times as many, of the paper's own settings.") : null,
-      command(`raingauge table ${shell(claim.table)} --full --claims -o mine`)),
+    part(open ? "What would decide it" : "Measure it yourself", open ? el("p", {}, isByLaunches ? "Launches: new processes, each of which gives one figure." : "More samples, of the paper's own settings.") : null,
+      command(isByLaunches ? `raingauge claims ${shell(claim.table)} -o mine` : `raingauge table ${shell(claim.table)} --full --claims -o mine`)),
     paper ? part("Cite", el("pre", {}, bibtex(claim.paper, paper) + "\n\n" + bibtex("raingauge", {...SOFTWARE, type: "misc"}))) : null,
     el("p", {class: "near"}, near[0] ? link("claim", {id: near[0].id}, "Previous claim") : null, " ", link("claims", {}, "All claims"), " ", near[1] ? link("claim", {id: near[1].id}, "Next claim") : null)];
 }

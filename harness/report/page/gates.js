@@ -8,9 +8,12 @@ const ENDINGS = {
 };
 const endingClass = ending => ENDINGS[ending] || "bad";
 const endingOrder = ending => Object.keys(ENDINGS).indexOf(ending);
-const GATES = records("gate").map(record => ({file: record.file, document: objectOf(record.document),
-  cases: arrayOf(objectOf(record.document).gated).filter(c => c && typeof c === "object").map(c => ({...c, name: String(c.name), ratio: objectOf(c.ratio), time_ms: objectOf(c.time_ms), attachments: arrayOf(c.attachments), devices: arrayOf(c.devices)}))
+// A ratio with its interval, without what is no ratio.
+const positive = x => Object.fromEntries(Object.entries(objectOf(x)).filter(([, v]) => isNumber(v) && v > 0));
+const gatesOf = source => records("gate", source).map(record => ({file: record.file, document: objectOf(record.document),
+  cases: objectsOf(objectOf(record.document).gated).map(c => ({...c, name: String(c.name), ratio: positive(c.ratio), time_ms: objectOf(c.time_ms), attachments: arrayOf(c.attachments), devices: arrayOf(c.devices)}))
     .map((c, i) => [c, i]).sort((a, b) => endingOrder(a[0].ending) - endingOrder(b[0].ending) || a[1] - b[1]).map(([c]) => c)}));
+const GATES = gatesOf(DATA);
 const fails = c => endingClass(c.ending) === "bad";
 const countsOf = gate => [...d3.rollup ? d3.rollup(gate.cases, v => v.length, c => c.ending) : d3.nest().key(c => c.ending).rollup(v => v.length).entries(gate.cases).map(e => [e.key, e.value])];
 const ending = text => el("span", {class: "ending " + endingClass(text)}, text);
@@ -31,7 +34,7 @@ const intervalText = c => isNumber(c.ratio.low) && isNumber(c.ratio.high) ? `${r
 function sides(gate) {
   let passport = {};
   try { passport = objectOf(JSON.parse(gate.document.passport_text)); } catch (error) { return el("pre", {class: "passport"}, gate.document.passport_text || ""); }
-  const devices = arrayOf(passport.devices), named = (d, i) => [devices.length === 2 ? "AB"[i] + ": " + d.name : d.name, d.driver, d.device, arrayOf(d.libraries).map(l => `${l.path} (${String(l.build).slice(0, 12)})`).join(", ")];
+  const devices = objectsOf(passport.devices), named = (d, i) => [devices.length === 2 ? "AB"[i] + ": " + d.name : d.name, d.driver, d.device, objectsOf(d.libraries).map(l => `${l.path} (${String(l.build).slice(0, 12)})`).join(", ")];
   return sheet("What was compared; B is held against A", ["side", "driver", "device", "code that draws"], devices.map(named));
 }
 
@@ -110,7 +113,7 @@ function viewGate(params) {
 
 // Bars of the seconds that cases took, the longest first.
 function secondsSheet(gate) {
-  const sum = d3.sum(gate.cases, c => c.seconds || 0), top = [...gate.cases].filter(c => isNumber(c.seconds)).sort((a, b) => b.seconds - a.seconds).slice(0, 12);
+  const sum = d3.sum(gate.cases, c => isNumber(c.seconds) ? c.seconds : 0), top = [...gate.cases].filter(c => isNumber(c.seconds)).sort((a, b) => b.seconds - a.seconds).slice(0, 12);
   return top.length ? [el("p", {}, `All cases took ${seconds(sum)}.`), sheet("The cases that took longest", ["case", {text: "took", number: true}, {text: "share", number: true}],
     top.map(c => [c.name, seconds(c.seconds), [`${Math.round(100 * c.seconds / sum)} % `, el("meter", {min: 0, max: 1, value: c.seconds / sum, "aria-hidden": "true"})]]))] : note("No case says how long it took.");
 }
@@ -127,7 +130,7 @@ function lastRuns() {
     svg.append("path").attr("class", "line d0").attr("d", d3.line().defined(v => isNumber(v) && v > 0).x((v, i) => x(i)).y(v => y(v))(values));
     return svg.node();
   };
-  return part("The last runs", sheet(`Ratios of ${plural(runs.length, "run")}, in the order of their files`, ["case", "B by A", {text: "first", number: true}, {text: "last", number: true}, "last ending"], names.slice(0, 200).map(name => {
+  return part("The last runs", sheet(`Ratios of ${plural(runs.length, "run")}, in the order of their files${DATA.gates_left_out ? `; ${plural(DATA.gates_left_out, "earlier one")} left out` : ""}`, ["case", "B by A", {text: "first", number: true}, {text: "last", number: true}, "last ending"], names.slice(0, 200).map(name => {
     const at = runs.map(g => g.cases.find(c => c.name === name)).filter(Boolean);
     return [name, spark(name), ratioText(at[0]), ratioText(at[at.length - 1]), ending(at[at.length - 1].ending)];
   })));

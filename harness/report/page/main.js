@@ -14,19 +14,19 @@ function bar(parts) {
 const total = (title, number, text, more, to) => el("section", {class: "total"}, el("h2", {}, title), el("p", {class: "number"}, number), more, el("p", {}, text), to || null);
 
 function claimsTotal() {
-  const count = stand => CLAIMS.filter(c => standOf(c) === stand).length, row = (stand, cls, text) => count(stand) ? el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, `${count(stand)} ${text}`)) : null;
-  return total("Claims", [`${count("holds")}`, el("small", {}, ` of ${CLAIMS.length} hold`)], el("ul", {class: "plain"}, row("holds", "yes", "hold wherever it is settled"), row("mixed", "bound", "hold on some devices only"), row("fails", "no", "do not hold"), row("open", "open", "are open")),
-    bar([["yes", count("holds")], ["bound", count("mixed")], ["no", count("fails")], ["open", count("open")]]));
+  const stands = standings();
+  return total("Claims", [`${standing("holds")}`, el("small", {}, ` of ${CLAIMS.length} ${standing("holds") === 1 ? "holds" : "hold"}`)],
+    el("ul", {class: "plain"}, stands.map(([stand, text, cls]) => el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, text)))), bar(stands.map(([, , cls, n]) => [cls, n])));
 }
 function devicesTotal() {
-  const doctor = records("doctor")[0], asked = doctor ? arrayOf(doctor.document.devices) : DEVICES.filter(d => CELLS.some(c => c.device === d.name));
+  const doctor = records("doctor")[0], asked = doctor ? objectsOf(doctor.document.devices) : DEVICES.filter(d => CELLS.some(c => c.device === d.name));
   const isWell = d => doctor ? d.status === "ok" : !CELLS.some(c => c.device === d.name && ["fail", "error", "crash", "timeout"].includes(c.status));
   const well = asked.filter(isWell), ill = asked.filter(d => !isWell(d));
   if (!asked.length) return null;
   return total("Devices", [`${well.length}`, el("small", {}, ` of ${asked.length} are well`)], [doctor ? "They compute and draw what C does. " : "Each did all that was asked of it. ", ill.length ? `Not: ${list(ill.map(d => d.name))}. ` : "", link("devices", {}, "The devices")], bar([["yes", well.length], ["no", ill.length]]));
 }
 function picturesTotal() {
-  const cells = CELLS.filter(c => ["ok", "fail"].includes(c.status) && objectOf(c.measured).ms !== undefined || c.status === "fail"), pairs = records("diff").flatMap(r => arrayOf(r.document.pairs));
+  const cells = CELLS.filter(c => ["ok", "fail"].includes(c.status) && objectOf(c.measured).ms !== undefined || c.status === "fail"), pairs = records("diff").flatMap(r => objectsOf(r.document.pairs));
   const gated = GATES.flatMap(g => g.cases).filter(c => ["pass", "differs", "regressed", "improved", "inconclusive"].includes(c.ending));
   const software = name => (DEVICES.find(d => d.name === name) || {}).software !== false;
   const same = cells.filter(c => c.status === "ok").length + pairs.filter(p => p.tier === "T0").length + gated.filter(c => c.ending !== "differs").length, all = cells.length + pairs.length + gated.length;
@@ -36,14 +36,15 @@ function picturesTotal() {
 }
 
 function foundText() {
-  const count = stand => CLAIMS.filter(c => standOf(c) === stand).length, papers = new Set(CLAIMS.map(c => c.paper)).size;
-  const texts = [];
-  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${count("holds")} hold here, ${count("fails")} do not, ${count("mixed")} hold on some devices only, and ${count("open")} stay open.`);
+  const papers = new Set(CLAIMS.map(c => c.paper)).size, texts = [];
+  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${list(standings().map(([, text]) => text))}.${standing("fits") + standing("misses") ? " One launch is no verdict." : ""}`);
   for (const gate of GATES.slice(-1)) texts.push(verdictLine(gate));
-  const checks = records("verify").flatMap(r => arrayOf(r.document.checks)), bad = checks.filter(c => statusClass(c.status) === "no");
+  const checks = records("verify").flatMap(r => objectsOf(r.document.checks)), bad = checks.filter(c => statusClass(c.status) === "no");
   if (checks.length) texts.push(bad.length ? `${bad.length} of ${plural(checks.length, "check")} of the models do not hold.` : `None of ${plural(checks.length, "check")} of the models fails.`);
-  for (const doctor of records("doctor")) texts.push(wellText(arrayOf(doctor.document.devices)));
+  for (const doctor of records("doctor")) texts.push(wellText(objectsOf(doctor.document.devices)));
+  if (BEFORE) texts.push(changedText());
   if (!texts.length && TABLES.length) texts.push(`${plural(TABLES.length, "table")} with ${plural(CELLS.length, "cell")} ${TABLES.length === 1 ? "was" : "were"} measured; no paper claims anything of ${TABLES.length === 1 ? "it" : "them"}.`);
+  if (!texts.length && shots().length) texts.push(`${plural(shots().length, "picture")}, with what each shows.`);
   return texts.length ? texts.join(" ") : "The records hold nothing that was measured or compared.";
 }
 function overviewPlot() {
@@ -68,7 +69,7 @@ function viewOverview() {
 
 const VIEWS = {
   overview: ["Overview", () => true, viewOverview], claims: ["Claims", () => CLAIMS.length, viewClaims], claim: [null, () => CLAIMS.length, viewClaim],
-  tables: ["Tables", () => TABLES.length, viewTables], table: [null, () => TABLES.length, viewTable], gate: ["A and B", () => GATES.length, viewGate], ci: ["CI", () => GATES.length, viewCi],
+  tables: ["Tables", () => TABLES.length, viewTables], table: [null, () => TABLES.length, viewTable], changes: ["Changes", () => BEFORE, viewChanges], gate: ["A and B", () => GATES.length, viewGate], ci: ["CI", () => GATES.length, viewCi],
   checks: ["Checks", () => ["verify", "diff", "baseline", "bisect"].some(kind => records(kind).length), viewChecks], devices: ["Devices", () => DEVICES.length, viewDevices], pictures: ["Pictures", () => shots().length, viewPictures],
 };
 const PARENT = {claim: "claims", table: "tables"};
@@ -78,7 +79,9 @@ function show() {
   const {view, params} = place(), name = VIEWS[view] && VIEWS[view][1]() ? view : "overview", main = document.getElementById("main");
   const focused = document.activeElement && main.contains(document.activeElement) ? document.activeElement : null, id = focused && focused.id, at = focused && "selectionStart" in focused ? focused.selectionStart : null;
   document.getElementById("nav").replaceChildren(...Object.entries(VIEWS).filter(([, [text, has]]) => text && has()).map(([key, [text]]) => el("a", {href: href(key), "aria-current": (PARENT[name] || name) === key ? "page" : null}, text)));
-  main.replaceChildren(...VIEWS[name][2](params).flat(9).filter(Boolean));
+  let shown;
+  try { shown = VIEWS[name][2](params); } catch (error) { shown = [head("This view cannot be shown"), note(`A record is not as docs/records.md says: ${error.message}. The other views may be whole.`)]; }
+  main.replaceChildren(...shown.flat(9).filter(Boolean));
   const title = main.querySelector("h1");
   document.title = name === "overview" ? "raingauge" : `${title ? title.textContent : name} - raingauge`;
   const again = id && document.getElementById(id);

@@ -126,7 +126,7 @@ function plot(asked) {
   const told = {...asked, axis: isOver ? axis : null};
   const toggle = line => choose({hide: hidden.includes(line) ? hidden.filter(h => h !== line).join(",") : [...hidden, line].join(",")});
   const key = line => { const svg = svgOf(18, 14, ""); svg.attr("role", null).attr("aria-label", null).attr("aria-hidden", "true").append("path").attr("class", "mark " + deviceClass(line)).attr("d", markOf(line)).attr("transform", "translate(9,7)"); return svg.node(); };
-  const legend = all && el("div", {class: "legend", role: "group", "aria-label": "Lines that are shown"}, all.map(line =>
+  const legend = !all ? el("ul", {class: "legend"}, lines.map(line => el("li", {}, key(line.name), line.name))) : el("div", {class: "legend", role: "group", "aria-label": "Lines that are shown"}, all.map(line =>
     el("button", {type: "button", id: "line-" + line, "aria-pressed": hidden.includes(line) ? "false" : "true", onclick: () => toggle(line)}, key(line), line)));
   if (!points.length) return el("figure", {class: "plot"}, legend, note("Nothing is shown: choose a line."));
   const svg = isOver ? drawAxis(told) : drawNamed(told), rows = plotRows(told);

@@ -1,7 +1,7 @@
 "use strict";
 // Tables of papers: which rows they have, what is printed of them and what was measured.
 
-const TABLES = records("table").map(record => {
+const tablesOf = source => records("table", source).map(record => {
   const document = objectOf(record.document), cells = arrayOf(document.cells), printed = record.printed || null;
   const rows = new Map();
   for (const cell of cells) if (!rows.has(cell.row_number)) rows.set(cell.row_number, objectOf(cell.row));
@@ -10,6 +10,7 @@ const TABLES = records("table").map(record => {
     works: arrayOf(document.works).map(w => w.name), paper: printed ? printed.paper : "", about: printed ? printed.about : words(document.table),
     isTimed: document.timed !== false};
 });
+const TABLES = tablesOf(DATA);
 const tableOf = id => TABLES.find(table => table.id === id);
 const worksOf = table => table.works.length ? table.works : [undefined];
 const isCell = (cell, variant, work) => cell.variant === variant && (work === undefined || cell.work === work);
@@ -24,7 +25,7 @@ function keysOf(table) {
   return telling.length ? telling : names.slice(0, 1);
 }
 const rowText = (row, keys) => keys.filter(key => key in row)
-  .map(key => typeof row[key] === "string" && !/^(on|off)$/.test(row[key]) ? row[key] : `${words(key)} ${exact(row[key])}`).join(", ");
+  .map(key => typeof row[key] === "string" && !/^(on|off)$/.test(row[key]) ? row[key] : [nameAndUnit(key)[0], exact(row[key]), nameAndUnit(key)[1]].filter(Boolean).join(" ")).join(", ");
 
 // The axis along which rates go: the first setting of numbers that the rows have in several values. Rows that share its
 // values, as those of two cameras, are groups of their own.
@@ -119,7 +120,8 @@ function besideRows(table, numbers, variant, work) {
     plain.push([...keys.map(key => row[key]), ...extra.map(([, i]) => values[i]), ...cells.map(c => { const r = rateOf(c); return r ? r.value : c ? c.status : ""; })]);
     shown.push([...front, ...cells.map(cell => {
       const rate = rateOf(cell);
-      if (rate) return [digits(rate.value), el("small", {}, between(rate.low, rate.high))];
+      const print = table.printed && (work === undefined || work === "paper") ? printedRate(table, number, variant) : null;
+      if (rate) return [digits(rate.value), el("small", {}, between(rate.low, rate.high)), print ? el("small", {}, `${Number((rate.value / print.value).toPrecision(2))} x print`) : null];
       if (!cell) return "";
       if (cell.status !== "ok") return el("span", {class: "bad", title: cell.detail || ""}, cell.status);
       return Object.entries(objectOf(cell.measured)).map(([, v]) => exact(v)).join(" x ");
@@ -143,12 +145,20 @@ function passesOf(table, number, variant, work) {
       {cls: "sum", cells: ["all passes", ...bars.map(b => `${digits(sum(b))} ms`)]}], "passes");
 }
 
+// What the rows drew, as devices tell it: models that stand in for a paper's, and the like.
+function inputsOf(table) {
+  const told = new Map();
+  for (const cell of table.cells)
+    for (const [name, value] of Object.entries(objectOf(cell.facts)))
+      if (typeof value === "string" && !/hash$/.test(name)) told.set(name, new Set([...(told.get(name) || []), value]));
+  return [...told].map(([name, values]) => `${words(name)}: ${[...values].slice(0, 8).join(", ")}`).join("; ");
+}
 function tableFacts(table) {
   const d = table.document, machine = objectOf(objectOf(d.passport).machine), made = objectOf(objectOf(d.passport).raingauge);
   const work = arrayOf(d.works).map(w => `${w.name}: ${w.reading || w.saves || "what was printed"}`);
   return el("dl", {class: "facts"}, [["Print's machine", d.hardware], ["Our machine", [machine.cpu, machine.cores_allowed ? plural(machine.cores_allowed, "core") : "", machine.distribution].filter(Boolean).join(", ")],
     ["Length", [d.length, d.quick ? `with ${d.quick} instead of the paper's own` : ""].filter(Boolean).join(", ")], ["Picture", arrayOf(d.size_px).join(" x ")],
-    ["Changed", d.changed], ["Works", work.join("; ")], ["Note", d.note], ["Interrupted", d.interrupted ? "rows are missing, for the run was interrupted" : ""],
+    ["Changed", d.changed], ["Works", work.join("; ")], ["Inputs", inputsOf(table)], ["Note", d.note], ["Interrupted", d.interrupted ? "rows are missing, for the run was interrupted" : ""],
     ["Missing", arrayOf(d.missing).join(" ")], ["Commit", made.commit], ["Record", table.file]]
     .filter(([, text]) => text).map(([name, text]) => [el("dt", {}, name), el("dd", {}, String(text))]));
 }
@@ -175,12 +185,13 @@ function viewTable(params) {
       choice("choose-table", "Table", TABLES.map(t => [t.id, t.id]), table.id, id => { location.hash = href("table", {id}); }),
       choice("choose-variant", "What is timed", table.variants.map(v => [v, words(v)]), variant, v => choose({variant: v})),
       choice("choose-work", "Work", works.map(w => [w, w]), work, w => choose({work: w})),
-      choice("choose-group", "Rows of", groups.map(([name]) => [name, name]), group[0], name => choose({group: name})),
+      !table.isTimed ? null : choice("choose-group", "Rows of", groups.map(([name]) => [name, name]), group[0], name => choose({group: name})),
       table.isTimed && rates.length ? choice("choose-scale", "Rates", [["fps", "frames a second"], ["first", "by the first row"]], isBy ? "first" : "fps", s => choose({scale: s})) : null),
-    table.isTimed && rates.length ? part("Print and devices", el("p", {class: "story"}, axis ? story(rates) : ""),
+    table.isTimed && rates.length ? part(rates[0].name === "print" ? "Print and devices" : "Devices", el("p", {class: "story"}, axis ? story(rates) : ""),
       plot({lines, all: rates.map(l => l.name), hidden, axis: axis ? words(axis) : null, value: isBy ? "rate by that of the first row" : "frames a second", name: table.id, isLog: !isBy || d3.max(lines.flatMap(l => l.points), p => p.value / d3.max([1e-9, 1])) > 4}),
       note("Bars are intervals that hold the median with 95 % confidence. Print has none.")) : null,
-    part("The table, print beside ours", sheet(`${table.id}, ${words(variant)}${work ? `, work ${work}` : ""}: frames a second, with the interval that holds the median with 95 % confidence`, beside.columns, beside.shown, "beside"),
+    part(table.printed && table.printed.is_published ? "The table, print beside ours" : "The table", sheet(table.isTimed ? `${table.id}, ${words(variant)}${work ? `, work ${work}` : ""}: frames a second, the interval that holds the median with 95 % confidence, and how many times print that is`
+      : `${table.id}: width and height in pixels`, beside.columns, beside.shown, "beside"),
       el("div", {class: "buttons"}, el("button", {type: "button", onclick: () => save(table.id + ".csv", "text/csv", csv([beside.columns.map(c => c.text || c), ...beside.plain]))}, "CSV"))),
     table.isTimed ? part("Where a frame's time goes", choice("choose-row", "Row", [...table.rows].map(([n, row]) => [String(n), rowText(row, keysOf(table))]), String(rowChoice), n => choose({row: n})),
       passesOf(table, rowChoice, variant, work)) : null,

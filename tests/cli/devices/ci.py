@@ -17,7 +17,7 @@ KNOWN = os.path.join(runners.TESTS, os.pardir, "results", "expectations.txt")
 
 
 FOLDER = "gate-results"  # used in the examples
-TIMES = FOLDER + "/launches.csv"
+TIMES, PAGE = FOLDER + "/launches.csv", FOLDER + "/page.html"
 
 
 def undecided(service, runner, folder):
@@ -53,8 +53,8 @@ def ends_in_xml(path):
 def check_gitlab(runner):
     """docs/ci/gitlab-ci.yml: what is not decided is a warning, a crash fails, and the report that it names is JUnit's"""
     problems = []
-    for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES]), (runner.crasher, "failed", ["error"], []),
-                                    ("/nonexistent", "failed", ["error"], [])):  # a device that --require misses
+    for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES, PAGE]), (runner.crasher, "failed", ["error"], [PAGE]),
+                                    ("/nonexistent", "failed", ["error"], [PAGE])):  # a device that --require misses
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
             found, log, kept, junit = undecided(runners.gitlab, runner, folder)
@@ -68,8 +68,8 @@ def check_github(runner):
     """docs/ci/github.yml: annotations, a summary and files for the upload, whether the gate passes or not"""
     problems = []
     for new, status, command, head, more in ((runner.misbehaver, "success", ["warning", "notice"], "1 case, 1 inconclusive", [FOLDER]),
-                                             (runner.crasher, "failure", ["error"], "1 case, 1 crash", []),
-                                             ("/nonexistent", "failure", ["error"], "1 case, 1 error", [])):
+                                             (runner.crasher, "failure", ["error"], "1 case, 1 crash", [FOLDER]),
+                                             ("/nonexistent", "failure", ["error"], "1 case, 1 error", [FOLDER])):
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
             found, log, summary, uploaded = undecided(runners.github, runner, folder)

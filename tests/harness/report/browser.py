@@ -3,7 +3,10 @@
 
 FOLDER gets pictures of it. FILE is axe.min.js of axe-core (`npm pack axe-core`), which then looks for what keeps people out. The browser is Debian's chromium, without a network, and Debian's Python, for which python3-selenium is. Without either the test is skipped.
 """
+import copy
+import json
 import pathlib
+import random
 import sys
 import tempfile
 import time
@@ -24,13 +27,14 @@ import made
 
 CHROMIUM, DRIVER = pathlib.Path("/usr/bin/chromium"), pathlib.Path("/usr/bin/chromedriver")
 WIDTHS = (1440, 768, 390)
-VIEWS = ("overview", "claims", "tables", "gate", "ci", "checks", "devices", "pictures")
+VIEWS = ("overview", "claims", "tables", "gate", "ci", "changes", "checks", "devices", "pictures")
 
 
 class Browser:
     """A page in a browser without a network."""
 
-    def __init__(self):
+    def __init__(self, raingauge):
+        self.raingauge = raingauge
         options = webdriver.ChromeOptions()
         options.binary_location = str(CHROMIUM)
         for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars"):
@@ -68,12 +72,28 @@ class Browser:
         time.sleep(0.1)
 
 
+def older_table():
+    """A table of before, in which gl took half as long, vulkan had another driver and took a tenth, and cpu failed in its first row."""
+    record = json.loads((made.TABLES / "stuppacher-2.json").read_text(encoding="utf-8"))
+    for device in record["passport"]["devices"]:
+        device["key"] = "0" * 16 if device["name"] == "vulkan" else device["key"]
+    for cell in record["cells"]:
+        del cell["checksum"]
+        by = {"gl": 0.5, "vulkan": 0.1}.get(cell["device"], 1)
+        cell["measured"]["samples_ms"] = [by * ms for ms in cell["measured"]["samples_ms"]]
+        if cell["device"] == "cpu" and cell["row_number"] == 1:
+            cell.update(status="fail", detail="its image differed")
+            del cell["measured"]
+    return record
+
+
 def make_page(raingauge, folder):
     """Tables, pictures, gates with all endings and with hostile texts, a thousand cases, and the rest."""
     pictures = {"a": lambda x, y: (4 * x, 3 * y, 90), "b": lambda x, y: (4 * x, 3 * y, 200 if (x, y) == (40, 20) else 90), "flip": lambda x, y: (0, 0, 0)}
     for kind, colour in pictures.items():
         (folder / f"flow-{kind}.png").write_bytes(made.png(64, 48, colour))
     names = [f"flow-{kind}.png" for kind in pictures]
+    (folder / "old").mkdir()
     passport = '{"devices": [{"name": "vulkan", "driver": "Mesa 22"}, {"name": "new", "driver": "Mesa 25"}]}'
     cases = [made.case("flow/pane.new", "differs", message="1 pixel differs", details="stage flow_blur", attachments=names),
              made.case("raster/torus.new", "regressed", 1.071), made.case("drops/pane.new", "inconclusive", 1.02, seconds=None),
@@ -88,7 +108,9 @@ def make_page(raingauge, folder):
                                         "devices": [{"name": "gl", "status": "ok", "why": ""}, {"name": "new", "status": "crash", "why": made.HOSTILE}]})
     made.write(folder / "baseline.json", {"format": 1, "devices": [], "baseline": [
         {"cell": "flow/pane", "device": "gl", "outcome": "ok", "launches_ms": [1, 2, 3]}, {"cell": "flow/pane", "device": "new", "outcome": "crash", "why": "it crashed"}]})
-    result = made.report(raingauge, folder, made.TABLES, made.ROOT / "docs" / "pictures.md", ".", "-o", "page.html")
+    made.write(folder / "old" / "stuppacher-2.json", older_table())
+    made.write(folder / "old" / "gate.json", made.gate(made.case("flow/pane.new"), made.case("raster/torus.new", "regressed", 1.07)))
+    result = made.report(raingauge, folder, made.TABLES, made.ROOT / "docs" / "pictures.md", ".", "--against", "old", "-o", "page.html")
     if result.returncode or result.stderr:
         raise SystemExit(f"raingauge report: {result.returncode}, {result.stderr}")
     return folder / "page.html"
@@ -207,6 +229,55 @@ def check_hostile(browser, page):
     return problems + ([] if browser.ask("window.hacked") is None and not browser.messages() else ["a text ran"])
 
 
+def places(value, path=()):
+    """The paths of all values in a document, of arrays the first three."""
+    inner = value.items() if isinstance(value, dict) else enumerate(value[:3]) if isinstance(value, list) else ()
+    for key, part in inner:
+        yield path + (key,)
+        yield from places(part, path + (key,))
+
+
+def changed(document, chance):
+    """A record, three of whose values are others, of other kinds too."""
+    document = copy.deepcopy(document)
+    for _ in range(3):
+        *path, last = chance.choice([path for path in places(document) if path != ("format",)])
+        inner = document
+        for key in path:
+            inner = inner[key]
+        inner[last] = copy.deepcopy(chance.choice([None, 0, -1, 1e300, "text", [], {}, [None], [1], ["a"], {"a": 1}, True, [[]], [{}]]))
+    return document
+
+
+def check_broken(browser, page):
+    """records whose values are changed by chance are shown as far as they go: no view fails, and nothing is on the console"""
+    documents = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in page.parent.glob("*.json")}
+    documents["gate-1"]["gated"] = documents["gate-1"]["gated"][:9]
+    documents["bisect"] = {"format": 1, "candidates": 3, "end": "found", "first_bad": ["a"], "judged": [{"candidate": "a", "verdict": "bad", "seconds": 1}]}
+    problems = []
+    for seed in range(10):
+        with tempfile.TemporaryDirectory() as name:
+            folder, chance = pathlib.Path(name), random.Random(seed)
+            for kind, document in documents.items():
+                other = changed(document, chance)
+                # Each kind is told by one field of one type, without which it is no record.
+                mark = {"gate": "gated", "verify": "checks", "diff": "pairs", "doctor": "warnings", "baseline": "baseline", "bisect": "candidates"}[kind.split("-")[0]]
+                if not isinstance(other.get(mark), type(document[mark])):
+                    other[mark] = document[mark]
+                made.write(folder / (kind + ".json"), other)
+            result = made.report(browser.raingauge, folder, ".", "--against", ".", "-o", "page.html")
+            if result.returncode:
+                problems.append((seed, result.stderr))
+                continue
+            browser.open(folder / "page.html")
+            for view in VIEWS + ("gate?case=flow%2Fpane.new",):
+                browser.go("#" + view)
+                if "cannot be shown" in browser.find("h1")[0].text:
+                    problems.append((seed, view, browser.find("main")[0].text))
+            problems += [(seed, message) for message in browser.messages()]
+    return problems
+
+
 def check_gate(browser, page):
     """of a gate one sees the verdict, the worst case first, an ending of tomorrow, the pixel that differs, and of many cases the worst"""
     browser.open(page, "#ci")
@@ -222,15 +293,33 @@ def check_gate(browser, page):
     return problems
 
 
+def check_changes(browser, page):
+    """against earlier records one sees which verdicts, endings and statuses are others, and which times, where they can be compared"""
+    browser.open(page, "#changes")
+    cells = browser.ask("changedCells().filter(c => c.change).map(c => [c.cell.device, c.change])")
+    slower, status = [c for c in cells if c[1] == "slower"], [c for c in cells if c[1] == "status"]
+    text = browser.find("main")[0].text
+    problems = [] if slower and {c[0] for c in slower} == {"gl"} and {c[0] for c in status} == {"cpu"} and len(slower) + len(status) == len(cells) else [cells]
+    if "another machine, driver or setting are not held against each other" not in text or "its image differed" in text or "not there" not in text:
+        problems.append(text[:600])
+    return problems + ([] if browser.ask("changedEndings().find(([c]) => c.name === 'flow/pane.new')[1].ending") == "pass" else ["an ending"])
+
+
 def check_looks(browser, page):
-    """dark where the reader prefers it, and a print has all rows and no controls"""
+    """dark where the reader prefers it, and a print has all rows, whole tables and no controls"""
     browser.open(page)
     paper = lambda: browser.ask("getComputedStyle(document.documentElement).backgroundColor")
     browser.prefer("dark")
     dark = paper()
     browser.prefer("light")
+    browser.open(page, "#table?id=creus-5.3")
+    browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    browser.size(720)
+    cut = browser.ask("[...document.querySelectorAll('table, svg')].filter(t => t.getBoundingClientRect().right > 721).length")
+    browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": [{"name": "prefers-color-scheme", "value": "light"}]})
+    browser.size(1440)
     printed = browser.driver.execute_cdp_cmd("Page.printToPDF", {})["data"]
-    return [] if dark != paper() == "rgb(255, 255, 255)" and len(printed) > 50000 else [dark, paper(), len(printed)]
+    return [] if dark != paper() == "rgb(255, 255, 255)" and len(printed) > 50000 and not cut else [dark, paper(), len(printed), cut]
 
 
 def check_open_to_all(browser, page):
@@ -271,9 +360,9 @@ def main():
     raingauge = str(pathlib.Path(sys.argv[1]).resolve())
     with tempfile.TemporaryDirectory() as folder:
         page = make_page(raingauge, pathlib.Path(folder))
-        browser = Browser()
+        browser = Browser(raingauge)
         try:
-            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_gate, check_looks, check_open_to_all], browser, page)
+            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_broken, check_gate, check_changes, check_looks, check_open_to_all], browser, page)
             if len(sys.argv) > 2 and sys.argv[2] != "--axe":
                 keep_pictures(browser, page, pathlib.Path(sys.argv[2]))
         finally:

@@ -1,0 +1,61 @@
+"use strict";
+// What changed since earlier records (`--against`): verdicts, endings, statuses and times.
+
+const BEFORE = DATA.before ? {tables: tablesOf(DATA.before), claims: claimsOf(DATA.before), gates: gatesOf(DATA.before)} : null;
+// Two runs of one program differ by some per cent though nothing has changed, so that less is no change.
+const RUNS_DIFFER = 0.1;
+
+const keyOf = (table, device) => (arrayOf(objectOf(table.document.passport).devices).find(d => d.name === device) || {}).key;
+
+// Verdicts that are others now: claim, device, then, now.
+function changedVerdicts() {
+  return CLAIMS.flatMap(claim => {
+    const before = BEFORE.claims.find(c => c.id === claim.id);
+    return before ? claim.verdicts.map(v => [claim, v.device, judged(before, v.device), v]).filter(([, , then, now]) => then && then.verdict !== now.verdict) : [];
+  });
+}
+function changedEndings() {
+  const now = GATES[GATES.length - 1], then = BEFORE.gates[BEFORE.gates.length - 1];
+  if (!now || !then) return [];
+  return now.cases.map(c => [c, then.cases.find(k => k.name === c.name)]).filter(([c, k]) => !k || k.ending !== c.ending);
+}
+
+// Cells of both runs. A time changed if it did by more than runs differ, and the intervals of both lie apart; times of
+// another machine or driver (another comparison key) are not held against each other.
+const changedCells = (() => {
+  let found = null;
+  return () => found || (found = TABLES.flatMap(table => {
+    const before = BEFORE.tables.find(t => t.id === table.id);
+    return before ? cellsOfBoth(table, before) : [];
+  }));
+})();
+function cellsOfBoth(table, before) {
+  const nameOf = c => [c.row_number, c.device, c.variant, c.work].join("\n"), then = new Map(before.cells.map(c => [nameOf(c), c]));
+  return table.cells.filter(c => then.has(nameOf(c))).map(cell => {
+    const old = then.get(nameOf(cell)), a = rateOf(old), b = rateOf(cell), isComparable = keyOf(table, cell.device) && keyOf(table, cell.device) === keyOf(before, cell.device) && old.set === cell.set;
+    const ratio = a && b ? {value: a.value / b.value, low: a.low / b.high, high: a.high / b.low} : null;
+    const isApart = ratio && isComparable && a.low && b.low && (ratio.low > 1 || ratio.high < 1) && Math.abs(Math.log(ratio.value)) > Math.log(1 + RUNS_DIFFER);
+    return {table, cell, old, ratio, isComparable, change: old.status !== cell.status ? "status" : isApart ? ratio.value > 1 ? "slower" : "faster" : null};
+  });
+}
+const cellName = ({table, cell}) => [link("table", {id: table.id, variant: cell.variant, work: cell.work}, table.id), " ", rowText(objectOf(cell.row), keysOf(table)), cell.variant !== "full" ? `, ${words(cell.variant)}` : "", cell.work ? `, ${cell.work}` : ""];
+
+function changedText() {
+  const cells = changedCells(), count = change => cells.filter(c => c.change === change).length;
+  const told = [[changedVerdicts().length, "verdict"], [changedEndings().length, "case"], [count("status"), "cell of tables by its status", "cells of tables by their status"], [count("slower"), "cell that is slower", "cells that are slower"], [count("faster"), "cell that is faster", "cells that are faster"]]
+    .filter(([n]) => n).map(([n, one, many]) => plural(n, one, many));
+  return told.length ? `Changed since the earlier records: ${list(told)}.` : "Nothing changed since the earlier records.";
+}
+
+function viewChanges() {
+  const cells = changedCells(), timed = cells.filter(c => c.change === "slower" || c.change === "faster").sort((a, b) => Math.abs(Math.log(b.ratio.value)) - Math.abs(Math.log(a.ratio.value)));
+  const verdicts = changedVerdicts(), endings = changedEndings(), others = cells.filter(c => c.change === "status"), foreign = cells.filter(c => c.ratio && !c.isComparable).length;
+  return [head("Changes", el("p", {class: "lead"}, changedText())),
+    verdicts.length ? part("Verdicts", sheet("Claims with another verdict", ["claim", "device", "then", "now", "why now"], verdicts.map(([claim, device, then, now]) => [link("claim", {id: claim.id}, claimWords(claim)), device, badge(then.verdict), badge(now.verdict), now.why || ""]))) : null,
+    endings.length ? part("Cases of the gate", sheet("Cases that ended otherwise", ["case", "then", "now", "why now"], endings.map(([c, k]) => [link("gate", {case: c.name}, c.name), k ? ending(k.ending) : "not there", ending(c.ending), c.message || ""]))) : null,
+    others.length ? part("Cells", sheet("Cells of tables with another status", ["cell", "device", "then", "now", "why now"], others.map(c => [cellName(c), c.cell.device, status(c.old.status, c.old.detail), status(c.cell.status, c.cell.detail), c.cell.detail || ""]))) : null,
+    part("Times", el("p", {}, `${timed.length} of ${plural(cells.filter(c => c.ratio && c.isComparable).length, "cell")} changed: by more than ${100 * RUNS_DIFFER} %, which two runs may differ by, with intervals that lie apart.`,
+      foreign ? ` ${plural(foreign, "cell")} of another machine, driver or setting ${foreign === 1 ? "is" : "are"} not held against each other.` : ""),
+      timed.length ? sheet("Time of a frame now by then, the largest change first", ["cell", "device", {text: "then, ms", number: true}, {text: "now, ms", number: true}, {text: "now by then", number: true}, {text: "interval", number: true}],
+        timed.slice(0, 200).map(c => [cellName(c), c.cell.device, digits(c.old.measured.ms), digits(c.cell.measured.ms), el("span", {class: c.change === "slower" ? "no" : "yes"}, ratioDigits(c.ratio.value)), `${ratioDigits(c.ratio.low)} to ${ratioDigits(c.ratio.high)}`])) : null)];
+}

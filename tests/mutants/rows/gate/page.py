@@ -1,0 +1,22 @@
+"""The page: which records and pictures are taken, what stands in it, and the same in short."""
+from fault import Fault
+
+TESTS = ("the page",)
+
+RECORDS, PICTURES, PAGE = "harness/report/records.c", "harness/report/pictures.c", "harness/report/page.c"
+BRIEF, STANDS = "harness/report/brief.c", "harness/report/stands.c"
+
+ROWS = [
+    Fault(RECORDS, "if («json_integer_value(format) != RG_FORMAT_VERSION»)", "false", "a record of a newer format is shown as one of this"),
+    Fault(RECORDS, "if (other && «!strcmp(other, table)»)", "false", "a table of two files has two verdicts on each claim"),
+    Fault(RECORDS, "if («++page->gates <= RG_PAGE_GATES»)", "true", "a thousand gates are a page that no browser opens"),
+    Fault(RECORDS, "json_object_del(measured, \"samples_ms\");", ";", "every sample is in the page"),
+    Fault(PICTURES, "realpath(path, found) && «(is_below(found, folder) || is_below(found, \".\"))»", "true", "a record has a private picture published"),
+    Fault(PICTURES, "(path[length] == '/' || «whole[length - 1] == '/'»)", "true", "a folder whose name begins alike is below"),
+    Fault(PICTURES, "«!memcmp(bytes, png_begins, sizeof(png_begins))»;", "true", "a text is taken for a picture"),
+    Fault(PAGE, "if («buffer[i] == '<'»)", "false", "a text of a record ends the page's data"),
+    Fault(BRIEF, "if («c == '@'»)", "false", "a text calls a user"),
+    Fault(BRIEF, "«brief->size + (size_t)length > RG_PAGE_BRIEF - ROOM_FOR_END»", "false", "a merge request is told more than it takes"),
+    Fault(BRIEF, "(is(record, \"kind\", \"gate\") && «i != last_gate»)", "false", "gates of earlier runs are told as found now"),
+    Fault(STANDS, "if («holds || fails»)", "holds && fails", "figures of one launch go before verdicts"),
+]
