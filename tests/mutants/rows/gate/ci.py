@@ -73,7 +73,7 @@ ROWS = [
     Fault(RUN, "fmax(left_ms, 0) / «(rg_gate_courses(r) - pair)»", "1", "a device of two builds leaves nothing of the budget to the next", tests=("command line, gates",)),
     Fault(RUN, "    if («exit != RG_EXIT_INCONCLUSIVE» ||", "true", "a budget in which nothing is decided is no bad budget", tests=("command line, gates",)),
     Fault(RUN, "|| !(asked->budget_s > 0) || «r->has_looked»)", "false", "a gate that decides something has a bad budget", tests=("command line, gates",)),
-    Fault(RUN, "const bool over = «is_over(r)»,", "false", "cells are compared after the budget's end", tests=("command line, gates",)),
+    Fault(RUN, "const bool over = «is_over(r)» && c", "false", "cells are compared after the budget's end", tests=("command line, gates",)),
     Fault(RUN, "const bool is_done = ok && !rg_interrupted() && «found != RG_EXIT_USAGE»;", "true", "launches within a budget that was too short are lost", tests=("command line, gates",)),
     Fault(TIMES, "«(t->launch ? due_ms : now_ms)» >= t->end_ms);", "now_ms", "a gate that cannot decide anything goes on to its budget's end", tests=("command line, gates",)),
     Fault(TIMES, "timed->is_over = t->end_ms > 0 && now_ms + «more_ms» >= t->end_ms;", "0", "a baseline makes a gate longer than its budget", tests=("command line, baselines",)),
