@@ -9,7 +9,7 @@ import tempfile
 
 import forms
 import misbehaving
-from gates import AT_ONCE, SCHEMA, TORUS, Files, endings, is_refused
+from gates import AT_ONCE, SCHEMA, TORUS, Files, endings, needed_s
 from wrong import RIGHT, TURNED
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
@@ -428,8 +428,9 @@ def check_long(runner):
             change(path, lengthen)
             result = gate(runner, files, path, "--budget", "30s", *AT_ONCE)
         cases = json.loads(result.stdout)["gated"]
-        said = is_refused(result) if status == 2 else not result.stderr
-        if result.returncode != status or not said or cases[-1]["message"] != "the time was over before it was decided":
+        said = needed_s(result) if status == 2 else not result.stderr
+        if result.returncode != status or not said or cases[-1]["message"] != "the time was over before it was decided" or (
+                "launches" in cases[-1]["details"]):
             problems.append("exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
     return problems
 
