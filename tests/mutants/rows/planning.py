@@ -29,6 +29,7 @@ ROWS = [
     Fault(MEASURE, "rg_now_ms() + «open_ms» + rows * row_ms", "0", "the samples of what is open take nothing", tests=("within a budget",)),
     Fault("harness/tables/claims/evidence.c", "if («claim->test == RG_CLAIM_RATE && e->result->size_divisor > 1») {", "false", "a rate of small pictures is judged", tests=("verdicts",)),
     Fault(PROGRESS, "if («p->is_unlike» || p->due_ms < 0)", "false", "tables that follow are taken to be like the first", tests=("progress", "time left")),
+    Fault(MEASURE, "? fmax(«(now_ms - m->first_ms) / done_ms», 1) : 0;", "0.0", "what is left goes on as the warm-up did", tests=("time left",)),
     Fault(MEASURE, "    rg_progress_due(m.bar, «-1»);", "1e7", "a time is told before rows are open", tests=("time left",)),
     Fault(MEASURE, "ms += is_whole ? 0 : «rg_jobs_expected_ms(job, 1, &m->options)»;", "1", "what open jobs take is not told", tests=("time left",)),
     Fault("harness/measure/measure.c", "return «open_ms * (1 + (double)s->samples / (fit > 1 ? fit : 1))»;", "0.0", "windows that are opened anew take no time", tests=("time left",)),
