@@ -332,6 +332,17 @@ void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_opt
     free(rounds.order);
 }
 
+// Opening a session anew each time a window has no room for another sample, and once for passes.
+// Its check frames count as drawn ones, though most are only simulated.
+static double windows_ms(const struct rg_job *job, const struct rg_sampling *s)
+{
+    if (!job->window_frames)
+        return 0;
+    const int fit = job->window_frames / (s->frames_a_sample + s->has_run_up);
+    const double open_ms = job->record->create_ms + job->check_frames * job->warm_frame_ms;
+    return open_ms * (1 + (double)s->samples / (fit > 1 ? fit : 1));
+}
+
 double rg_jobs_expected_ms(const struct rg_job *jobs, int count,
                            const struct rg_measure_options *options)
 {
@@ -344,7 +355,7 @@ double rg_jobs_expected_ms(const struct rg_job *jobs, int count,
             rg_sampling_of(jobs[i].warm_frame_ms, jobs[i].window_frames, options);
         if (record->wanted_samples)
             sampling.samples = record->wanted_samples - record->sample_count;
-        ms += rg_sampling_ms(&sampling, jobs[i].warm_frame_ms);
+        ms += rg_sampling_ms(&sampling, jobs[i].warm_frame_ms) + windows_ms(&jobs[i], &sampling);
     }
     return ms;
 }

@@ -14,8 +14,8 @@
 // wanted; another call takes the rest, even for jobs whose sessions were closed, and for records
 // read from a file.
 void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_options *options);
-// The expected duration of that call in milliseconds, from the last frame of each warm-up; without
-// reopening.
+// The expected duration of that call in milliseconds, from the last frame of each warm-up, with the
+// sessions that are opened anew for windows of frames; without reopening what was closed.
 double rg_jobs_expected_ms(const struct rg_job *jobs, int count,
                            const struct rg_measure_options *options);
 

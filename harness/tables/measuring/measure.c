@@ -40,6 +40,8 @@ struct measuring {
     int group_count;
     struct group *now; // the visited group
     double share;      // part of the group's samples that this visit takes
+    // When the first round of this visit was over (0: it is not), and what was left then.
+    double first_ms, first_left_ms;
     int64_t units;     // of the bar, for samples of this visit
     double kept_ms;    // time of the last save
     int64_t available; // memory in bytes when the group began
@@ -72,12 +74,27 @@ static double samples_left_ms(const struct measuring *m)
     return ms;
 }
 
+// The time that samples take, by what was expected, since the first round of this visit. Frames may
+// take longer than the last one of the warm-up, on a busy machine above all. They are not taken to
+// be faster, for the first of a window come before it is opened anew. 0: not known yet.
+static double pace_of(struct measuring *m, double left_ms)
+{
+    const double now_ms = rg_now_ms(), done_ms = m->first_left_ms - left_ms;
+    if (!(m->first_ms > 0)) {
+        m->first_ms = now_ms;
+        m->first_left_ms = left_ms;
+        return 0;
+    }
+    return 20 * done_ms > m->first_left_ms ? fmax((now_ms - m->first_ms) / done_ms, 1) : 0;
+}
+
 static void show_share(double share, void *user)
 {
     struct measuring *m = user;
     const int64_t units = (int64_t)((double)m->now->units * m->share * share);
-    if (m->now->last_row == m->result->last_row || m->options.share > m->share)
-        rg_progress_due(m->bar, samples_left_ms(m));
+    const double left_ms = samples_left_ms(m), pace = pace_of(m, left_ms);
+    if (pace > 0 && (m->now->last_row == m->result->last_row || m->options.share > m->share))
+        rg_progress_due(m->bar, pace * left_ms);
     rg_progress_add(m->bar, units - m->units);
     m->units = units;
     if (share < 1 && rg_now_ms() - m->kept_ms > KEEP_EVERY_MS)
@@ -271,6 +288,7 @@ static void visit(struct measuring *m, struct group *group, int visits, int numb
     m->units = 0;
     m->share = 1.0 / visits;
     m->options.share = (double)(number + 1) / visits;
+    m->first_ms = 0;
     rg_progress_label(m->bar, "%s, rows %d-%d in turn%s", m->table->id, group->first_row + 1,
                       group->last_row + 1, number ? ", again" : "");
     if (!rg_interrupted() && group->job_count)

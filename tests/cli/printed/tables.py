@@ -110,11 +110,13 @@ def check_busy(runner):
     try:
         for args in (TABLE + "--json", SWEEP + "--json"):
             ran = runner.run(args.split(), env={"RG_PROBE_S": "0.3"})
-            cell = json.loads(ran.stdout)["cells"][0]["measured"]
+            cells = [cell["measured"] for cell in json.loads(ran.stdout)["cells"]]
             if not re.match("raingauge: warning: others take [0-9]+ % of this machine's processors, .*; end them, or measure later\n", ran.stderr):
                 problems.append("not told first: %s" % ran.stderr)
-            if len(cell["taken"]) != len(cell["samples_ms"]) or cell["disturbed"] < 1 or cell["retaken"] < 1 or max(cell["taken"]) < 0.05:
-                problems.append("not noticed: %s" % cell)
+            problems += ["not noticed: %s" % cell for cell in cells
+                         if len(cell["taken"]) != len(cell["samples_ms"]) or cell["disturbed"] != sum(share > 0.05 for share in cell["taken"])]
+            if not all(sum(cell[name] for cell in cells) for name in ("disturbed", "retaken")):
+                problems.append("no cell is disturbed, or none was taken again: %s" % cells)
         told = runner.run(TABLE.split(), env={"RG_PROBE_S": "0"}).stderr
         problems += ["told without a probe: %s" % told] if "others take" in told else []
     finally:

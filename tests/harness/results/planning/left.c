@@ -190,6 +190,33 @@ static void rows_that_are_alike_are_told(void **state)
     assert_below(told.lines[0].at_ms - told.start_ms, 0.6 * (end_ms - told.start_ms));
 }
 
+// Frames take five times as long as those of the warm-up.
+static void samples_tell_their_pace(void **state)
+{
+    (void)state;
+    static struct uneven u;
+    const struct rg_table *const tables[] = {&u.table};
+    make(&u, "slow", 20, alike, 1);
+    u.table.variants[0].set = "late_ms=200 late_frame=16";
+    const double end_ms = run(tables, 1);
+    assert_at_least(told.count, 3);
+    assert_int_equal(right(end_ms, 2), told.count);
+}
+
+// A window of frames ends after each second sample, and the next takes an instance anew.
+static void windows_are_foretold(void **state)
+{
+    (void)state;
+    static struct uneven u;
+    const struct rg_table *const tables[] = {&u.table};
+    make(&u, "slow", 20, alike, 1);
+    u.table.variants[0].set = "open_ms=2000";
+    u.table.window_frames = 5;
+    const double end_ms = run(tables, 1);
+    assert_at_least(told.count, 3);
+    assert_int_equal(right(end_ms, 3), told.count);
+}
+
 // What a table takes that is not begun does not follow from others.
 static void tables_that_follow_are_not_foretold(void **state)
 {
@@ -212,6 +239,8 @@ int main(void)
         return 1;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_that_are_alike_are_told),
+        cmocka_unit_test(samples_tell_their_pace),
+        cmocka_unit_test(windows_are_foretold),
         cmocka_unit_test(tables_that_follow_are_not_foretold),
         cmocka_unit_test(what_is_told_is_right_within_three_times),
     };
