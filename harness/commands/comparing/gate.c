@@ -293,13 +293,13 @@ static bool can_search(const struct gate_input *in)
 }
 
 // Each device of the baseline that is asked for is a B without an A.
-static void pair_devices(const struct gate_options *o, struct gate_input *in)
+static void pair_devices(const struct gate_options *o, const struct rg_baseline *baseline,
+                         struct rg_gate_pairs *pairs)
 {
-    for (int i = 0; i < in->baseline.device_count; i++) {
-        const char *name = in->baseline.devices[i].name;
+    for (int i = 0; i < baseline->device_count; i++) {
+        const char *name = baseline->devices[i].name;
         if (rg_baseline_asks(o->devices.names, name))
-            snprintf(in->pairs.all[in->pairs.count++].names[RG_SIDE_B], RG_DEVICE_NAME_SIZE, "%s",
-                     name);
+            memcpy(pairs->all[pairs->count++].names[RG_SIDE_B], name, RG_DEVICE_NAME_SIZE);
     }
 }
 
@@ -322,7 +322,7 @@ static bool read_baseline(const struct gate_options *o, struct gate_input *in)
         !rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
                           o->cells ? o->cells : "built-in cells", o->devices.names))
         return false;
-    pair_devices(o, in);
+    pair_devices(o, &in->baseline, &in->pairs);
     return knows_devices(o->baseline, &in->pairs) && has_times(o, &in->baseline);
 }
 

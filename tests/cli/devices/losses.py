@@ -221,7 +221,7 @@ def check_unprinted(runner):
 def check_sweep_unprinted(runner):
     """a sweep that cannot be printed goes on with its rows, unless they are of other axes or it is to be fresh"""
     problems = []
-    sweep = "sweep flow --axis resolution_px=%s --set environment=sky --set environment_px=16 --size 32x32 --device cpu --quick"
+    sweep = "sweep flow --axis resolution_px=%s --set environment=sky --set environment_px=16 --size 32x32 --device cpu --quick --wide"
     resumed = "2 of 2 rows are those of a run that was interrupted"
     with tempfile.TemporaryDirectory() as tmp:
         with open("/dev/full", "w") as full:
