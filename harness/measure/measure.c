@@ -295,7 +295,7 @@ static void measure(struct rounds *r, const struct rg_measure_options *options)
     rg_calibration_take(&r->calibration);
     r->watch = options->watch;
     r->end_ms = options->end_ms;
-    r->patience = PATIENCE;
+    r->patience = rg_probe_ms() > 0 ? PATIENCE : 0;
     begin_batch(r);
     for (int round = 0; round < last && !rg_interrupted(); round++) {
         if (do_round(r, round))

@@ -116,11 +116,16 @@ struct rg_processors rg_processors_now(const pid_t *ours, int our_count)
     return rg_processors_read("", ours, our_count);
 }
 
+double rg_probe_ms(void)
+{
+    const char *given = getenv("RG_PROBE_S");
+    return 1e3 * (given ? strtod(given, NULL) : 1);
+}
+
 void rg_machine_probe(rg_watch *watch)
 {
     enum { STEP_MS = 10 };
-    const char *given = getenv("RG_PROBE_S");
-    const double probe_ms = 1e3 * (given ? strtod(given, NULL) : 1);
+    const double probe_ms = rg_probe_ms();
     const struct rg_processors before = watch(NULL, 0);
     while (rg_now_ms() < before.at_ms + probe_ms && !rg_interrupted())
         nanosleep(&(struct timespec){.tv_nsec = STEP_MS * 1000000}, NULL);

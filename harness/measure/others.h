@@ -29,7 +29,10 @@ rg_watch rg_processors_now;
 // What others took between two readings with the same processes; zeros if that is not known.
 struct rg_taken rg_taken_between(const struct rg_processors *before,
                                  const struct rg_processors *after);
-// Looks for a second (RG_PROBE_S), in which this process does nothing, whether the machine is busy,
+// For how long to look whether the machine is busy, from RG_PROBE_S. 0: it is known to be, so that
+// nobody looks, and no sample is taken again.
+double rg_probe_ms(void);
+// Looks for that time, in which this process does nothing, whether the machine is busy,
 // by readings of `watch`, and logs one warning if it is. Ends early on an interruption.
 void rg_machine_probe(rg_watch *watch);
 
