@@ -8,9 +8,8 @@
 const struct rg_settle_rule rg_settle_rule = {
     .error = 0.01, .near = 0.04879016416943205, .look_count = 4, .looks = {12, 24, 48, 96}};
 
-// The quantile of the standard normal distribution behind 95 %: the chance with which `needed`
-// launches settle a claim.
-#define POWER_95 1.645
+// The chance with which `needed` launches do not settle a claim.
+#define MISSED 0.05
 
 // --- one part ---
 
@@ -119,7 +118,7 @@ static int needed_for(const struct rg_settle_rule *rule, const struct rg_settle_
     s->spread = rg_gate_spread(values, units, median);
     const double off = fabs(inside_by(part, median));
     const double least = fmax(off, rule->near - off); // at least half of `near`
-    const double quantile = rg_gate_upper_quantile(tail_of(rule)) + POWER_95;
+    const double quantile = rg_gate_upper_quantile(tail_of(rule)) + rg_gate_upper_quantile(MISSED);
     const double launches =
         pow(RG_GATE_SQRT_HALF_PI * s->spread * quantile / least, 2) * count / units;
     int needed = rule->looks[0];

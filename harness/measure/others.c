@@ -1,6 +1,7 @@
 #define _GNU_SOURCE // sched_getaffinity
 #include "harness/measure/others.h"
 
+#include <dirent.h>
 #include <math.h>
 #include <sched.h>
 #include <stdio.h>
@@ -75,6 +76,33 @@ static double ended_children_ms(void)
            (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec) * 1e-3;
 }
 
+// Adds a thread's time on a processor, and the time that it was ready to run without one.
+static void add_thread(pid_t process, const char *thread, struct rg_processors *now)
+{
+    unsigned long long ran_ns, waited_ns;
+    char path[64];
+    snprintf(path, sizeof(path), "/proc/%d/task/%.16s/schedstat", (int)process, thread);
+    FILE *file = fopen(path, "r");
+    if (file && fscanf(file, "%llu %llu", &ran_ns, &waited_ns) == 2) {
+        now->ran_ms += 1e-6 * (double)ran_ns;
+        now->waited_ms += 1e-6 * (double)waited_ns;
+    }
+    if (file)
+        fclose(file);
+}
+
+static void read_threads(pid_t process, struct rg_processors *now)
+{
+    char path[64];
+    snprintf(path, sizeof(path), "/proc/%d/task", (int)process);
+    DIR *folder = opendir(path);
+    for (const struct dirent *entry; folder && (entry = readdir(folder));)
+        if (*entry->d_name != '.')
+            add_thread(process, entry->d_name, now);
+    if (folder)
+        closedir(folder);
+}
+
 struct rg_processors rg_processors_read(const char *root, const pid_t *ours, int our_count)
 {
     char path[1024];
@@ -91,6 +119,7 @@ struct rg_processors rg_processors_read(const char *root, const pid_t *ours, int
     for (int i = 0; i < our_count; i++) {
         clockid_t clock;
         now.own_ms += clock_getcpuclockid(ours[i], &clock) ? (double)NAN : process_ms(clock);
+        read_threads(ours[i], &now);
     }
     return now;
 }
@@ -103,11 +132,15 @@ struct rg_taken rg_taken_between(const struct rg_processors *before,
     const double own_ms = after->own_ms - before->own_ms;
     const double idle_ms = after->idle_ms - before->idle_ms;
     const double others_ms = all_ms - idle_ms - stolen_ms - own_ms - after->grain_ms;
+    const double ran_ms = after->ran_ms - before->ran_ms;
+    const double waited_ms = fmax(after->waited_ms - before->waited_ms, 0);
     struct rg_taken taken = {0};
     if (!before->count || before->count != after->count || !(all_ms > 0))
         return taken;
     taken.stolen = fmin(fmax(stolen_ms / all_ms, 0), 1);
     taken.others = others_ms > 0 ? fmin(others_ms / all_ms, 1) : 0; // NAN: nothing is known
+    if (ran_ms + waited_ms > 0)
+        taken.others = fmin(taken.others, waited_ms / (ran_ms + waited_ms));
     return taken;
 }
 

@@ -12,12 +12,16 @@ struct rg_processors {
     double idle_ms, stolen_ms;
     double own_ms;   // of this process and those that are ours
     double grain_ms; // to which idle_ms is known
+    // Of the threads of those that are ours: on a processor, and ready to run without one. Zeros if
+    // there are none, or Linux keeps no such statistics.
+    double ran_ms, waited_ms;
 };
 
 // Shares of the processors' time, 0 to 1.
 struct rg_taken {
     double stolen; // by other machines
-    double others; // by other programs, at least: what the grain leaves open is not counted
+    double others; // by other programs, at least: what the grain leaves open is not counted. Less
+                   // if ours waited less: a program on a core that they leave idle disturbs nothing
 };
 
 // Reads the processors from `root`/proc/stat: "" for this machine, or a folder with a copy in

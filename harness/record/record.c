@@ -84,12 +84,9 @@ void rg_record_settle(struct rg_record *record)
     record->frame_ms = rg_median(sorted, record->sample_count);
 }
 
-// The largest share of processor time that others may take, as in a gate.
-#define MOST_TAKEN 0.05
-
 bool rg_launch_is_disturbed(const struct rg_launch *launch)
 {
-    return launch->stolen > MOST_TAKEN || launch->others > MOST_TAKEN;
+    return launch->stolen > RG_MOST_TAKEN || launch->others > RG_MOST_TAKEN;
 }
 
 bool rg_record_is_whole(const struct rg_record *record)

@@ -12,7 +12,7 @@
 #include "harness/devices/workers/device.h"
 #include "harness/devices/workers/worker.h"
 #include "harness/measure/job.h"
-#include "harness/tables/launching/load.h"
+#include "harness/measure/others.h"
 #include "harness/measure/sampling.h"
 #include "kernels/dialect/rng.h"
 
@@ -125,7 +125,7 @@ static int rounds_of(const struct launch *l)
 
 // --- a group ---
 
-static void keep(struct launch *l, double stolen, double others)
+static void keep(struct launch *l, const struct rg_taken *taken)
 {
     for (int i = 0; i < l->count; i++) {
         struct timed *t = &l->timed[i];
@@ -135,8 +135,8 @@ static void keep(struct launch *l, double stolen, double others)
         record->launches[record->launch_count++] =
             (struct rg_launch){.number = l->number,
                                .ms = exp(rg_median(t->logs, t->slots).median),
-                               .stolen = stolen,
-                               .others = others,
+                               .stolen = taken->stolen,
+                               .others = taken->others,
                                .seconds = t->seconds};
     }
 }
@@ -145,15 +145,15 @@ static bool time_group(struct launch *l)
 {
     const struct rg_worker *worker = rg_remote_worker(l->device);
     const pid_t process = worker ? rg_worker_process(worker) : 0;
-    const struct rg_load before = rg_load_now(process);
-    double stolen, others;
+    const int our_count = process != 0;
+    const struct rg_processors before = rg_processors_now(&process, our_count);
     bool ok = go_through(l, false) && go_through(l, true);
     for (int round = 1, rounds = ok ? rounds_of(l) : 0; ok && round < rounds; round++)
         ok = go_through(l, false) && go_through(l, true);
-    const struct rg_load after = rg_load_now(process);
-    rg_load_shares(&before, &after, &stolen, &others);
+    const struct rg_processors after = rg_processors_now(&process, our_count);
+    const struct rg_taken taken = rg_taken_between(&before, &after);
     if (ok)
-        keep(l, stolen, others);
+        keep(l, &taken);
     for (int i = 0; !ok && !rg_interrupted() && i < l->count; i++)
         if (l->timed[i].scratch.outcome != RG_OK)
             rg_warning("%s: launch %d of row %d on %s failed: %s", l->table->id, l->number,

@@ -86,6 +86,41 @@ static void test_taken(void **state)
     assert_equals(rg_taken_between(&before, &after).stolen, 0);
 }
 
+// Ten seconds of two processors, on one of which ours ran, and waited. `busy_ms`: of all, without
+// steal.
+static void expect_shares(double busy_ms, double own_ms, double waited_ms, double stolen_ms,
+                          double others)
+{
+    const struct rg_processors before = {.count = 2, .own_ms = 7000, .ran_ms = 5000};
+    struct rg_processors after = before;
+    after.at_ms = 10000;
+    after.idle_ms = 20000 - busy_ms - stolen_ms;
+    after.stolen_ms = stolen_ms;
+    after.own_ms += own_ms;
+    after.ran_ms += waited_ms < 0 ? 0 : own_ms;
+    after.waited_ms = fmax(waited_ms, 0);
+    const struct rg_taken taken = rg_taken_between(&before, &after);
+    assert_ms(taken.stolen, stolen_ms / 20000);
+    assert_ms(taken.others, others);
+}
+
+static void test_waiting(void **state)
+{
+    (void)state;
+    expect_shares(10000, 10000, 0, 0, 0);       // alone
+    expect_shares(20000, 10000, 0, 0, 0);       // another process has the other core
+    expect_shares(20000, 5000, 5000, 0, 0.5);   // and here it takes half of our time
+    expect_shares(10000, 10000, 10000, 0, 0);   // threads of ours wait for each other
+    expect_shares(12000, 10000, 10000, 0, 0.1); // another process took a tenth of the machine
+    expect_shares(16000, 10000, -1, 0, 0.3);    // a kernel that tells nothing of threads
+    expect_shares(10000, 10000, 0, 2000, 0);    // a hypervisor took a tenth
+    const pid_t self = getpid();
+    const struct rg_processors now = rg_processors_now(&self, 1);
+    assert_above(now.ran_ms, 0);
+    assert_at_least(rg_processors_now(&self, 1).waited_ms, now.waited_ms);
+    assert_equals(rg_processors_now(NULL, 0).ran_ms, 0);
+}
+
 // --- samples ---
 
 // Two processors, of which others take a share from one time to another.
@@ -295,6 +330,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reading),
         cmocka_unit_test(test_taken),
+        cmocka_unit_test(test_waiting),
         cmocka_unit_test(test_quiet),
         cmocka_unit_test(test_disturbed_once),
         cmocka_unit_test(test_disturbed_always),

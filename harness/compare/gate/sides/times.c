@@ -8,8 +8,9 @@
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/frames/session.h"
-#include "harness/record/named.h"
 #include "harness/judge/stats.h"
+#include "harness/measure/others.h"
+#include "harness/record/record.h"
 
 // A launch takes several blocks, or times of B alone. Opening a cell costs as much as several
 // blocks, and a disturbance of one does not move their median.
@@ -107,36 +108,6 @@ bool rg_times_launch(int number, void *user)
 #define TIMING_MS 1
 #define SLOT_MS   9
 enum { LEAST_TIMINGS = 3 };
-// Largest share of processor time that others may take.
-#define MOST_STOLEN 0.05
-
-// Time of all processors since boot; zeros if the kernel does not report it.
-struct processor_time {
-    unsigned long long all, stolen;
-};
-
-static struct processor_time processor_time(void)
-{
-    unsigned long long v[8] = {0};
-    struct processor_time time = {0, 0};
-    FILE *file = fopen("/proc/stat", "r");
-    if (file && fscanf(file, "cpu %llu %llu %llu %llu %llu %llu %llu %llu", &v[0], &v[1], &v[2],
-                       &v[3], &v[4], &v[5], &v[6], &v[7]) == 8) {
-        for (int i = 0; i < 8; i++)
-            time.all += v[i];
-        time.stolen = v[7];
-    }
-    if (file)
-        fclose(file);
-    return time;
-}
-
-// Whether others took so much processor time since `before` that the timing does not count.
-static bool was_disturbed(const struct processor_time *before)
-{
-    const struct processor_time now = processor_time();
-    return (double)(now.stolen - before->stolen) > MOST_STOLEN * (double)(now.all - before->all);
-}
 
 // Runs frames that do not count, because drivers compile in the first; measures roughly how long
 // one takes.
@@ -214,7 +185,7 @@ static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions
 {
     double logs[QUADS], a_ms[2 * QUADS], b_ms[2 * QUADS];
     const bool is_pair = sessions[RG_SIDE_A];
-    const struct processor_time before = processor_time();
+    const struct rg_processors before = rg_processors_now(NULL, 0);
     for (int i = 0; i < QUADS; i++) {
         double *const at[RG_SIDES] = {a_ms + 2 * i, is_pair ? b_ms + 2 * i : b_ms + i};
         if (is_pair ? !time_quad(timed, sessions, b_first ^ (i & 1), at)
@@ -222,8 +193,11 @@ static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions
             return false;
         logs[i] = is_pair ? rg_block_log_ratio(at[RG_SIDE_A], at[RG_SIDE_B]) : 0;
     }
-    *quads = (struct rg_quads){.b_ms = rg_median(b_ms, is_pair ? 2 * QUADS : QUADS).median,
-                               .is_disturbed = was_disturbed(&before)};
+    // By a hypervisor: what other programs take falls on both sides.
+    const struct rg_processors after = rg_processors_now(NULL, 0);
+    *quads =
+        (struct rg_quads){.b_ms = rg_median(b_ms, is_pair ? 2 * QUADS : QUADS).median,
+                          .is_disturbed = rg_taken_between(&before, &after).stolen > RG_MOST_TAKEN};
     quads->a_ms = is_pair ? rg_median(a_ms, 2 * QUADS).median : 0;
     quads->log = is_pair ? rg_median(logs, QUADS).median : log(quads->b_ms);
     return true;

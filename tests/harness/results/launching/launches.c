@@ -11,7 +11,6 @@
 
 #include "harness/tables/claims/text.h"
 #include "harness/tables/launching/course.h"
-#include "harness/tables/launching/load.h"
 #include "harness/tables/papers/papers.h"
 #include "tests/tools/expect.h"
 
@@ -174,40 +173,6 @@ static void launches_are_stored(void **state)
     rg_result_free(&result);
 }
 
-// --- what others took ---
-
-// Ten seconds of two processors, of which the worker ran on one.
-static void expect_shares(double busy, double own, double waited, double stolen, double others_due)
-{
-    const struct rg_load before = {.all = 100, .busy = 50, .stolen = 3, .own = 7, .ran = 5};
-    const struct rg_load now = {.all = 120,
-                                .busy = 50 + busy,
-                                .stolen = 3 + stolen,
-                                .own = 7 + own,
-                                .ran = waited < 0 ? 5 : 5 + own,
-                                .waited = fmax(waited, 0)};
-    double found, others;
-    rg_load_shares(&before, &now, &found, &others);
-    assert_below(fabs(found - stolen / 20), 1e-9);
-    assert_below(fabs(others - others_due), 0.002); // two ticks of the kernel
-}
-
-static void what_others_took(void **state)
-{
-    (void)state;
-    expect_shares(10, 10, 0, 0, 0);    // alone
-    expect_shares(20, 10, 0, 0, 0);    // another process has the other core
-    expect_shares(20, 5, 5, 0, 0.5);   // and here it takes half of the worker's time
-    expect_shares(10, 10, 10, 0, 0);   // threads of the worker wait for each other
-    expect_shares(12, 10, 10, 0, 0.1); // another process took a tenth of the machine
-    expect_shares(16, 10, -1, 0, 0.3); // a kernel that tells nothing of threads
-    expect_shares(10, 10, 0, 2, 0);    // a hypervisor took a tenth
-    const struct rg_load now = rg_load_now(0), later = rg_load_now(0);
-    assert_above(now.all, 0);
-    assert_at_least(later.own, now.own);
-    assert_at_least(later.busy, 0);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -216,7 +181,6 @@ int main(void)
         cmocka_unit_test(a_course_ends),
         cmocka_unit_test(kept_launches_beside_today),
         cmocka_unit_test(launches_are_stored),
-        cmocka_unit_test(what_others_took),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
