@@ -57,3 +57,11 @@ const char *rg_option_about(const struct rg_option *row, char text[RG_ABOUT_SIZE
     snprintf(text, RG_ABOUT_SIZE, "%s (default %s)", row->about, row->initial);
     return text;
 }
+
+bool rg_words_name(const struct rg_words *words, const char *text)
+{
+    bool found = !words->count;
+    for (int i = 0; i < words->count; i++)
+        found = found || !strcmp(words->items[i], text);
+    return found;
+}

@@ -85,6 +85,8 @@ struct rg_words {
     int count;
     const char *items[RG_MAX_WORDS];
 };
+// Whether a text is among the words, or there are none.
+bool rg_words_name(const struct rg_words *words, const char *text);
 
 struct rg_size {
     int width, height; // pixels; 0: not given

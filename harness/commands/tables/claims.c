@@ -1,6 +1,4 @@
 // raingauge claims: decides what papers claim of their tables, by launches.
-#include <string.h>
-
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/commands/cli/command.h"
@@ -135,20 +133,12 @@ static int measure(const struct claims_options *o, const struct rg_words *argume
     return rg_devices_end(&devices, exit);
 }
 
-static bool is_named(const struct rg_words *ids, const char *table)
-{
-    bool found = !ids->count;
-    for (int i = 0; i < ids->count; i++)
-        found = found || !strcmp(ids->items[i], table);
-    return found;
-}
-
 static int judge(const struct claims_options *o, const struct rg_words *arguments)
 {
     struct rg_stored stored = {0};
     bool ok = rg_stored_read(&stored, o->from);
     for (int i = 0; ok && i < stored.count; i++)
-        if (is_named(arguments, stored.results[i].table))
+        if (rg_words_name(arguments, stored.results[i].table))
             ok = rg_claims_add(o->outcomes, &stored.results[i], NULL, &all);
     rg_stored_free(&stored);
     if (ok && !o->outcomes->count)

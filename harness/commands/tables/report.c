@@ -43,8 +43,9 @@ static const struct rg_option options[] = {
 
 static bool write_page(const struct rg_page *page, const struct rg_page *before, const char *path)
 {
-    return rg_page_write(page, before, path) && printf("%s: %zu records; open it in a browser\n",
-                                                       path, json_array_size(page->records)) > 0;
+    const size_t count = json_array_size(page->records);
+    return rg_page_write(page, before, path) && printf("%s: %zu record%s; open it in a browser\n",
+                                                       path, count, count == 1 ? "" : "s") > 0;
 }
 
 // What is short is written or printed.

@@ -14,7 +14,6 @@
 #include "harness/console/exit.h"
 #include "harness/devices/names.h"
 #include "harness/measure/expected.h"
-#include "harness/measure/others.h"
 #include "harness/record/output.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/regenerate.h"
@@ -140,8 +139,6 @@ static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, cha
         return rg_exit_of_error();
     }
     asked.names = names ? names : asked.names ? asked.names : "cpu";
-    if (!o->dry_run)
-        rg_machine_probe(rg_processors_now);
     int exit = rg_devices_open_asked(&asked, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;

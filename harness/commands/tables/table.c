@@ -17,7 +17,6 @@
 #include "harness/console/duration.h"
 #include "harness/console/exit.h"
 #include "harness/console/started.h"
-#include "harness/measure/others.h"
 #include "harness/record/disk/stored.h"
 #include "harness/record/output.h"
 #include "harness/tables/claims/text.h"
@@ -281,7 +280,6 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
     if (!have_claims(o, chosen, count) || !rg_inputs_are_spared(chosen, count, o->set, o->output) ||
         (o->output && !rg_results_can_be_written(chosen, count, o->output)))
         return rg_exit_of_error();
-    rg_machine_probe(rg_processors_now);
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;
@@ -300,14 +298,6 @@ static bool spares_stored(const struct table_options *o)
            rg_error("%s: holds what --from reads, which would be replaced; name another folder "
                     "with -o, or leave it out",
                     o->output);
-}
-
-static bool is_named(const struct rg_words *ids, const char *table)
-{
-    bool found = !ids->count;
-    for (int i = 0; i < ids->count; i++)
-        found = found || !strcmp(ids->items[i], table);
-    return found;
 }
 
 // Drops the parts of a result that were not requested. False where nothing is left. Claims are
@@ -331,7 +321,7 @@ static bool have_one_length(const struct rg_stored *stored, const struct table_o
         for (int k = 0; k < i; k++) {
             char here[RG_CLAIMS_LENGTH], before[RG_CLAIMS_LENGTH];
             const char *table = stored->results[i].table;
-            if (strcmp(table, stored->results[k].table) != 0 || !is_named(ids, table))
+            if (strcmp(table, stored->results[k].table) != 0 || !rg_words_name(ids, table))
                 continue;
             rg_claims_length(&stored->results[i], here, sizeof(here));
             rg_claims_length(&stored->results[k], before, sizeof(before));
@@ -355,7 +345,7 @@ static int print_stored(struct rg_stored *stored, const struct table_options *o,
         return rg_exit_of_error();
     for (int i = 0; i < stored->count; i++) {
         struct rg_result *result = &stored->results[i];
-        if (!is_named(ids, result->table) || !keep(result, o))
+        if (!rg_words_name(ids, result->table) || !keep(result, o))
             continue;
         printed++;
         exit = rg_exit_worse(exit, print(result, o));

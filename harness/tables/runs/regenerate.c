@@ -8,6 +8,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
+#include "harness/measure/others.h"
 #include "harness/record/disk/hold.h"
 #include "harness/tables/launching/course.h"
 #include "harness/tables/runs/budget.h"
@@ -293,6 +294,7 @@ int rg_tables_regenerate(const struct rg_table *const tables[], int count,
         rg_warning("%s: another raingauge that measures keeps its rows there; this one keeps none: "
                    "write into a folder with -o to go on after an interruption",
                    folder);
+    rg_machine_probe(rg_processors_now);
     const int exit = regenerate(tables, count, devices, options, is_ours);
     rg_hold_release(&hold);
     return exit;
