@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/compare/gate/report/report.h"
 #include "harness/report/report.h"
 
 enum { ROOM_FOR_END = 500, MOST_TEXT = 300, WORST = 3 };
@@ -55,12 +56,6 @@ static const char *text_of(const json_t *object, const char *field, char text[4 
 }
 
 // --- findings, the worst first ---
-
-// Endings of a gate's cases that fail, the worst first.
-static const char *const failing[] = {
-    "crash",           "timeout",          "error",    "lacking", "differs",
-    "unexpected pass", "nothing measured", "regressed"};
-enum { FAILING = sizeof(failing) / sizeof(*failing) };
 
 static bool is(const json_t *object, const char *field, const char *value)
 {
@@ -135,9 +130,10 @@ static int tell_findings(const struct rg_page *page, struct brief *brief, int mo
 {
     static const char *const statuses[] = {"crash", "timeout", "error", "fail"};
     struct finding f = {brief, "", 0, most};
-    for (int i = 0; i < FAILING; i++) {
-        f.wanted = failing[i];
-        each(page, "gate", "gated", tell_case, &f);
+    for (enum rg_ending i = 0; i <= RG_ENDING_PASS; i++) {
+        f.wanted = rg_ending_name(i);
+        if (rg_ending_fails(i))
+            each(page, "gate", "gated", tell_case, &f);
     }
     for (int i = 0; i < 4; i++) {
         f.wanted = statuses[i];
@@ -156,8 +152,8 @@ static void count_case(const json_t *element, void *user)
 {
     struct counts *counts = user;
     counts->cases++;
-    for (int i = 0; i < FAILING; i++)
-        counts->failing += is(element, "ending", failing[i]);
+    for (enum rg_ending i = 0; i <= RG_ENDING_PASS; i++)
+        counts->failing += rg_ending_fails(i) && is(element, "ending", rg_ending_name(i));
 }
 
 static void count_check(const json_t *element, void *user)

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "core/base/log.h"
+#include "harness/compare/gate/report/report.h"
 #include "harness/record/output.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/record/schema/schema.h"
@@ -28,13 +29,23 @@ static json_t *before_json(const struct rg_page *before)
                   : json_null();
 }
 
+// How a gate's cases may end, the worst first.
+static json_t *endings_json(void)
+{
+    json_t *endings = json_array();
+    for (enum rg_ending i = 0; i <= RG_ENDING_PASS; i++)
+        json_array_append_new(endings, json_pack("{ss sb}", "name", rg_ending_name(i), "fails",
+                                                 rg_ending_fails(i)));
+    return endings;
+}
+
 // All that the page shows. NULL without memory.
 static json_t *data_json(const struct rg_page *page, const struct rg_page *before)
 {
     return json_pack(
-        "{si ss ss si si so so so so so so}", "format", RG_FORMAT_VERSION, "version",
+        "{si ss ss si si so so so so so so so}", "format", RG_FORMAT_VERSION, "version",
         rg_build_version, "commit", rg_build_commit, "pictures_left_out", page->left_out,
-        "gates_left_out", page->gates_left_out, "claims", claims_json(page), "before",
+        "gates_left_out", page->gates_left_out, "endings", endings_json(), "claims", claims_json(page), "before",
         before_json(before), "records", or_empty(page->records, json_array), "pictures",
         or_empty(page->pictures, json_object), "files", or_empty(page->files, json_object),
         "gallery", or_empty(page->gallery, json_array));

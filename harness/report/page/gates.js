@@ -1,13 +1,11 @@
 "use strict";
 // Gates: whether B is worse than A. Two views of the same cases: for who writes a driver, and for who owns the CI.
 
-// Worst first, as the command lists them.
-const ENDINGS = {
-  "crash": "bad", "timeout": "bad", "error": "bad", "lacking": "bad", "differs": "bad", "unexpected pass": "bad", "nothing measured": "bad", "regressed": "bad",
-  "inconclusive": "open", "flake": "open", "expected failure": "open", "unsupported": "other", "skipped": "other", "improved": "good", "pass": "good",
-};
-const endingClass = ending => ENDINGS[ending] || "bad";
-const endingOrder = ending => Object.keys(ENDINGS).indexOf(ending);
+const CALM = {"unsupported": "other", "skipped": "other", "improved": "good", "pass": "good"};
+// Worst first, as the command lists them. Those that fail are bad, and so is one that the command does not know.
+const ENDINGS = new Map(arrayOf(DATA.endings).map(({name, fails}, i) => [name, {order: i, cls: fails ? "bad" : CALM[name] || "open"}]));
+const endingClass = ending => ENDINGS.has(ending) ? ENDINGS.get(ending).cls : "bad";
+const endingOrder = ending => ENDINGS.has(ending) ? ENDINGS.get(ending).order : -1;
 // A ratio with its interval, without what is no ratio.
 const positive = x => Object.fromEntries(Object.entries(objectOf(x)).filter(([, v]) => isNumber(v) && v > 0));
 const gatesOf = source => records("gate", source).map(record => ({file: record.file, document: objectOf(record.document),
