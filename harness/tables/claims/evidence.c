@@ -226,21 +226,17 @@ void rg_evidence_take_medians(struct evidence *e)
 // --- print ---
 
 // From the table, if there is one, since unmeasured rows are printed all the same.
-static double printed_fps(const struct evidence *e, int row, int variant)
+double rg_evidence_printed(const struct evidence *e, int row, int variant)
 {
     const struct rg_table *table = rg_table_find(e->claim->table);
-    const char *name = e->result->variants[variant];
+    const int index = variant ? e->other : e->at.variant;
+    const char *name = e->result->variants[index];
     for (int v = 0; table && table->variants[v].name; v++)
         if (!strcmp(table->variants[v].name, name))
             return rg_table_published_fps(table, row - 1, v);
     return rg_result_has(e->result, row - 1)
-               ? rg_record_published_fps(rg_evidence_row_of(e, row, variant))
+               ? rg_record_published_fps(rg_evidence_row_of(e, row, index))
                : NAN;
-}
-
-double rg_evidence_printed(const struct evidence *e, int row)
-{
-    return printed_fps(e, row, e->at.variant);
 }
 
 // Takes a row as a launch's; false where it is not printed.
@@ -248,7 +244,7 @@ static bool take_printed_row(struct evidence *e, int row)
 {
     bool is_printed = true;
     for (int v = 0; v < 1 + (e->other >= 0); v++) {
-        const double fps = printed_fps(e, row, v ? e->other : e->at.variant);
+        const double fps = rg_evidence_printed(e, row, v);
         e->logs[0][e->count][v] = log(1000 / fps);
         is_printed = is_printed && isfinite(fps);
     }

@@ -35,8 +35,9 @@ struct rg_judgement rg_evidence_end(struct evidence *e, enum rg_claim_verdict ve
 // The record of a row, for the claim's variant or another one.
 const struct rg_record *rg_evidence_row(const struct evidence *e, int row);
 const struct rg_record *rg_evidence_row_of(const struct evidence *e, int row, int variant);
-// The printed frame rate of a row; NAN if there is none.
-double rg_evidence_printed(const struct evidence *e, int row);
+// The printed frame rate of a row, measured or not, for the claim's variant (0) or the other one
+// (1); NAN if there is none.
+double rg_evidence_printed(const struct evidence *e, int row, int variant);
 
 // --- parts ---
 

@@ -70,8 +70,8 @@ static void make_order(const struct evidence *e, struct rg_claim_parts *p)
 {
     for (int a = 0; a < e->count; a++)
         for (int b = 0; b < e->count; b++)
-            if (rg_margin_orders(rg_evidence_printed(e, e->rows[a]),
-                                 rg_evidence_printed(e, e->rows[b])))
+            if (rg_margin_orders(rg_evidence_printed(e, e->rows[a], 0),
+                                 rg_evidence_printed(e, e->rows[b], 0)))
                 add_rows(e, p, a, b, 1, INFINITY);
 }
 
@@ -88,9 +88,7 @@ static void make_crosses(const struct evidence *e, struct rg_claim_parts *p)
 {
     for (int i = 0; i < e->count; i++) {
         const bool is_crossed = e->rows[i] >= e->claim->knee;
-        const struct rg_record *a = rg_evidence_row(e, e->rows[i]),
-                               *b = rg_evidence_row_of(e, e->rows[i], e->other);
-        if (rg_record_published_fps(a) != rg_record_published_fps(b))
+        if (rg_evidence_printed(e, e->rows[i], 0) != rg_evidence_printed(e, e->rows[i], 1))
             add_variants(e, p, i, !is_crossed, 1);
     }
 }
