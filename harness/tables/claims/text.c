@@ -203,9 +203,8 @@ static void add_legend(const struct rg_claim_outcomes *o, struct rg_sheet *sheet
             used += (size_t)snprintf(text + used, sizeof(text) - used, "%s: %s; ", marks[v],
                                      rg_claim_verdict_text((enum rg_claim_verdict)v));
     if (has[RG_CLAIM_ONE_LAUNCH])
-        used += (size_t)snprintf(text + used, sizeof(text) - used,
-                                 "(yes), (no), (near): the figures of one launch, no verdict; ");
-    snprintf(text + used, sizeof(text) - used, "`--wide` has sections and reasons.");
+        used += (size_t)snprintf(text + used, sizeof(text) - used, "in (): one launch; ");
+    snprintf(text + used, sizeof(text) - used, "why: `--wide`.");
     rg_sheet_note(sheet, "%s", text);
 }
 
@@ -257,7 +256,7 @@ static void add_lengths(const struct rg_claim_outcomes *o, struct rg_sheet *shee
         char tables[512];
         name_tables(o, i, tables, sizeof(tables));
         if (*tables)
-            rg_sheet_note(sheet, "Measured %s: %s.", o->outcomes[i].length, tables);
+            rg_sheet_note(sheet, "%s: %s.", o->outcomes[i].length, tables);
     }
 }
 
