@@ -1,6 +1,6 @@
 // streaks: particles, with 2 streak textures a light.
 #define STREAKS_TAPS 2
-#include "kernels/streaks/rain.h"
+#include "kernels/streaks/taps/light.h"
 #include "kernels/streaks/taps/unseen.h"
 
 RG_DRAW_ITEM(streaks_rain_2)

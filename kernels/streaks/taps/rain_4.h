@@ -1,6 +1,6 @@
 // streaks: particles, with 4 streak textures a light.
 #define STREAKS_TAPS 4
-#include "kernels/streaks/rain.h"
+#include "kernels/streaks/taps/light.h"
 #include "kernels/streaks/taps/unseen.h"
 
 RG_DRAW_ITEM(streaks_rain_4)
