@@ -1,9 +1,10 @@
 // How a fragment's colour is blended with the target's, format by format, as llvmpipe and lavapipe
-// do it (docs/drawing.md says what was measured). Devices that keep images in plain memory need it.
+// do it (docs/drawing.md says what was measured). The one rule: for devices that keep images in
+// plain memory, for programs that blend by themselves, and for layers that meet a background.
 #ifndef RG_KERNELS_DIALECT_DRAW_BLEND_H
 #define RG_KERNELS_DIALECT_DRAW_BLEND_H
 
-#include "kernels/dialect/image/memory.h"
+#include "kernels/dialect/image/format.h"
 
 // enum rg_blend of backends/backend.h.
 #define RG_BLEND_IS_OFF  0
@@ -67,6 +68,9 @@ RG_FN uint rg_cut_half(float v)
            ((bits >> 16) & 0x8000u);
 }
 
+#if !RG_GLSL
+#include "kernels/dialect/image/memory.h"
+
 // --- one texel of an image in memory; blend off stores as kernels do ---
 
 RG_PROC void rg_blend_RGBA8(RG_GLOBAL uint *texels, int i, rgba c, int blend)
@@ -89,5 +93,7 @@ RG_PROC void rg_blend_RGBA32F(RG_GLOBAL uint *texels, int i, rgba c, int blend)
 {
     rg_store_RGBA32F(texels, i, rg_blend_floats(c, rg_load_RGBA32F(texels, i), blend));
 }
+
+#endif
 
 #endif
