@@ -152,6 +152,163 @@ static void faint_layers_add_up(void **state)
         }
 }
 
+// --- a loop in C, and what devices draw: formats, ways to blend, depth ---
+
+enum { PANES = 300 };
+
+struct pane {
+    float colour[4], depth;
+};
+
+static float unit(uint32_t i)
+{
+    return (float)(noise(i) >> 8) / (1 << 24);
+}
+
+// From faint to opaque; each tenth hides all.
+static struct pane pane_of(int i)
+{
+    const uint32_t at = 8 * (uint32_t)i;
+    const float alpha = i % 10 == 9 ? 1 : unit(at) * unit(at + 1);
+    return (struct pane){{alpha * unit(at + 2), alpha * unit(at + 3), alpha * unit(at + 4), alpha},
+                         unit(at + 5)};
+}
+
+// Panes over all of the target, whose pixels leave some out (tests/kernels/drawing/quads.h).
+static void write_panes(float *quads)
+{
+    static const float beside[4] = {-1, 1, 1, -1}, below[4] = {-1, -1, 1, 1};
+    for (int i = 0; i < PANES; i++) {
+        const struct pane pane = pane_of(i);
+        float *quad = quads + i * TEST_QUAD_WORDS;
+        for (int k = 0; k < 4; k++) {
+            quad[4 * k] = beside[k];
+            quad[4 * k + 1] = below[k];
+            quad[4 * k + 2] = pane.depth;
+            quad[4 * k + 3] = 1;
+        }
+        memcpy(quad + 16, pane.colour, sizeof(pane.colour));
+    }
+}
+
+// A number as a format holds it once it is blended.
+static float kept_in(enum rg_format format, float value)
+{
+    int exponent;
+    if (format == RG_RGBA32F)
+        return value;
+    frexp((double)value, &exponent);
+    const double step = ldexp(1, (exponent > -13 ? exponent : -13) - 11); // between halves
+    return (float)(floor((double)value / step) * step);                   // cut off
+}
+
+static int code_of(float value)
+{
+    return (int)floorf(value * 255 + 0.5f);
+}
+
+static int kept_code(int target, int rest)
+{
+    const int t = target * rest;
+    return (t + (t >> 8) + 128) >> 8;
+}
+
+// One channel: source + target (1 - alpha), or their sum; multiplied and added apart.
+static float blend_one(enum rg_format format, enum rg_blend blend, const struct pane *pane, int c,
+                       float target)
+{
+    if (format == RG_RGBA8) {
+        const int rest = 255 - code_of(pane->colour[3]), was = code_of(target);
+        const int sum =
+            code_of(pane->colour[c]) + (blend == RG_BLEND_ADD ? was : kept_code(was, rest));
+        return (float)(sum > 255 ? 255 : sum) / 255;
+    }
+    const volatile float rest = 1 - pane->colour[3];
+    const volatile float left = blend == RG_BLEND_ADD ? target : target * rest;
+    const volatile float sum = pane->colour[c] + left;
+    return kept_in(format, sum);
+}
+
+static void draw_in_c(const struct rg_draw *draw, enum rg_format format, int pixel, float colour[4],
+                      float *depth)
+{
+    const int x = pixel % SIDE, y = pixel / SIDE;
+    for (int i = 0; i < PANES; i++) {
+        const struct pane pane = pane_of(i);
+        if (((x ^ y ^ i) & 15) == 15 ||
+            (draw->depth_mode != RG_DEPTH_OFF && !(pane.depth < *depth)))
+            continue;
+        for (int c = 0; c < 4; c++)
+            colour[c] = blend_one(format, draw->blend, &pane, c, colour[c]);
+        if (draw->depth_mode == RG_DEPTH_WRITE)
+            *depth = pane.depth;
+    }
+}
+
+static float texel_of(enum rg_format format, const unsigned char *texels, int i)
+{
+    float value;
+    uint16_t half;
+    if (format == RG_RGBA8)
+        return (float)texels[i] / 255;
+    memcpy(&half, texels + 2 * (size_t)i, sizeof(half));
+    if (format == RG_RGBA16F)
+        return (float)value_of(half);
+    memcpy(&value, texels + 4 * (size_t)i, sizeof(value));
+    return value;
+}
+
+static void expect_as_in_c(struct rg_device *device, struct rg_draw draw, enum rg_format format)
+{
+    static const float none[4] = {0};
+    static float quads[PANES * TEST_QUAD_WORDS];
+    const float far = 0.7f;
+    const test_quads_params p = {0};
+    unsigned char texels[16 * TEXELS];
+    float depths[TEXELS];
+    write_panes(quads);
+    struct rg_pass *pass = rg_pass_create(device, "test_quads");
+    struct rg_buf *input = make_buf(device, quads, PANES * TEST_QUAD_WORDS, "panes");
+    draw.colour = rg_image_create_with(device, &(struct rg_image_desc){format, SIDE, SIDE, 1, 1},
+                                       none, "panes");
+    draw.depth = rg_image_create_with(device, &(struct rg_image_desc){RG_D32F, SIDE, SIDE, 1, 1},
+                                      &far, "depth");
+    assert_true(pass && input && draw.colour && draw.depth);
+    assert_true(rg_pass_run(pass, &(struct rg_run){.params = &p,
+                                                   .slots = {[1].buf = input},
+                                                   .extent = {PANES, 1, 1},
+                                                   .draw = &draw}));
+    assert_true(rg_image_read(draw.colour, 0, 0, texels) &&
+                rg_image_read(draw.depth, 0, 0, depths));
+    for (int i = 0; i < TEXELS; i++) {
+        float colour[4] = {0}, depth = far;
+        draw_in_c(&draw, format, i, colour, &depth);
+        for (int c = 0; c < 4; c++)
+            if (texel_of(format, texels, 4 * i + c) != colour[c] || depths[i] != depth)
+                fail_msg("%s, blend %d, depth %d: channel %d of texel %d is %.9g, not %.9g; depth "
+                         "%.9g, not %.9g",
+                         rg_format_name(format), draw.blend, draw.depth_mode, c, i,
+                         (double)texel_of(format, texels, 4 * i + c), (double)colour[c],
+                         (double)depths[i], (double)depth);
+    }
+    rg_image_destroy(draw.colour);
+    rg_image_destroy(draw.depth);
+    rg_pass_destroy(pass);
+    rg_buf_destroy(input);
+}
+
+static void every_format_is_blended_as_a_loop_in_c_does(void **state)
+{
+    static const enum rg_format formats[] = {RG_RGBA8, RG_RGBA16F, RG_RGBA32F};
+    for (int f = 0; f < COUNT_OF(formats); f++)
+        for (enum rg_blend blend = RG_BLEND_OVER; blend <= RG_BLEND_ADD; blend++)
+            for (enum rg_depth_mode depth = RG_DEPTH_OFF; depth <= RG_DEPTH_WRITE; depth++)
+                expect_as_in_c(*state, (struct rg_draw){.blend = blend, .depth_mode = depth},
+                               formats[f]);
+}
+
+// --- a layer that meets what lies behind it ---
+
 // Numbers between halves, halves, the least and the largest, and what no half holds.
 static float number(int i)
 {
@@ -196,6 +353,7 @@ static void a_clear_layer_changes_nothing(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_format_is_blended_as_a_loop_in_c_does),
     cmocka_unit_test(faint_layers_add_up),
     cmocka_unit_test(they_are_rounded_to_the_nearest_half),
     cmocka_unit_test(a_clear_layer_changes_nothing),
