@@ -69,6 +69,8 @@ ROWS = [
     Fault(SHADE, "memset(&s->pixels, 0, «sizeof(s->pixels)»);", "0 * sizeof(s->pixels)", "vectors reach for texels that nobody has set", tests=("values, raster",)),
     Fault(DRAW, "for (int i = draw->item_begin; i < draw->item_end; i += «CPU_BATCH»)", "CPU_BATCH + 1", "counting leaves out items"),
     Fault(DRAW, "counts->records += «items.fate[i] != RG_FATE_DEAD»;", "1", "items that are not seen count as records"),
+    Fault("core/techniques/streaks/open.c", "[STREAKS_RAIN] = {programs[set->taps], .params = AT(of_rain), .colour = «RG_LAYER»,", "RG_BACKGROUND", "rain is blended into halves", tests=("streaks, light shown", "streaks, cover")),
+    Fault("core/techniques/streaks/open.c", "AT(of_far),\n                         .colour = «RG_LAYER»,", "RG_BACKGROUND", "far rain is blended into halves", tests=("streaks, light shown",)),
     Fault(LAYER, "return «rg_image_clear(layer->light->image, clear)»;", "true", "rain of earlier frames stays in the layer", tests=("streaks, cover",)),
     Fault(LAYER, "return «rg_stage(layer->instance, layer->stage)»;", "true", "the layer never meets the background", tests=("streaks, cover",)),
 ]

@@ -5,7 +5,6 @@ Row = collections.namedtuple("Row", "about file old new tests")
 
 BLEND = "../dialect/draw/blend.h"
 WHOLE = "../scenery/layer/meet.h"
-LIGHT = ("picture/light",)
 COVER = ("picture/cover",)
 FURNACE = ("picture/furnace",)
 LOOKS = ("picture/looks",)
@@ -192,8 +191,6 @@ ROWS = [Row(*row) for row in (
     ("small drops as slow splashes", "particle.h", "t.age = since / fall_speed", "t.age = since / p.fall_speed", PARTICLES),
     ("drops of all sizes swing alike", "rain.h", "r.cycles = p.cycles * t.swing", "r.cycles = p.cycles", LOOKS),
     # the layer that they gather in
-    ("the layer holds halves", BLEND, "rg_blend_floats(c, rg_load_RGBA32F(texels, i), blend)",
-     "rg_rounded_RGBA16F(rg_blend_floats(c, rg_load_RGBA32F(texels, i), blend))", LIGHT),
     ("layers hide nothing of each other", BLEND, "float rest = 1.0f - source.a;", "float rest = 1.0f;", FURNACE),
     ("the layer hides nothing", WHOLE, "RG_BLEND_IS_OVER", "RG_BLEND_IS_ADD", FURNACE),
     ("the background is left out", WHOLE, "RG_BLEND_IS_OVER", "RG_BLEND_IS_OFF", FURNACE),

@@ -51,7 +51,7 @@ static void expect_light(const char *about, const char *settings, int width, int
     print_message("%s: shown over due %.4f, due %.4f of the picture\n", about, shown / due,
                   due / (width * height));
     assert_above(due, 0);
-    if (!(fabs(shown / due - 1) < 0.015))
+    if (!(fabs(shown / due - 1) < 0.005))
         fail_msg("%s: %.4f of the light is shown that is due", about, shown / due);
     rain_close(s);
 }
