@@ -1,6 +1,6 @@
 // How a fragment's colour is blended with the target's, format by format, as llvmpipe and lavapipe
 // do it (docs/drawing.md says what was measured). The one rule: for devices that keep images in
-// plain memory, for programs that blend by themselves, and for layers that meet a background.
+// plain memory, and for programs that blend by themselves.
 #ifndef RG_KERNELS_DIALECT_DRAW_BLEND_H
 #define RG_KERNELS_DIALECT_DRAW_BLEND_H
 

@@ -192,6 +192,6 @@ ROWS = [Row(*row) for row in (
     ("drops of all sizes swing alike", "rain.h", "r.cycles = p.cycles * t.swing", "r.cycles = p.cycles", LOOKS),
     # the layer that they gather in
     ("layers hide nothing of each other", BLEND, "float rest = 1.0f - source.a;", "float rest = 1.0f;", FURNACE),
-    ("the layer hides nothing", WHOLE, "RG_BLEND_IS_OVER", "RG_BLEND_IS_ADD", FURNACE),
-    ("the background is left out", WHOLE, "RG_BLEND_IS_OVER", "RG_BLEND_IS_OFF", FURNACE),
+    ("the layer hides nothing", WHOLE, "float rest = 1.0f - light.a;", "float rest = 1.0f;", FURNACE),
+    ("the background is left out", WHOLE, "float rest = 1.0f - light.a;", "float rest = 0.0f;", FURNACE),
 )]
