@@ -76,10 +76,17 @@ struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
     bool rounds;                // programs round quotients and roots (backends/rounding.h)
+    bool blends;                // programs blend by themselves (backends/blending.h)
     struct rg_work *work;       // core/device's counts; not for the backend
     struct rg_packing *packing; // owned by core/device/packing.c
     struct rg_shared *shared;   // owned by core/device/shared.c
 };
+
+// The ways of the device's GRID kernels and of what it draws without blending.
+static inline unsigned rg_device_ways(const struct rg_device *device)
+{
+    return device->rounds ? RG_CODE_ROUNDS : 0;
+}
 
 struct rg_buf {
     struct rg_device *device;
@@ -193,6 +200,10 @@ struct rg_backend {
 
     // Opens the device at `index` of the list. NULL and one logged line on failure.
     struct rg_device *(*create)(int index);
+    // Whether the driver runs a pixel's fragments in the order of items and lets them read what the
+    // pixel holds, so that programs can blend by themselves; with the API's word for it. NULL: the
+    // device blends by kernels/dialect/draw/blend.h as it is.
+    bool (*can_blend)(const struct rg_device *device, const char **word);
     // Finds addresses of functions in the driver's code that serve this device: up to `max`, at
     // least one in each file, the API's driver first. Returns their number. NULL: the program
     // itself draws.

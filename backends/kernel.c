@@ -57,25 +57,27 @@ static unsigned char *read_whole(FILE *file, size_t *size)
     return bytes;
 }
 
-static enum rg_code_kind rounded_kind(enum rg_code_kind kind)
+static enum rg_code_kind kind_of(enum rg_code_kind kind, unsigned ways)
 {
+    const bool rounds = ways & RG_CODE_ROUNDS;
     switch (kind) {
     case RG_CODE_SPIRV:
-        return RG_CODE_ROUNDED_SPIRV;
+        return rounds ? RG_CODE_ROUNDED_SPIRV : kind;
     case RG_CODE_VERTEX_SPIRV:
-        return RG_CODE_ROUNDED_VERTEX_SPIRV;
+        return rounds ? RG_CODE_ROUNDED_VERTEX_SPIRV : kind;
     case RG_CODE_FRAGMENT_SPIRV:
-        return RG_CODE_ROUNDED_FRAGMENT_SPIRV;
+        if (ways & RG_CODE_BLENDS)
+            return rounds ? RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV : RG_CODE_BLENDED_FRAGMENT_SPIRV;
+        return rounds ? RG_CODE_ROUNDED_FRAGMENT_SPIRV : kind;
     default:
         return kind;
     }
 }
 
-// Inserts the definition of RG_ROUNDED after the first line of GLSL, which is its version.
-static bool define_rounded(const struct rg_kernel *kernel, struct rg_kernel_code *code)
+// Inserts a line after the first one of GLSL, which is its version.
+static bool insert(const struct rg_kernel *kernel, const char *line, struct rg_kernel_code *code)
 {
-    static const char line[] = "#define RG_ROUNDED\n";
-    const size_t added = sizeof(line) - 1;
+    const size_t added = strlen(line);
     const unsigned char *end = code->size ? memchr(code->bytes, '\n', code->size) : NULL;
     if (!end)
         return true;
@@ -127,7 +129,9 @@ static bool read_code(const char *folder, const struct rg_kernel *kernel, enum r
                                                           "frag.spv",
                                                           "rounded.spv",
                                                           "vert.rounded.spv",
-                                                          "frag.rounded.spv"};
+                                                          "frag.rounded.spv",
+                                                          "frag.blended.spv",
+                                                          "frag.rounded_blended.spv"};
     char path[4096];
     snprintf(path, sizeof(path), "%s/%s.%s", folder, kernel->name, extensions[kind]);
     const char *why;
@@ -141,13 +145,17 @@ static bool read_code(const char *folder, const struct rg_kernel *kernel, enum r
                     path);
 }
 
-bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, bool rounded,
+bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, unsigned ways,
                     struct rg_kernel_code *code)
 {
     const char *folder = rg_kernel_override();
-    const enum rg_code_kind found = rounded ? rounded_kind(kind) : kind;
+    const enum rg_code_kind found = kind_of(kind, ways);
     if (folder ? !read_code(folder, kernel, found, code)
                : !rg_embedded_code(&kernel->code[found], kernel->name, code))
         return false;
-    return !rounded || !is_glsl(kind) || define_rounded(kernel, code);
+    if ((ways & RG_CODE_BLENDS) && kind == RG_CODE_FRAGMENT_GLSL &&
+        !insert(kernel, "#define RG_BLENDS\n", code))
+        return false;
+    return !(ways & RG_CODE_ROUNDS) || !is_glsl(kind) ||
+           insert(kernel, "#define RG_ROUNDED\n", code);
 }

@@ -64,6 +64,9 @@ enum rg_code_kind {
     RG_CODE_ROUNDED_SPIRV,
     RG_CODE_ROUNDED_VERTEX_SPIRV,
     RG_CODE_ROUNDED_FRAGMENT_SPIRV,
+    // For fragments that blend by themselves. Their GLSL is the normal one with RG_BLENDS defined.
+    RG_CODE_BLENDED_FRAGMENT_SPIRV,
+    RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV,
     RG_CODE_COUNT
 };
 
@@ -77,6 +80,10 @@ enum {
     RG_SLOT_FATES = 15,   // in count and emit: which items of a chunk are whole, which clipped
     RG_SLOT_BEHIND = 15,  // in fragments: the depth against which counted samples are tested
 };
+
+// Ways of programs, as bits: they round quotients and roots themselves (backends/rounding.h), and
+// blend by themselves (backends/blending.h).
+enum { RG_CODE_ROUNDS = 1, RG_CODE_BLENDS = 2 };
 
 // Slots of fragments besides the program's own, on backends that draw packed primitives.
 enum { RG_DRAWN_SLOTS = 3 };
@@ -110,10 +117,10 @@ int rg_kernel_all(const struct rg_kernel *const **kernels);
 int rg_kernel_index(const struct rg_kernel *kernel);
 
 // The code for a driver: embedded at build time, or, where RG_KERNEL_DIR names a folder, read from
-// NAME.glsl, NAME.spv, NAME.cl and so on there. `rounded` asks for the program that rounds
-// quotients and roots itself. False, and one logged line, on failure; then there is nothing to
-// free.
-bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, bool rounded,
+// NAME.glsl, NAME.spv, NAME.cl and so on there. `ways` has bits of RG_CODE_ROUNDS and
+// RG_CODE_BLENDS; only fragments blend. False, and one logged line, on failure; then there is
+// nothing to free.
+bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, unsigned ways,
                     struct rg_kernel_code *code);
 
 // Decompresses embedded code; `name` is for messages. True, without bytes, where there is no such

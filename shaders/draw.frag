@@ -3,6 +3,7 @@
 #include "kernels/dialect/rounding.h"
 #include RG_KERNEL_HEADER
 #include "kernels/dialect/draw/lit.h"
+#include "kernels/dialect/draw/blend.h"
 
 layout(std140, binding = 0) uniform rg_run_block
 {
@@ -12,7 +13,7 @@ layout(std140, binding = 0) uniform rg_run_block
 } rg_run;
 
 layout(location = 0) flat in int rg_prim_index;
-layout(location = 0) out vec4 rg_colour;
+RG_COLOUR(rg_colour)
 
 // Counts a visible sample, against a depth that this draw does not write.
 bool rg_counts(rg_ctx rg, int item, int x, int y, float depth)
@@ -37,6 +38,7 @@ void main()
         !rg_counts(rg, rg_prims_at(rg, rg_prim_index).item, x, y, f.depth))
         discard;
     rgba c = rg_drawn(rg.p.draw, f.colour);
+    c = RG_BLENDED(rg.p.draw, c, rg_colour);
     rg_colour = vec4(c.r, c.g, c.b, c.a);
     gl_FragDepth = f.depth;
 }

@@ -148,6 +148,7 @@ const struct rg_backend rg_backend_gl = {
     .packed = true,
     .list = gl_list,
     .create = gl_create,
+    .can_blend = gl_can_blend,
     .functions = gl_functions,
     .destroy = gl_destroy,
     .buf_create = gl_buf_create,

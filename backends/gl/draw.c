@@ -33,6 +33,13 @@ static void set_blend(enum rg_blend blend)
     glBlendFunc(GL_ONE, blend == RG_BLEND_ADD ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
 }
 
+bool gl_can_blend(const struct rg_device *device, const char **word)
+{
+    (void)device;
+    *word = "GL_EXT_shader_framebuffer_fetch";
+    return epoxy_has_gl_extension(*word);
+}
+
 static void set_depth(enum rg_depth_mode depth)
 {
     if (depth == RG_DEPTH_OFF) {
@@ -63,14 +70,14 @@ static void set_state(struct gl_draw_state *now, const struct gl_draw_state *wan
     *now = *wanted;
 }
 
-static struct gl_draw_state state_of(const struct rg_draw *draw,
+static struct gl_draw_state state_of(const struct gl_device *device, const struct rg_draw *draw,
                                      const struct gl_framebuffer *framebuffer)
 {
     struct gl_draw_state state = {
         .width = framebuffer->key.width,
         .height = framebuffer->key.height,
         .scissor = {draw->x0, draw->y0, draw->x1 - draw->x0, draw->y1 - draw->y0},
-        .blend = draw->blend,
+        .blend = device->pub.blends ? RG_BLEND_OFF : draw->blend,
         .depth = framebuffer->key.depth ? draw->depth_mode : RG_DEPTH_OFF,
     };
     if (!draw->x1) { // the whole target
@@ -87,7 +94,7 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
     if (!framebuffer)
         return false;
     struct gl_bound *bound = &device->bound;
-    const struct gl_draw_state state = state_of(draw, framebuffer);
+    const struct gl_draw_state state = state_of(device, draw, framebuffer);
     set_state(&bound->draw, &state);
     gl_bind_framebuffer(bound, framebuffer->id);
     const struct rg_buf *arguments =

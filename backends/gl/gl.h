@@ -128,6 +128,7 @@ struct gl_image {
 struct gl_pass {
     struct rg_pass pub;
     GLuint program;
+    GLuint blending;       // the program that blends by itself; 0: none
     unsigned word_slots;   // bits of the slots that are read as textures of words
     size_t params_size;    // parameters of a run, in bytes
     size_t block_size;     // of the uniform block, in bytes
@@ -222,8 +223,9 @@ bool gl_slot_words(struct gl_bound *bound, int slot, struct rg_buf *buf);
 
 // program.c
 
-// Compiles and links a kernel's stages; 0 and one logged line on failure.
-GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel);
+// Compiles and links a kernel's stages, in `ways` as of rg_kernel_code; 0 and one logged line on
+// failure.
+GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel, unsigned ways);
 // The slots whose buffers the program reads as textures of words, as bits.
 unsigned gl_program_word_slots(GLuint program, const struct rg_kernel *kernel);
 
@@ -241,6 +243,8 @@ bool gl_draw_begin(struct gl_device *device);
 void gl_draw_end(struct gl_device *device);
 // Draws packed primitives. The caller has bound the pass's program, parameters and slots.
 bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const struct rg_run *run);
+// backend->can_blend, of the current context
+bool gl_can_blend(const struct rg_device *device, const char **word);
 
 // api/query.c
 

@@ -31,7 +31,7 @@ struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel 
     struct gl_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
     if (!pass)
         return NULL;
-    pass->program = gl_program_create(gl, kernel);
+    pass->program = gl_program_create(gl, kernel, rg_device_ways(device));
     if (!pass->program) {
         free(pass);
         return NULL;
@@ -49,9 +49,10 @@ void gl_pass_destroy(struct rg_pass *pass)
     struct gl_device *gl = (struct gl_device *)pass->device;
     struct gl_pass *mine = (struct gl_pass *)pass;
     if (gl_use(gl)) {
-        if (gl->bound.program == mine->program)
+        if (gl->bound.program == mine->program || gl->bound.program == mine->blending)
             gl_bind_program(&gl->bound, 0);
         glDeleteProgram(mine->program);
+        glDeleteProgram(mine->blending);
     }
     free(mine);
 }
@@ -93,13 +94,28 @@ bool gl_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
     return gl_check(gl, "glGetProgramBinary", "kernel", pass->kernel->name);
 }
 
+// The program that a run takes: one that blends by itself is made for the first draw that blends.
+// 0, and one logged line, on failure.
+static GLuint program_of(struct gl_device *gl, struct gl_pass *mine, const struct rg_run *run)
+{
+    if (!gl->pub.blends || !run->draw || run->draw->blend == RG_BLEND_OFF)
+        return mine->program;
+    if (!mine->blending)
+        mine->blending =
+            gl_program_create(gl, mine->pub.kernel, rg_device_ways(&gl->pub) | RG_CODE_BLENDS);
+    return mine->blending;
+}
+
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)
 {
     struct gl_device *gl = (struct gl_device *)pass->device;
     struct gl_pass *mine = (struct gl_pass *)pass;
     if (!gl_use(gl) || !gl_params_bind(gl, mine, run))
         return false;
-    gl_bind_program(&gl->bound, mine->program);
+    const GLuint program = program_of(gl, mine, run);
+    if (!program)
+        return false;
+    gl_bind_program(&gl->bound, program);
     if (!gl_slots_bind(&gl->bound, mine, run))
         return false;
     if (pass->kernel->draw)

@@ -28,10 +28,10 @@ static bool refuse(const struct gl_device *device, const char *kernel, const cha
 }
 
 static bool compile(const struct gl_device *device, const struct rg_kernel *kernel,
-                    enum rg_code_kind kind, GLuint shader)
+                    enum rg_code_kind kind, unsigned ways, GLuint shader)
 {
     struct rg_kernel_code code;
-    if (!rg_kernel_code(kernel, kind, device->pub.rounds, &code))
+    if (!rg_kernel_code(kernel, kind, ways, &code))
         return false;
     const GLchar *text = (const GLchar *)code.bytes;
     const GLint length = (GLint)code.size;
@@ -46,10 +46,10 @@ static bool compile(const struct gl_device *device, const struct rg_kernel *kern
 }
 
 static bool attach(const struct gl_device *device, const struct rg_kernel *kernel,
-                   const struct stage *stage, GLuint program)
+                   const struct stage *stage, unsigned ways, GLuint program)
 {
     GLuint shader = glCreateShader(stage->type);
-    bool compiled = compile(device, kernel, stage->code, shader);
+    bool compiled = compile(device, kernel, stage->code, ways, shader);
     if (compiled)
         glAttachShader(program, shader);
     glDeleteShader(shader); // deleted together with the program
@@ -67,13 +67,13 @@ static bool link(const struct gl_device *device, const struct rg_kernel *kernel,
     return linked || refuse(device, kernel->name, "glLinkProgram", log);
 }
 
-GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel)
+GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel, unsigned ways)
 {
     const struct stage *stages = kernel->draw ? draw_stages : grid_stages;
     GLuint program = glCreateProgram();
     bool built = true;
     for (int i = 0; built && i < MAX_STAGES && stages[i].type; i++)
-        built = attach(device, kernel, &stages[i], program);
+        built = attach(device, kernel, &stages[i], ways, program);
     built = built && link(device, kernel, program) &&
             gl_check(device, "glCreateProgram", "kernel", kernel->name);
     if (built)

@@ -58,6 +58,34 @@ static bool choose_physical(struct vk_device *device, int index)
     return true;
 }
 
+static bool has_extension(VkPhysicalDevice physical, const char *name)
+{
+    uint32_t count = 0;
+    bool is_there = false;
+    vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL);
+    VkExtensionProperties *all = rg_alloc(count + 1, sizeof(*all), "extensions");
+    if (!all || vkEnumerateDeviceExtensionProperties(physical, NULL, &count, all) < VK_SUCCESS)
+        count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        is_there = is_there || !strcmp(all[i].extensionName, name);
+    free(all);
+    return is_there;
+}
+
+// Whether a pixel's fragments may run in the order of items and read what it holds.
+static bool find_order(VkPhysicalDevice physical,
+                       VkPhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT *order)
+{
+    VkPhysicalDeviceFeatures2 able = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                      .pNext = order};
+    if (!has_extension(physical, VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME))
+        return false;
+    vkGetPhysicalDeviceFeatures2(physical, &able);
+    order->rasterizationOrderDepthAttachmentAccess = VK_FALSE;
+    order->rasterizationOrderStencilAttachmentAccess = VK_FALSE;
+    return order->rasterizationOrderColorAttachmentAccess;
+}
+
 static bool create_logical(struct vk_device *device)
 {
     const float priority = 1.0f;
@@ -73,8 +101,17 @@ static bool create_logical(struct vk_device *device)
         .fragmentStoresAndAtomics = able.fragmentStoresAndAtomics,
         .occlusionQueryPrecise = able.occlusionQueryPrecise,
     };
+    static const char *const extensions[] = {
+        VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME};
+    VkPhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT order = {
+        .sType =
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_FEATURES_EXT};
+    device->ordered = find_order(device->physical, &order);
     const VkDeviceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+        .pNext = device->ordered ? &order : NULL,
+        .enabledExtensionCount = device->ordered,
+        .ppEnabledExtensionNames = extensions,
         .queueCreateInfoCount = 1,
         .pQueueCreateInfos = &queue,
         .pEnabledFeatures = &wanted,
@@ -157,6 +194,7 @@ const struct rg_backend rg_backend_vulkan = {
     .packed = true,
     .list = vk_list,
     .create = vk_create,
+    .can_blend = vk_can_blend,
     .functions = vk_functions,
     .destroy = vk_destroy,
     .buf_create = vk_buf_create,

@@ -46,8 +46,15 @@ void vk_draw_close(struct vk_device *device)
         vk_buf_destroy(device->no_samples);
     if (device->no_depth)
         vk_image_destroy(device->no_depth);
+    vkDestroyDescriptorSetLayout(device->handle, device->before, NULL);
     vk_queries_close(device);
     vk_targets_close(device);
+}
+
+bool vk_can_blend(const struct rg_device *device, const char **word)
+{
+    *word = VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME;
+    return ((const struct vk_device *)device)->ordered;
 }
 
 // --- running ---
@@ -80,22 +87,25 @@ bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_p
     const struct rg_image *sized = draw->colour ? draw->colour : draw->depth;
     const int width = rg_level_size(sized->desc.width, draw->level);
     const int height = rg_level_size(sized->desc.height, draw->level);
+    const struct vk_target target = vk_target_of(device, draw);
+    VkDescriptorSet sets[2] = {pass->set, VK_NULL_HANDLE};
     VkPipeline pipeline = vk_pipeline_of(device, pass, draw);
     const VkRenderPassBeginInfo begin = {
         .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-        .renderPass = vk_render_pass(device, vk_target_of(draw), pass->pub.kernel->name),
+        .renderPass = vk_render_pass(device, target, pass->pub.kernel->name),
         .framebuffer = pipeline ? vk_framebuffer(device, draw) : VK_NULL_HANDLE,
         .renderArea = {{0, 0}, {(uint32_t)width, (uint32_t)height}},
     };
     const int queries = draw->items_a_query ? run->packed->queries : 0;
-    if (!pipeline || !begin.framebuffer || !vk_queries_prepare(device, batch, queries))
+    if (!pipeline || !begin.framebuffer || !vk_queries_prepare(device, batch, queries) ||
+        (target.blends && !vk_slot_before(device, batch, pass, draw, &sets[1])))
         return false;
     VkCommandBuffer commands = batch->commands;
     vk_barrier_before_draw(batch);
     vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass->layout, 0, 1,
-                            &pass->set, 1, &params_offset);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass->layout, 0,
+                            target.blends ? 2 : 1, sets, 1, &params_offset);
     set_area(batch, draw, width, height);
     if (queries)
         vk_draw_queries(device, batch, run->packed);

@@ -27,6 +27,14 @@ VkImageUsageFlags vk_usage(enum rg_format format, unsigned uses)
     return usage;
 }
 
+VkImageUsageFlags vk_input_usage(const struct vk_device *device, enum rg_format format)
+{
+    const unsigned uses = device->pub.info.limits.formats[format].uses;
+    return device->pub.blends && format != RG_D32F && (uses & RG_USE_DRAW)
+               ? VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT
+               : 0;
+}
+
 VkImageAspectFlags vk_aspect(enum rg_format format)
 {
     return format == RG_D32F ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;

@@ -17,7 +17,8 @@ static VkImageCreateInfo image_info(const struct vk_device *device,
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .tiling = VK_IMAGE_TILING_OPTIMAL,
         // The usage flags for everything that this backend does with images of the format.
-        .usage = vk_usage(desc->format, device->pub.info.limits.formats[desc->format].uses),
+        .usage = vk_usage(desc->format, device->pub.info.limits.formats[desc->format].uses) |
+                 vk_input_usage(device, desc->format),
         .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
         .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
     };

@@ -8,10 +8,10 @@
 #include "core/base/log.h"
 
 static bool create_module(struct vk_device *device, const struct rg_kernel *kernel,
-                          enum rg_code_kind kind, VkShaderModule *module)
+                          enum rg_code_kind kind, unsigned ways, VkShaderModule *module)
 {
     struct rg_kernel_code code;
-    if (!rg_kernel_code(kernel, kind, device->pub.rounds, &code))
+    if (!rg_kernel_code(kernel, kind, rg_device_ways(&device->pub) | ways, &code))
         return false;
     const uint32_t spirv_magic = 0x07230203, header_bytes = 20;
     bool ok = code.size >= header_bytes && code.size % 4 == 0 &&
@@ -34,7 +34,7 @@ static bool create_pipeline(struct vk_device *device, const struct rg_kernel *ke
                             struct vk_pass *pass)
 {
     VkShaderModule module;
-    if (!create_module(device, kernel, RG_CODE_SPIRV, &module))
+    if (!create_module(device, kernel, RG_CODE_SPIRV, 0, &module))
         return false;
     const VkComputePipelineCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
@@ -56,8 +56,10 @@ static bool create_drawing(struct vk_device *device, const struct rg_kernel *ker
                            struct vk_pass *pass)
 {
     struct vk_drawing *drawing = pass->drawing = rg_alloc(1, sizeof(*drawing), kernel->name);
-    return drawing && create_module(device, kernel, RG_CODE_VERTEX_SPIRV, &drawing->vertex) &&
-           create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV, &drawing->fragment);
+    return drawing && create_module(device, kernel, RG_CODE_VERTEX_SPIRV, 0, &drawing->vertex) &&
+           create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV, 0, &drawing->fragment) &&
+           (!device->pub.blends || create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV,
+                                                 RG_CODE_BLENDS, &drawing->blending));
 }
 
 bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
@@ -78,6 +80,7 @@ static void destroy_drawing(struct vk_device *device, struct vk_drawing *drawing
     for (int i = 0; i < count; i++)
         vkDestroyPipeline(device->handle, (&drawing->pipelines[0][0][0])[i], NULL);
     vkDestroyShaderModule(device->handle, drawing->fragment, NULL);
+    vkDestroyShaderModule(device->handle, drawing->blending, NULL);
     vkDestroyShaderModule(device->handle, drawing->vertex, NULL);
     free(drawing);
 }

@@ -26,6 +26,21 @@ static VkShaderStageFlags slot_stages(const struct rg_kernel *kernel, int slot)
                                                  : block_stages(kernel);
 }
 
+// The layout of what a target holds, for fragments that blend by themselves.
+static bool prepare_before(struct vk_device *device, const struct rg_kernel *kernel)
+{
+    const VkDescriptorSetLayoutBinding held = {0, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, 1,
+                                               VK_SHADER_STAGE_FRAGMENT_BIT, NULL};
+    const VkDescriptorSetLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = 1,
+        .pBindings = &held,
+    };
+    return !device->pub.blends || device->before ||
+           vk_try("kernel", kernel->name, vkCreateDescriptorSetLayout, device->handle, &info, NULL,
+                  &device->before);
+}
+
 static bool create_set_layout(struct vk_device *device, const struct rg_kernel *kernel,
                               struct vk_pass *pass)
 {
@@ -46,10 +61,11 @@ static bool create_set_layout(struct vk_device *device, const struct rg_kernel *
     if (!vk_try("kernel", kernel->name, vkCreateDescriptorSetLayout, device->handle, &set, NULL,
                 &pass->set_layout))
         return false;
+    const VkDescriptorSetLayout sets[] = {pass->set_layout, device->before};
     const VkPipelineLayoutCreateInfo layout = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-        .setLayoutCount = 1,
-        .pSetLayouts = &pass->set_layout,
+        .setLayoutCount = kernel->draw && device->pub.blends ? 2 : 1,
+        .pSetLayouts = sets,
     };
     return vk_try("kernel", kernel->name, vkCreatePipelineLayout, device->handle, &layout, NULL,
                   &pass->layout);
@@ -80,7 +96,8 @@ static bool create_update(struct vk_device *device, const struct rg_kernel *kern
 
 bool vk_slots_create(struct vk_device *device, struct vk_pass *pass, const struct rg_kernel *kernel)
 {
-    return create_set_layout(device, kernel, pass) && create_update(device, kernel, pass);
+    return prepare_before(device, kernel) && create_set_layout(device, kernel, pass) &&
+           create_update(device, kernel, pass);
 }
 
 void vk_slots_destroy(struct vk_device *device, struct vk_pass *pass)
@@ -91,6 +108,33 @@ void vk_slots_destroy(struct vk_device *device, struct vk_pass *pass)
 }
 
 // --- binding ---
+
+bool vk_slot_before(struct vk_device *device, const struct vk_batch *batch,
+                    const struct vk_pass *pass, const struct rg_draw *draw, VkDescriptorSet *set)
+{
+    const VkDescriptorImageInfo held = {
+        .imageView = vk_place(device, draw->colour, draw->layer, draw->level),
+        .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
+    };
+    const VkDescriptorSetAllocateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+        .descriptorPool = batch->descriptor_pool,
+        .descriptorSetCount = 1,
+        .pSetLayouts = &device->before,
+    };
+    if (!held.imageView || !vk_try("kernel", pass->pub.kernel->name, vkAllocateDescriptorSets,
+                                   device->handle, &info, set))
+        return false;
+    const VkWriteDescriptorSet write = {
+        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+        .dstSet = *set,
+        .descriptorCount = 1,
+        .descriptorType = VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT,
+        .pImageInfo = &held,
+    };
+    vkUpdateDescriptorSets(device->handle, 1, &write, 0, NULL);
+    return true;
+}
 
 // Assigns members one by one, so that padding stays zero and descriptors can be compared.
 void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf)

@@ -15,10 +15,11 @@ struct vk_framebuffer {
     VkFramebuffer handle;
 };
 
-struct vk_target vk_target_of(const struct rg_draw *draw)
+struct vk_target vk_target_of(const struct vk_device *device, const struct rg_draw *draw)
 {
     return (struct vk_target){
         .colour = draw->colour ? draw->colour->desc.format : RG_FORMAT_NONE,
+        .blends = device->pub.blends && draw->colour && draw->blend != RG_BLEND_OFF,
         // Where samples are counted, the fragment shader tests the depth, so that it is no
         // attachment.
         .depth = draw->depth_mode != RG_DEPTH_OFF && !rg_draw_counts(draw),
@@ -64,7 +65,7 @@ static VkAttachmentDescription attachment(enum rg_format format)
 
 VkRenderPass vk_render_pass(struct vk_device *device, struct vk_target target, const char *name)
 {
-    VkRenderPass *kept = &device->render_passes[target.colour][target.depth];
+    VkRenderPass *kept = &device->render_passes[target.colour][target.depth][target.blends];
     if (*kept)
         return *kept;
     VkAttachmentDescription attachments[2];
@@ -79,8 +80,20 @@ VkRenderPass vk_render_pass(struct vk_device *device, struct vk_target target, c
         references[1].attachment = count;
         attachments[count++] = attachment(RG_D32F);
     }
+    const VkSubpassDependency order = {
+        .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+        .dstStageMask = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+        .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+        .dstAccessMask = VK_ACCESS_INPUT_ATTACHMENT_READ_BIT,
+        .dependencyFlags = VK_DEPENDENCY_BY_REGION_BIT,
+    };
     const VkSubpassDescription subpass = {
+        .flags = target.blends
+                     ? VK_SUBPASS_DESCRIPTION_RASTERIZATION_ORDER_ATTACHMENT_COLOR_ACCESS_BIT_EXT
+                     : 0,
         .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
+        .inputAttachmentCount = target.blends,
+        .pInputAttachments = &references[0],
         .colorAttachmentCount = 1,
         .pColorAttachments = &references[0],
         .pDepthStencilAttachment = &references[1],
@@ -91,6 +104,8 @@ VkRenderPass vk_render_pass(struct vk_device *device, struct vk_target target, c
         .pAttachments = attachments,
         .subpassCount = 1,
         .pSubpasses = &subpass,
+        .dependencyCount = target.blends,
+        .pDependencies = &order,
     };
     if (!vk_try("kernel", name, vkCreateRenderPass, device->handle, &info, NULL, kept))
         *kept = VK_NULL_HANDLE;
@@ -124,24 +139,26 @@ static bool create_framebuffer(struct vk_device *device, const struct rg_draw *d
                                      &info, NULL, &framebuffer->handle);
 }
 
-static bool is_of(const struct vk_framebuffer *framebuffer, const struct rg_draw *draw)
+static bool is_of(const struct vk_device *device, const struct vk_framebuffer *framebuffer,
+                  const struct rg_draw *draw)
 {
-    const struct vk_target target = vk_target_of(draw);
+    const struct vk_target target = vk_target_of(device, draw);
     return framebuffer->colour == draw->colour && framebuffer->depth == draw->depth &&
            framebuffer->layer == draw->layer && framebuffer->level == draw->level &&
-           framebuffer->target.colour == target.colour && framebuffer->target.depth == target.depth;
+           framebuffer->target.colour == target.colour &&
+           framebuffer->target.depth == target.depth && framebuffer->target.blends == target.blends;
 }
 
 VkFramebuffer vk_framebuffer(struct vk_device *device, const struct rg_draw *draw)
 {
     for (struct vk_framebuffer *kept = device->framebuffers; kept; kept = kept->next)
-        if (is_of(kept, draw))
+        if (is_of(device, kept, draw))
             return kept->handle;
     struct vk_framebuffer *made = rg_alloc(1, sizeof(*made), "framebuffer");
     if (!made)
         return VK_NULL_HANDLE;
     *made = (struct vk_framebuffer){device->framebuffers, draw->colour, draw->depth,
-                                    draw->layer,          draw->level,  vk_target_of(draw),
+                                    draw->layer,          draw->level,  vk_target_of(device, draw),
                                     VK_NULL_HANDLE};
     if (!create_framebuffer(device, draw, made)) {
         free(made);
@@ -175,5 +192,7 @@ void vk_targets_close(struct vk_device *device)
 {
     for (int colour = 0; colour < VK_COLOURS; colour++)
         for (int depth = 0; depth < VK_DEPTHS; depth++)
-            vkDestroyRenderPass(device->handle, device->render_passes[colour][depth], NULL);
+            for (int blends = 0; blends < VK_BLENDS; blends++)
+                vkDestroyRenderPass(device->handle, device->render_passes[colour][depth][blends],
+                                    NULL);
 }

@@ -61,9 +61,9 @@ struct vk_family {
     bool draws;
 };
 
-// The key of a render pass: enum rg_format of the colour or RG_FORMAT_NONE, and whether depth is
-// attached.
-enum { VK_COLOURS = RG_RGBA32F + 1, VK_DEPTHS = 2 };
+// The key of a render pass: enum rg_format of the colour or RG_FORMAT_NONE, whether depth is
+// attached, and whether programs blend by themselves.
+enum { VK_COLOURS = RG_RGBA32F + 1, VK_DEPTHS = 2, VK_BLENDS = 2 };
 
 struct vk_framebuffer;
 
@@ -74,7 +74,9 @@ struct vk_device {
     VkPhysicalDeviceLimits limits;
     VkPhysicalDeviceMemoryProperties memory;
     VkDeviceSize max_allocation_bytes;
-    bool direct; // the host reads and writes device memory at full speed
+    bool ordered; // fragments can read what their pixel holds, in the order of items
+    VkDescriptorSetLayout before; // of that, where programs blend; made on first use
+    bool direct;                  // the host reads and writes device memory at full speed
     VkDevice handle;
     VkQueue queue;
     struct vk_family family;
@@ -85,10 +87,10 @@ struct vk_device {
     uint64_t ticks_last, ticks_total;
     struct vk_batch batches[VK_BATCHES];
     int current;
-    uint64_t serial;                                   // of the batch being recorded, unique
-    VkPipeline bound;                                  // of compute
-    VkRenderPass render_passes[VK_COLOURS][VK_DEPTHS]; // made on first use
-    struct vk_framebuffer *framebuffers;               // likewise; a list
+    uint64_t serial;  // of the batch being recorded, unique
+    VkPipeline bound; // of compute
+    VkRenderPass render_passes[VK_COLOURS][VK_DEPTHS][VK_BLENDS]; // made on first use
+    struct vk_framebuffer *framebuffers;                          // likewise; a list
     struct rg_buf *no_samples; // bound by draws that count nothing; made with the first DRAW pass
     struct rg_image *no_depth;
     PFN_vkSetDebugUtilsObjectNameEXT set_name; // NULL without the validation layer
@@ -117,6 +119,7 @@ union vk_descriptor {
 // made on first use.
 struct vk_drawing {
     VkShaderModule vertex, fragment;
+    VkShaderModule blending; // fragments that blend by themselves; none where the driver does
     VkPipeline pipelines[VK_COLOURS][RG_BLEND_ADD + 1][RG_DEPTH_WRITE + 1];
 };
 
@@ -217,6 +220,8 @@ bool vk_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
 VkFormat vk_format(enum rg_format format);
 // The usages of images of a format, from bits of enum rg_format_use.
 VkImageUsageFlags vk_usage(enum rg_format format, unsigned uses);
+// The usage that programs need which blend by themselves, 0 where the driver blends.
+VkImageUsageFlags vk_input_usage(const struct vk_device *device, enum rg_format format);
 VkImageAspectFlags vk_aspect(enum rg_format format);
 
 // image.c
@@ -240,6 +245,9 @@ void vk_slots_fill(const struct vk_device *device, const struct rg_kernel *kerne
 void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf);
 void vk_slot_image(union vk_descriptor *descriptor, const struct vk_device *device,
                    VkImageView view);
+// Makes a set with the colour that a draw blends with by itself.
+bool vk_slot_before(struct vk_device *device, const struct vk_batch *batch,
+                    const struct vk_pass *pass, const struct rg_draw *draw, VkDescriptorSet *set);
 // Makes pass->set a set with these descriptors.
 bool vk_slots_bind(struct vk_device *device, struct vk_batch *batch, struct vk_pass *pass,
                    union vk_descriptor descriptors[RG_MAX_SLOTS]);
@@ -249,8 +257,9 @@ bool vk_slots_bind(struct vk_device *device, struct vk_batch *batch, struct vk_p
 struct vk_target {
     enum rg_format colour;
     bool depth;
+    bool blends; // the program does, and reads the colour
 };
-struct vk_target vk_target_of(const struct rg_draw *draw);
+struct vk_target vk_target_of(const struct vk_device *device, const struct rg_draw *draw);
 // A view of one layer of one level, which the image owns; VK_NULL_HANDLE where the driver failed.
 VkImageView vk_place(struct vk_device *device, struct rg_image *image, int layer, int level);
 // The device owns both; VK_NULL_HANDLE where the driver failed.
@@ -276,6 +285,8 @@ VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,
 // draw.c
 // Adds the slots of the drawing stages to pass->slots.
 void vk_draw_slots(struct vk_pass *pass);
+// backend->can_blend
+bool vk_can_blend(const struct rg_device *device, const char **word);
 // Makes the buffer for draws that count nothing, because a shader's slots must all be bound. False:
 // the driver failed.
 bool vk_draw_prepare(struct vk_device *device);

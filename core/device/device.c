@@ -5,6 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "backends/blending.h"
 #include "backends/rounding.h"
 #include "core/base/alloc.h"
 #include "core/base/doing.h"
@@ -143,7 +144,7 @@ struct rg_device *rg_device_open(const char *name)
     device->work = work;
     find_libraries(device);
     memcpy(device->info.full, device->info.name, RG_DEVICE_NAME_SIZE);
-    if (rg_rounding_settle(device))
+    if (rg_rounding_settle(device) && rg_blending_settle(device))
         return device;
     rg_device_close(device);
     return NULL;

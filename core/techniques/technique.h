@@ -8,6 +8,7 @@
 #include "core/techniques/stages/assets.h"
 #include "core/techniques/stages/frame.h"
 #include "core/techniques/stages/instance.h"
+#include "core/techniques/stages/layer.h"
 #include "core/techniques/params.h"
 #include "core/techniques/stages/stages.h"
 

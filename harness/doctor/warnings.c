@@ -129,6 +129,11 @@ static void check_variables(json_t *warnings)
              "RG_ROUNDING=%.40s: decides who rounds quotients and roots on gl and vulkan; "
              "unset it to let each device's own decide",
              rounding);
+    if (value_of("RG_BLENDING"))
+        warn(warnings,
+             "RG_BLENDING=%.40s: decides who blends on gl and vulkan; unset it to let each "
+             "device's own decide",
+             getenv("RG_BLENDING"));
     if (validation && !strcmp(validation, "1"))
         warn(warnings, "RG_VK_VALIDATION=1: vulkan is validated, and slower for it; unset it to "
                        "measure");

@@ -12,7 +12,8 @@ import os
 import sys
 import zlib
 
-KINDS = ["glsl", "spv", "cl", "vert", "vert.spv", "frag", "frag.spv", "rounded.spv", "vert.rounded.spv", "frag.rounded.spv"]
+KINDS = ["glsl", "spv", "cl", "vert", "vert.spv", "frag", "frag.spv", "rounded.spv", "vert.rounded.spv", "frag.rounded.spv",
+         "frag.blended.spv", "frag.rounded_blended.spv"]
 
 
 def pack(path):

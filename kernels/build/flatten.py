@@ -54,6 +54,26 @@ VERSION = """#version 450 core
 #endif
 """
 
+# A fragment's colour. Where RG_BLENDS is defined the program blends by itself, with what its pixel holds, and the API has the
+# driver run a pixel's fragments in their order.
+FRAGMENT = """#ifdef RG_BLENDS
+#define RG_BLENDED_WITH(draw, c, t) rg_blended(draw, c, rg_rgba(t.x, t.y, t.z, t.w))
+#ifdef VULKAN
+#define RG_COLOUR(name) \\
+    layout(input_attachment_index = 0, set = 1, binding = 0) uniform subpassInput name##_before; \\
+    layout(location = 0) out vec4 name;
+#define RG_BLENDED(draw, c, name) RG_BLENDED_WITH(draw, c, subpassLoad(name##_before))
+#else
+#extension GL_EXT_shader_framebuffer_fetch : require
+#define RG_COLOUR(name) layout(location = 0) inout vec4 name;
+#define RG_BLENDED(draw, c, name) RG_BLENDED_WITH(draw, c, name)
+#endif
+#else
+#define RG_COLOUR(name) layout(location = 0) out vec4 name;
+#define RG_BLENDED(draw, c, name) c
+#endif
+"""
+
 
 def needs_of(depfile):
     """The files that a text was made of."""
@@ -244,7 +264,7 @@ def flatten(job):
         return needs, f"{header}: {refusal}"
     if language == "GLSL":
         try:
-            text = VERSION + add_struct_readers(make_precise(quotients.rewrite(text)))
+            text = VERSION + (FRAGMENT if shell.endswith(".frag") else "") + add_struct_readers(make_precise(quotients.rewrite(text)))
         except quotients.Refused as refused:
             return needs, f"{header}: {refused}"
     write_if_changed(output, text)

@@ -155,6 +155,13 @@ static void their_code_is_another(void **state)
         {RG_CODE_SPIRV, RG_CODE_ROUNDED_SPIRV},
         {RG_CODE_VERTEX_SPIRV, RG_CODE_ROUNDED_VERTEX_SPIRV},
         {RG_CODE_FRAGMENT_SPIRV, RG_CODE_ROUNDED_FRAGMENT_SPIRV}};
+    struct rg_kernel_code blended;
+    assert_true(rg_kernel_code(rg_kernel_find("test_quads"), RG_CODE_FRAGMENT_GLSL,
+                               RG_CODE_ROUNDS | RG_CODE_BLENDS, &blended));
+    if (blended.size)
+        assert_memory_equal(blended.bytes,
+                            "#version 450 core\n#define RG_ROUNDED\n#define RG_BLENDS\n", 55);
+    free(blended.bytes);
     static const enum rg_code_kind texts[] = {RG_CODE_GLSL, RG_CODE_VERTEX_GLSL,
                                               RG_CODE_FRAGMENT_GLSL};
     static const char begins[] = "#version 450 core\n#define RG_ROUNDED\n";

@@ -171,6 +171,20 @@ def check_own_rounding(runner):
     return problems
 
 
+def check_own_blending(runner):
+    """programs of gl and vulkan blend where they are asked to, draw what the driver draws, and doctor tells of the variable"""
+    problems = []
+    report, status, errors = examine(runner, ["--device", "gl,vulkan"], {"RG_BLENDING": "program"})
+    for name, device in by_name(report).items():
+        if device["status"] == "unsupported":
+            continue
+        if ", own blending" not in device["api"] or device["status"] != "ok":
+            problems.append("%s: %s, %s" % (name, device["api"], device["status"]))
+    if status not in (0, 77) or not any("RG_BLENDING=program" in warning for warning in report["warnings"]):
+        problems.append("exit status %d, warnings %s, stderr: %s" % (status, report["warnings"], errors))
+    return problems
+
+
 def check_full(runner):
     """a report that does not fit on standard output is an error of its own, also of a device that is not supported"""
     with open("/dev/full", "w") as full:
@@ -180,4 +194,4 @@ def check_full(runner):
     return []
 
 
-CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic, check_drawing, check_own_rounding, check_full]
+CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic, check_drawing, check_own_rounding, check_own_blending, check_full]

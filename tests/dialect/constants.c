@@ -256,11 +256,6 @@ static struct stage read_stage(const struct rg_kernel *kernel, const struct spir
     return read;
 }
 
-static bool is_rounded(const struct spirv_stage *stage)
-{
-    return stage->kind >= RG_CODE_ROUNDED_SPIRV;
-}
-
 static void every_constant_is_written(void **state)
 {
     (void)state;
@@ -274,7 +269,7 @@ static void every_constant_is_written(void **state)
         for (int c = 0; c < read.constants.count; c++) {
             const float constant = read.constants.all[c];
             if (has_value(&read.values, constant) ||
-                (is_rounded(stage) && has_significand(&read.values, constant)))
+                (stage->rounds && has_significand(&read.values, constant)))
                 continue;
             print_error("kernel '%s', %s stage: no expression comes to %.9g in floats\n",
                         kernel->name, stage->name, (double)constant);

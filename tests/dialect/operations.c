@@ -317,7 +317,7 @@ static void no_quotient_is_left_to_the_driver(void **state)
     for (int i = 0; i < count; i++)
         for (int s = 0; s < SPIRV_STAGES; s++) {
             const struct spirv_module module = spirv_module(all[i], spirv_stages[s].kind);
-            const bool rounds = spirv_stages[s].kind >= RG_CODE_ROUNDED_SPIRV;
+            const bool rounds = spirv_stages[s].rounds;
             if (!module.count)
                 continue;
             const int left = left_to_the_driver(module, rounds ? &rough : &plain);

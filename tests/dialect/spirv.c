@@ -11,12 +11,15 @@
 #include <spirv/unified1/spirv.h>
 
 const struct spirv_stage spirv_stages[SPIRV_STAGES] = {
-    {RG_CODE_SPIRV, RG_CODE_GLSL, "compute"},
-    {RG_CODE_VERTEX_SPIRV, RG_CODE_VERTEX_GLSL, "vertex"},
-    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "fragment"},
-    {RG_CODE_ROUNDED_SPIRV, RG_CODE_GLSL, "rounded compute"},
-    {RG_CODE_ROUNDED_VERTEX_SPIRV, RG_CODE_VERTEX_GLSL, "rounded vertex"},
-    {RG_CODE_ROUNDED_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "rounded fragment"}};
+    {RG_CODE_SPIRV, RG_CODE_GLSL, "compute", false},
+    {RG_CODE_VERTEX_SPIRV, RG_CODE_VERTEX_GLSL, "vertex", false},
+    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "fragment", false},
+    {RG_CODE_BLENDED_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "blending fragment", false},
+    {RG_CODE_ROUNDED_SPIRV, RG_CODE_GLSL, "rounded compute", true},
+    {RG_CODE_ROUNDED_VERTEX_SPIRV, RG_CODE_VERTEX_GLSL, "rounded vertex", true},
+    {RG_CODE_ROUNDED_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "rounded fragment", true},
+    {RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "rounded blending fragment",
+     true}};
 
 struct rg_kernel_code spirv_code(const struct rg_kernel *kernel, enum rg_code_kind kind)
 {

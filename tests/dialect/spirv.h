@@ -17,9 +17,11 @@ struct spirv_module {
 struct spirv_stage {
     enum rg_code_kind kind, text;
     const char *name;
+    bool rounds; // quotients and roots by itself
 };
 
-enum { SPIRV_STAGES = 6 }; // three, and the same of programs that round quotients themselves
+// Three, and fragments that blend by themselves; and the same of programs that round.
+enum { SPIRV_STAGES = 8 };
 
 extern const struct spirv_stage spirv_stages[SPIRV_STAGES];
 

@@ -12,10 +12,11 @@ static bool create_descriptor_pool(struct vk_device *device, struct vk_batch *ba
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_BATCH_DESCRIPTORS},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_BATCH_DESCRIPTORS},
         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_BATCH_DESCRIPTORS},
+        {VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_BATCH_RUNS},
     };
     const VkDescriptorPoolCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = VK_BATCH_RUNS,
+        .maxSets = 2 * VK_BATCH_RUNS, // of a pass's slots, and of what its target holds
         .poolSizeCount = sizeof(sizes) / sizeof(sizes[0]),
         .pPoolSizes = sizes,
     };

@@ -8,9 +8,9 @@ struct draw_state {
     enum rg_depth_mode depth_mode;
 };
 
-static struct draw_state draw_state_of(const struct rg_draw *draw)
+static struct draw_state draw_state_of(const struct vk_device *device, const struct rg_draw *draw)
 {
-    const struct vk_target target = vk_target_of(draw);
+    const struct vk_target target = vk_target_of(device, draw);
     return (struct draw_state){
         .target = target,
         .blend = target.colour == RG_FORMAT_NONE ? RG_BLEND_OFF : draw->blend,
@@ -96,10 +96,16 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
     const char *name = pass->pub.kernel->name;
     const VkPipelineShaderStageCreateInfo stages[] = {
         stage(VK_SHADER_STAGE_VERTEX_BIT, pass->drawing->vertex),
-        stage(VK_SHADER_STAGE_FRAGMENT_BIT, pass->drawing->fragment)};
-    const VkPipelineColorBlendAttachmentState attachment = blend_state(state->blend);
+        stage(VK_SHADER_STAGE_FRAGMENT_BIT,
+              state->target.blends ? pass->drawing->blending : pass->drawing->fragment)};
+    const VkPipelineColorBlendAttachmentState attachment =
+        blend_state(state->target.blends ? RG_BLEND_OFF : state->blend);
     const VkPipelineColorBlendStateCreateInfo blend = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .flags =
+            state->target.blends
+                ? VK_PIPELINE_COLOR_BLEND_STATE_CREATE_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_BIT_EXT
+                : 0,
         .attachmentCount = 1,
         .pAttachments = &attachment,
     };
@@ -123,7 +129,7 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
 VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,
                           const struct rg_draw *draw)
 {
-    const struct draw_state state = draw_state_of(draw);
+    const struct draw_state state = draw_state_of(device, draw);
     VkPipeline *kept =
         &pass->drawing->pipelines[state.target.colour][state.blend][state.depth_mode];
     if (!*kept)

@@ -19,8 +19,9 @@ bool cartoon_draw(struct rg_instance *instance)
     struct cartoon_water_view view = {.from_pixel = c->view.from_pixel};
     memcpy(view.to_light, c->view.to_light, sizeof(view.to_light));
     memcpy(view.ink, c->settings.ink, sizeof(view.ink));
-    return cartoon_scene_draw(c) && cartoon_water_draw(&c->water, &view) &&
-           cartoon_rain_draw(&c->rain);
+    return cartoon_scene_draw(c) && rg_layer_begin(&c->layer) &&
+           cartoon_water_draw(&c->water, &view) && cartoon_rain_draw(&c->rain) &&
+           rg_layer_meet(&c->layer);
 }
 
 static bool cartoon_make_textures(rg_take_texture *take, void *user)

@@ -24,7 +24,6 @@ enum cartoon_stage {
     CARTOON_RUN_TONES,
     CARTOON_RUN_PAPER,
     CARTOON_RUN_HATCHING,
-    CARTOON_RUN_KEPT,
     CARTOON_STAGES
 };
 
@@ -46,7 +45,8 @@ struct cartoon {
     struct diorama *diorama; // its mesh has the triangles and bounds
     struct cartoon_view view;
     struct rg_asset *normal_map, *depth_map, *face_map, *number_depth, *ink;
-    struct rg_asset *picture; // the styled picture; one texel where the target gets it directly
+    struct rg_layer layer; // of rain and puddles, over the styled picture
+    int first_stage;       // of enum cartoon_stage, after the layer's
     int edge_count;
     cartoon_faces_params solids, thin; // solids are visible from outside only
     cartoon_ink_params outlines;
@@ -80,7 +80,7 @@ bool cartoon_look(struct cartoon *c, int64_t frame);
 bool cartoon_is_inside(const struct rg_mesh *mesh, const float eye[3]);
 // Draws the scene into the normal map, the depth and the ink, unless they hold this view already.
 bool cartoon_scene_find(struct cartoon *c);
-// The same, and then draws the styled scene onto the target.
+// The same, and then draws the styled scene onto the background, unless it is there already.
 bool cartoon_scene_draw(struct cartoon *c);
 
 // Adds the image `strokes`: RGBA8, CARTOON_LEVELS levels, tones 0 to 3 in the channels of its first

@@ -1,6 +1,4 @@
 // Opens cartoon on a device: its scene and stages.
-#include <string.h>
-
 #include "core/techniques/cartoon/instance.h"
 
 #define AT(field) offsetof(struct cartoon, field)
@@ -40,14 +38,9 @@ static bool asks_faces(const struct rg_instance *i)
     return ((const struct cartoon *)i)->settings.rain.collide == CARTOON_COLLIDE_CORRECT;
 }
 
-static bool keeps_picture(const struct rg_instance *i)
-{
-    return ((const struct cartoon *)i)->settings.redraw == CARTOON_MOVED;
-}
-
 #define ONTO_NUMBERS .colour = "face_map", .depth = "number_depth", .depth_mode = RG_DEPTH_WRITE
 #define ONTO_MAPS    .colour = "normal_map", .depth = "depth_map", .depth_mode = RG_DEPTH_WRITE
-#define PICTURE      .params = AT(shade), .colour = "picture"
+#define PICTURE      .params = AT(shade), .colour = RG_BACKGROUND
 
 static const struct rg_stage stages[CARTOON_STAGES] = {
     [CARTOON_RUN_SOLIDS] = {"cartoon_faces", .params = AT(solids), ONTO_MAPS, .cull = RG_CULL_BACK},
@@ -61,24 +54,13 @@ static const struct rg_stage stages[CARTOON_STAGES] = {
     [CARTOON_RUN_TONES] = {"cartoon_tones", is_toned, PICTURE},
     [CARTOON_RUN_PAPER] = {"cartoon_paper", is_paper, PICTURE},
     [CARTOON_RUN_HATCHING] = {"cartoon_hatching", is_hatched, PICTURE},
-    [CARTOON_RUN_KEPT] = {"cartoon_kept", keeps_picture, .params = AT(shade), .colour = "target"},
 };
-
-// Opens the stages; a picture that is never reused is drawn directly onto the target.
-static bool open_stages(struct cartoon *c)
-{
-    struct rg_stage rows[CARTOON_STAGES];
-    memcpy(rows, stages, sizeof(rows));
-    for (int style = CARTOON_RUN_GOOCH; style <= CARTOON_RUN_HATCHING; style++)
-        if (!keeps_picture(&c->base))
-            rows[style].colour = "target";
-    return rg_open_stages(&c->base, rows, CARTOON_STAGES, c, NULL) >= 0;
-}
 
 bool cartoon_open(struct rg_instance *instance)
 {
     struct cartoon *c = (struct cartoon *)instance;
-    return cartoon_scene_open(c) && open_stages(c) &&
+    return cartoon_scene_open(c) && rg_layer_open(&c->layer, instance) &&
+           (c->first_stage = rg_open_stages(instance, stages, CARTOON_STAGES, c, NULL)) >= 0 &&
            cartoon_rain_open(
                &c->rain, instance, &c->settings.rain, c->settings.seed,
                &(struct cartoon_rain_scene){c->diorama, &c->view.camera, &c->view.to_clip}) &&

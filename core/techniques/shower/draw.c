@@ -12,8 +12,8 @@ static bool draw_scene(struct shower *s, const struct scenery_look *look)
         (uint16_t)rg_pack_half(look->sky.horizon_r), (uint16_t)rg_pack_half(look->sky.horizon_g),
         (uint16_t)rg_pack_half(look->sky.horizon_b), (uint16_t)rg_pack_half(1)};
     if (!s->scene)
-        return rg_image_clear(s->base.target, sky);
-    struct scenery_view view = {.colour = s->base.target,
+        return rg_image_clear(s->layer.background->image, sky);
+    struct scenery_view view = {.colour = s->layer.background->image,
                                 .depth = rg_asset_find(&s->base, "depth")->image,
                                 .to_clip = s->view.to_clip};
     memcpy(view.eye, s->camera.position, sizeof(view.eye));
@@ -47,6 +47,6 @@ bool shower_draw(struct rg_instance *instance)
     if (!set_view(s, &look) || !draw_scene(s, &look))
         return false;
     instance->counters[SHOWER_COUNT_DRAWN].value += s->tally[SHOWER_ALIVE];
-    return rg_stage(instance, s->first_stage + SHOWER_RUN_SEGMENTS) &&
-           rg_stage(instance, s->first_stage + SHOWER_RUN_QUADS);
+    return rg_layer_begin(&s->layer) && rg_stage(instance, s->first_stage + SHOWER_RUN_SEGMENTS) &&
+           rg_stage(instance, s->first_stage + SHOWER_RUN_QUADS) && rg_layer_meet(&s->layer);
 }

@@ -32,6 +32,7 @@ enum shower_counter {
 struct shower {
     struct rg_instance base;
     struct shower_settings settings;
+    struct rg_layer layer;         // of rain
     struct scenery *scene;         // NULL: none
     struct scenery_lights *lights; // likewise
     struct shower_heap *heap;      // NULL: particles exist on the device only

@@ -149,7 +149,7 @@ static bool add_texture(struct shower *s)
 
 #define AT(field) offsetof(struct shower, field)
 #define MOVE      .params = AT(params), .over = "marks"
-#define RAIN      .params = AT(view), .over = "marks", .colour = "target", .blend = RG_BLEND_OVER
+#define RAIN      .params = AT(view), .over = "marks", .colour = RG_LAYER, .blend = RG_BLEND_OVER
 
 static bool open_stages(struct shower *s)
 {
@@ -196,7 +196,8 @@ bool shower_open(struct rg_instance *instance)
     if (s->scene)
         rg_add_image(instance, "depth", RG_D32F, instance->target->desc.width,
                      instance->target->desc.height);
-    if (!shower_add_heights(s) || !add_particles(s) || !add_texture(s) || !open_stages(s))
+    if (!shower_add_heights(s) || !add_particles(s) || !add_texture(s) ||
+        !rg_layer_open(&s->layer, instance) || !open_stages(s))
         return false;
     tell(s);
     return true;

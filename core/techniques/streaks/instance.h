@@ -55,6 +55,7 @@ struct streaks {
     struct rg_rain_space space;
     const struct streaks_rain *rain;
     struct scenery *scene;
+    struct rg_layer layer; // of all that falls, and of marks
     struct streaks_textures *textures;
     struct scenery_lights *lights;
     struct scenery_overlay *overlay; // NULL: none

@@ -115,16 +115,16 @@ static bool open_stages(struct streaks *s)
     static const char *const programs[] = {"streaks_rain_2", "streaks_rain_4", "streaks_rain_8"};
     const struct streaks_settings *set = &s->settings;
     const struct rg_stage stages[STREAKS_PASS_COUNT] = {
-        [STREAKS_RAIN] = {programs[set->taps], .params = AT(of_rain), .colour = "target",
+        [STREAKS_RAIN] = {programs[set->taps], .params = AT(of_rain), .colour = RG_LAYER,
                           .depth = "depth", .blend = RG_BLEND_OVER, .depth_mode = RG_DEPTH_TEST,
                           .named = {{"surfaces", "scene.surfaces"}}},
         [STREAKS_MARKS] = {set->outside ? "streaks_marks" : NULL, .params = AT(of_rain),
-                           .colour = "target", .depth = "depth", .blend = RG_BLEND_OVER,
+                           .colour = RG_LAYER, .depth = "depth", .blend = RG_BLEND_OVER,
                            .depth_mode = RG_DEPTH_TEST},
         [STREAKS_STATES] = {set->keeps_state ? "streaks_state" : NULL, .params = AT(of_rain),
                             .named = {{"surfaces", "scene.surfaces"}}},
         [STREAKS_FAR] = {set->far_layers ? "streaks_far" : NULL, .params = AT(of_far),
-                         .colour = "target", .depth = "depth", .blend = RG_BLEND_OVER,
+                         .colour = RG_LAYER, .depth = "depth", .blend = RG_BLEND_OVER,
                          .depth_mode = RG_DEPTH_TEST},
     };
     s->first_stage = rg_open_stages(&s->base, stages, STREAKS_PASS_COUNT, s, NULL);
@@ -181,7 +181,7 @@ bool streaks_open(struct rg_instance *instance)
         !streaks_map_open(s) || !streaks_outside_open(s) || !create_textures(s))
         return false;
     add_assets(s);
-    if (!open_stages(s) || (fit && !streaks_fit(s)))
+    if (!rg_layer_open(&s->layer, instance) || !open_stages(s) || (fit && !streaks_fit(s)))
         return false;
     tell_textures(s);
     tell_facts(s);

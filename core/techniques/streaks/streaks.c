@@ -81,11 +81,13 @@ static bool streaks_step(struct rg_instance *instance)
     return streaks_look(s) && (!s->settings.keeps_state || keep_state(s));
 }
 
-// Distant rain is drawn before the rain, and the overlay after it. The view from outside has no
-// distant rain.
-static bool draw_far(struct streaks *s)
+// Distant rain is drawn before the rain, into the same layer. The view from outside has no distant
+// rain.
+static bool draw_layer(struct streaks *s)
 {
-    return s->rain_alone || s->settings.outside || streaks_draw_far(s);
+    return rg_layer_begin(&s->layer) &&
+           (s->rain_alone || s->settings.outside || streaks_draw_far(s)) && draw_rain(s) &&
+           rg_layer_meet(&s->layer);
 }
 
 static bool draw_overlay(struct streaks *s)
@@ -99,7 +101,7 @@ static bool streaks_draw(struct rg_instance *instance)
     struct streaks *s = (struct streaks *)instance;
     struct scenery_look look = s->settings.time == SCENERY_NIGHT ? scenery_night() : scenery_day();
     const struct streaks_observer *viewer = streaks_viewer(s);
-    struct scenery_view view = {.colour = instance->target,
+    struct scenery_view view = {.colour = s->layer.background->image,
                                 .depth = rg_asset_find(instance, "depth")->image,
                                 .to_clip = rg_m4_of(viewer->world_to_clip)};
     memcpy(view.eye, viewer->camera.position, sizeof(view.eye));
@@ -107,8 +109,8 @@ static bool streaks_draw(struct rg_instance *instance)
         look.sky.haze_per_m = 0; // the camera is too far away to see through haze
     instance->counters[STREAKS_PARTICLES].value += s->selection.particles;
     instance->counters[STREAKS_PACKETS].value += s->selection.packets;
-    return scenery_draw(s->scene, &view, &look, s->lights, s->settings.geometry) && draw_far(s) &&
-           draw_rain(s) && draw_overlay(s);
+    return scenery_draw(s->scene, &view, &look, s->lights, s->settings.geometry) && draw_layer(s) &&
+           draw_overlay(s);
 }
 
 const struct rg_technique rg_technique_streaks = {

@@ -46,6 +46,7 @@ const struct rg_variable rg_variables[] = {
     {"POCL_KERNEL_CACHE", false},
     {"VK_INSTANCE_LAYERS", true},
     // raingauge's own
+    {"RG_BLENDING", true},
     {"RG_CPU_LEVEL", true},
     {"RG_ENVIRONMENT_DIR", false},
     {"RG_KERNEL_DIR", false},

@@ -1,9 +1,10 @@
 // How a fragment's colour is blended with the target's, format by format, as llvmpipe and lavapipe
-// do it (docs/drawing.md says what was measured). Devices that keep images in plain memory need it.
+// do it (docs/drawing.md says what was measured). The one rule: for devices that keep images in
+// plain memory, and for programs that blend by themselves.
 #ifndef RG_KERNELS_DIALECT_DRAW_BLEND_H
 #define RG_KERNELS_DIALECT_DRAW_BLEND_H
 
-#include "kernels/dialect/image/memory.h"
+#include "kernels/dialect/image/format.h"
 
 // enum rg_blend of backends/backend.h.
 #define RG_BLEND_IS_OFF  0
@@ -67,6 +68,48 @@ RG_FN uint rg_cut_half(float v)
            ((bits >> 16) & 0x8000u);
 }
 
+#if RG_GLSL
+#include "kernels/dialect/draw/state.h"
+
+// --- a fragment that knows what its pixel holds; what it returns leaves nothing to round ---
+
+RG_FN float rg_blended_unorm8(float source, float target, uint rest, int blend)
+{
+    return rg_to_float(rg_blend_unorm8(rg_unorm8(source), rg_unorm8(target), rest, blend)) / 255.0f;
+}
+
+RG_FN rgba rg_blended_in_RGBA8(rgba c, rgba target, int blend)
+{
+    uint rest = 255u - rg_unorm8(c.a);
+    return rg_rgba(rg_blended_unorm8(c.r, target.r, rest, blend),
+                   rg_blended_unorm8(c.g, target.g, rest, blend),
+                   rg_blended_unorm8(c.b, target.b, rest, blend),
+                   rg_blended_unorm8(c.a, target.a, rest, blend));
+}
+
+RG_FN rgba rg_cut_RGBA16F(rgba c)
+{
+    return rg_rgba(rg_unpack_half(rg_cut_half(c.r)), rg_unpack_half(rg_cut_half(c.g)),
+                   rg_unpack_half(rg_cut_half(c.b)), rg_unpack_half(rg_cut_half(c.a)));
+}
+
+// The colour is one that rg_drawn has made.
+RG_FN rgba rg_blended(rg_draw_state draw, rgba c, rgba target)
+{
+    rgba blended = c;
+    if (draw.blend != RG_BLEND_IS_OFF) {
+        blended = rg_blend_floats(c, target, draw.blend);
+        if (draw.colour_format == RG_RGBA8_FORMAT)
+            blended = rg_blended_in_RGBA8(c, target, draw.blend);
+        if (draw.colour_format == RG_RGBA16F_FORMAT)
+            blended = rg_cut_RGBA16F(blended);
+    }
+    return blended;
+}
+
+#else
+#include "kernels/dialect/image/memory.h"
+
 // --- one texel of an image in memory; blend off stores as kernels do ---
 
 RG_PROC void rg_blend_RGBA8(RG_GLOBAL uint *texels, int i, rgba c, int blend)
@@ -89,5 +132,7 @@ RG_PROC void rg_blend_RGBA32F(RG_GLOBAL uint *texels, int i, rgba c, int blend)
 {
     rg_store_RGBA32F(texels, i, rg_blend_floats(c, rg_load_RGBA32F(texels, i), blend));
 }
+
+#endif
 
 #endif

@@ -57,6 +57,23 @@ RG_FN rgba rg_rounded_RGBA16F(rgba c)
                    rg_rounded_half(c.a));
 }
 
+// The nearest half to a float, of two as near the even one; 0 and the least normal half have no
+// half between them.
+RG_FN float rg_nearest_half(float v)
+{
+    uint bits = rg_float_bits(v);
+    uint magnitude = bits & 0x7fffffffu;
+    uint nearest = rg_half_magnitude(magnitude + 0xfffu + ((magnitude >> 13) & 1u));
+    uint least = magnitude > 0x38000000u ? 0x38800000u : 0u;
+    return rg_bits_float((magnitude < 0x38800000u ? least : nearest) | (bits & 0x80000000u));
+}
+
+RG_FN rgba rg_nearest_RGBA16F(rgba c)
+{
+    return rg_rgba(rg_nearest_half(c.r), rg_nearest_half(c.g), rg_nearest_half(c.b),
+                   rg_nearest_half(c.a));
+}
+
 RG_FN rgba rg_fetched_RGBA16F(rgba c)
 {
     return c;

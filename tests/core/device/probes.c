@@ -1,4 +1,5 @@
 // Every operation of the dialect gives the same bits on every device and every instruction set.
+#include "backends/blending.h"
 #include "core/base/log.h"
 #include "core/device/probe.h"
 #include "core/device/scan.h"
@@ -41,6 +42,20 @@ static void operations_rounded_by_programs_are_exact(void **state)
     assert_non_null(device);
     assert_true(device->rounds);
     check_operations(device);
+    assert_true(rg_device_close(device));
+}
+
+// What a GPU is asked when it is opened: software drivers blend as C does, whoever asks them.
+static void drivers_blend_as_c_does(void **state)
+{
+    (void)state;
+    struct rg_device *device = rg_device_open(suite_device);
+    assert_non_null(device);
+    if (device->backend->can_blend && !device->blends) {
+        device->info.tier = RG_T1;
+        assert_true(rg_blending_settle(device));
+        assert_int_equal(device->blends, !device->info.software);
+    }
     assert_true(rg_device_close(device));
 }
 
@@ -100,6 +115,7 @@ static void every_cpu_level_gives_the_same(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(operations_are_exact),
     cmocka_unit_test(operations_rounded_by_programs_are_exact),
+    cmocka_unit_test(drivers_blend_as_c_does),
     cmocka_unit_test(every_cpu_level_gives_the_same),
 };
 const struct suite_tests probe_tests = {tests, COUNT_OF(tests)};

@@ -37,7 +37,7 @@ static const struct part {
       &lack_tests}},
     {"images", {&image_tests, &texel_tests, &filter_tests, &large_tests}},
     {"draws", {&draw_tests, &tally_tests, &query_tests}},
-    {"targets", {&target_tests, &light_tests}},
+    {"targets", {&target_tests, &light_tests, &layer_tests}},
 };
 
 // Adds the tests of a part to an array of so many, which may move.

@@ -8,7 +8,7 @@ TESTS = ("device counting", "device suite, kernels, cpu", "device suite, kernels
 
 GRID, PACKING, SCAN, SHARED = "core/device/grid.c", "core/device/packing.c", "core/device/scan.c", "core/device/shared.c"
 TARGETS, DEVICE, LIMITS, WORK = "core/device/targets.c", "core/device/device.c", "core/device/limits.c", "core/device/work.c"
-MEMORY, TECHNIQUE = "core/base/memory.c", "core/techniques/technique.c"
+MEMORY, TECHNIQUE, LAYER = "core/base/memory.c", "core/techniques/technique.c", "core/techniques/stages/layer.c"
 OBJECTS, PASS, IMAGE, DRAW = "core/device/objects.c", "backends/cpu/pass.c", "backends/cpu/image.c", "backends/cpu/draw.c"
 SHADE = "backends/cpu/draw/shade_tmpl.h"
 
@@ -69,4 +69,8 @@ ROWS = [
     Fault(SHADE, "memset(&s->pixels, 0, «sizeof(s->pixels)»);", "0 * sizeof(s->pixels)", "vectors reach for texels that nobody has set", tests=("values, raster",)),
     Fault(DRAW, "i = «count_batch(program, call, i, counts)»;", "count_batch(program, call, i, counts) + 1", "counting leaves out items"),
     Fault(DRAW, "counts->records += «items.fate[i] != RG_FATE_DEAD»;", "1", "items that are not seen count as records"),
+    Fault("core/techniques/streaks/open.c", "[STREAKS_RAIN] = {programs[set->taps], .params = AT(of_rain), .colour = «RG_LAYER»,", "RG_BACKGROUND", "rain is blended into halves", tests=("streaks, light shown", "streaks, cover")),
+    Fault("core/techniques/streaks/open.c", "AT(of_far),\n                         .colour = «RG_LAYER»,", "RG_BACKGROUND", "far rain is blended into halves", tests=("streaks, light shown",)),
+    Fault(LAYER, "return «rg_image_clear(layer->light->image, clear)»;", "true", "rain of earlier frames stays in the layer", tests=("streaks, cover",)),
+    Fault(LAYER, "return «rg_stage(layer->instance, layer->stage)»;", "true", "the layer never meets the background", tests=("streaks, cover",)),
 ]

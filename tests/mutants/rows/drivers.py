@@ -14,6 +14,9 @@ OF_GL = ("device suite, draws, gl", "device suite, targets, gl")
 OF_VK = ("device suite, draws, vulkan", "device suite, targets, vulkan", "device suite, kernels, vulkan")
 OF_CL = ("device suite, kernels, opencl", "device suite, images, opencl", "opencl")
 
+BLENDING, OF_BLENDING = "backends/blending.c", ("blending of devices",)
+OWN_GL, OWN_VK = ("device suite, draws, gl, own blending",), ("device suite, draws, vulkan, own blending",)
+
 MANIFESTS, OF_FAILING = "backends/manifests.c", ("command line, failing",)
 
 ROWS = [
@@ -42,10 +45,18 @@ ROWS = [
     Fault(ROUNDING, "if («!device->backend->rough» || driver)", "false", "devices of exact languages are asked how they divide", tests=OF_ROUNDING),
     Fault(ROUNDING, "ok && !*is_rough && «roots < 2»", "roots < 1", "inexact roots are not noticed", tests=OF_ROUNDING),
     Fault(ROUNDING, "*is_rough = ok && «!all_are_exact(o, roots)»;", "false", "no driver rounds badly", tests=OF_ROUNDING),
-    Fault(KERNEL, "return «RG_CODE_ROUNDED_FRAGMENT_SPIRV»;", "RG_CODE_FRAGMENT_SPIRV", "fragments are the driver's to round", tests=OF_ROUNDING),
-    Fault(KERNEL, "found = «rounded ? rounded_kind(kind) : kind»;", "kind", "modules are the driver's to round", tests=OF_ROUNDING),
-    Fault("backends/gl/program.c", "rg_kernel_code(kernel, kind, «device->pub.rounds»,", "false", "gl: programs are the driver's to round", tests=OF_ROUNDING),
-    Fault("backends/vulkan/program.c", "rg_kernel_code(kernel, kind, «device->pub.rounds»,", "false", "vulkan: programs are the driver's to round", tests=OF_ROUNDING),
+    Fault(KERNEL, "return rounds ? «RG_CODE_ROUNDED_FRAGMENT_SPIRV» : kind;\n    default", "RG_CODE_FRAGMENT_SPIRV", "fragments are the driver's to round", tests=OF_ROUNDING),
+    Fault(KERNEL, "found = «kind_of(kind, ways)»;", "kind", "modules are the driver's to round", tests=OF_ROUNDING),
+    Fault("backends/gl/program.c", "rg_kernel_code(kernel, kind, «ways»,", "ways & ~RG_CODE_ROUNDS", "gl: programs are the driver's to round", tests=OF_ROUNDING),
+    Fault("backends/vulkan/program.c", "rg_kernel_code(kernel, kind, «rg_device_ways(&device->pub)» | ways,", "0u", "vulkan: programs are the driver's to round", tests=OF_ROUNDING),
+    Fault(BLENDING, "bool is_exact = «device->info.tier == RG_T0»;", "false", "devices that draw as cpu:reference does are asked how they blend", tests=OF_BLENDING),
+    Fault(BLENDING, "*is_exact = ok && «!memcmp(q->due, q->drawn, (size_t)TEXELS * (size_t)rg_format_size(format))»;", "true", "no driver blends otherwise", tests=OF_BLENDING),
+    Fault(BLENDING, "device->blends = wanted || «(can && !is_exact)»;", "false", "drivers that blend otherwise go on blending", tests=OF_BLENDING),
+    Fault(BLENDING, "if («wanted && !can»)", "false", "programs blend where the driver has no way", tests=OF_BLENDING),
+    Fault(GL, ".blend = «device->pub.blends ? RG_BLEND_OFF : draw->blend»,", "draw->blend", "gl: what programs blend is blended once more", tests=OWN_GL),
+    Fault("backends/gl/pass.c", "gl_program_create(gl, mine->pub.kernel, «rg_device_ways(&gl->pub) | RG_CODE_BLENDS»)", "rg_device_ways(&gl->pub)", "gl: what programs are to blend nobody blends", tests=OWN_GL),
+    Fault("backends/vulkan/api/pipeline.c", "blend_state(«state->target.blends ? RG_BLEND_OFF : state->blend»)", "state->blend", "vulkan: what programs blend is blended once more", tests=OWN_VK),
+    Fault("backends/vulkan/program.c", "RG_CODE_FRAGMENT_SPIRV,\n                                                 «RG_CODE_BLENDS», &drawing->blending", "0", "vulkan: what programs are to blend nobody blends", tests=OWN_VK),
     Fault(CL_BUF, "staged ? CL_FALSE : CL_TRUE,\n                                       «offset», size, staged", "0", "opencl: writes begin at 0", tests=OF_CL),
     Fault(CL_PASS, "return (width + group «- 1») / group * group;", "- group", "opencl: the last work group is left out", tests=OF_CL),
     Fault(CL_TIME, "*time_ns = (int64_t)end_ns;", "*time_ns = (int64_t)end_ns / 1000;", "opencl: time is in microseconds", tests=OF_CL),

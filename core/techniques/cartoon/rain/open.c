@@ -12,7 +12,7 @@ enum { SLICES = 6, STACKS = 4, FACETS = SLICES * STACKS };
 enum { ITEMS_A_QUERY = 32 }; // at least FACETS, and a number that struct rg_draw allows
 
 #define OVER_SCENE                                                                                 \
-    .colour = "target", .depth = "depth_map", .depth_mode = RG_DEPTH_TEST, .blend = RG_BLEND_OVER
+    .colour = RG_LAYER, .depth = "depth_map", .depth_mode = RG_DEPTH_TEST, .blend = RG_BLEND_OVER
 
 static const struct rg_stage stages[CARTOON_RAIN_STAGES] = {
     [CARTOON_RAIN_FREE] = {"cartoon_free", PARAMS},

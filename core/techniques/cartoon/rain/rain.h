@@ -59,7 +59,7 @@ bool cartoon_rain_open(struct cartoon_rain *r, struct rg_instance *instance,
 void cartoon_rain_close(struct cartoon_rain *r);
 // Makes a step of the rain, with the depth and normal map of the frame's camera.
 bool cartoon_rain_step(struct cartoon_rain *r);
-// Draws splashes and drops over the target.
+// Draws splashes and drops into the layer.
 bool cartoon_rain_draw(struct cartoon_rain *r);
 
 // The law: each released drop falls, sticks or is counted as gone, and likewise each splash. False

@@ -3,11 +3,16 @@
 
 #include "core/techniques/cartoon/instance.h"
 
-// Draws the first `faces` faces of a stage; there may be none.
-static bool draw_some(struct cartoon *c, enum cartoon_stage stage, int faces)
+static int opened(const struct cartoon *c, enum cartoon_stage stage)
 {
-    const struct rg_draw draw = rg_stage_draw(&c->base, stage);
-    return !faces || rg_stage_onto(&c->base, stage, faces, &draw);
+    return c->first_stage + (int)stage;
+}
+
+// Draws the first `items` faces or edges of a stage; there may be none.
+static bool draw_some(struct cartoon *c, enum cartoon_stage stage, int items)
+{
+    const struct rg_draw draw = rg_stage_draw(&c->base, opened(c, stage));
+    return !items || rg_stage_onto(&c->base, opened(c, stage), items, &draw);
 }
 
 static bool draw_faces(struct cartoon *c)
@@ -26,7 +31,7 @@ static bool draw_numbers(struct cartoon *c)
     static const uint32_t nothing = 0;
     const float farthest = 1;
     const int solid = c->diorama->solid_faces, all = c->diorama->mesh->face_count;
-    return !rg_stage_runs(&c->base, CARTOON_RUN_SOLID_NUMBERS) ||
+    return !rg_stage_runs(&c->base, opened(c, CARTOON_RUN_SOLID_NUMBERS)) ||
            (rg_image_clear(c->face_map->image, &nothing) &&
             rg_image_clear(c->number_depth->image, &farthest) &&
             draw_some(c, CARTOON_RUN_SOLID_NUMBERS, solid) &&
@@ -36,10 +41,8 @@ static bool draw_numbers(struct cartoon *c)
 static bool draw_outlines(struct cartoon *c)
 {
     const float none = 1;
-    const struct rg_draw draw = rg_stage_draw(&c->base, CARTOON_RUN_INK);
-    return !rg_stage_runs(&c->base, CARTOON_RUN_INK) ||
-           (rg_image_clear(c->ink->image, &none) &&
-            rg_stage_onto(&c->base, CARTOON_RUN_INK, c->edge_count, &draw));
+    return !rg_stage_runs(&c->base, opened(c, CARTOON_RUN_INK)) ||
+           (rg_image_clear(c->ink->image, &none) && draw_some(c, CARTOON_RUN_INK, c->edge_count));
 }
 
 // Whether the maps hold the current view: they were drawn in this frame, or in one with the same
@@ -65,7 +68,7 @@ static bool draw_in_style(struct cartoon *c)
 {
     bool ok = true;
     for (int style = CARTOON_RUN_GOOCH; ok && style <= CARTOON_RUN_HATCHING; style++)
-        ok = rg_stage(&c->base, style);
+        ok = rg_stage(&c->base, opened(c, (enum cartoon_stage)style));
     return ok;
 }
 
@@ -74,5 +77,5 @@ bool cartoon_scene_draw(struct cartoon *c)
     if (!cartoon_scene_find(c) || !(c->has_picture || draw_in_style(c)))
         return false;
     c->has_picture = c->settings.redraw == CARTOON_MOVED;
-    return rg_stage(&c->base, CARTOON_RUN_KEPT);
+    return true;
 }

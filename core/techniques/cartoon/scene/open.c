@@ -59,11 +59,9 @@ static void add_maps(struct cartoon *c)
     struct rg_instance *i = &c->base;
     const struct rg_image_desc *target = &i->target->desc;
     const int width = target->width, height = target->height;
-    const bool keeps = c->settings.redraw == CARTOON_MOVED;
     const bool asks = c->settings.rain.collide == CARTOON_COLLIDE_CORRECT;
     c->normal_map = rg_add_image(i, "normal_map", RG_RGBA16F, width, height);
     c->depth_map = rg_add_image(i, "depth_map", RG_D32F, width, height);
-    c->picture = rg_add_image(i, "picture", RG_RGBA16F, keeps ? width : 1, keeps ? height : 1);
     c->face_map = rg_add_image(i, "face_map", RG_RGBA8, asks ? width : 1, asks ? height : 1);
     c->number_depth = rg_add_image(i, "number_depth", RG_D32F, asks ? width : 1, asks ? height : 1);
 }

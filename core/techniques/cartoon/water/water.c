@@ -17,7 +17,7 @@ enum { CELLS = CARTOON_COLUMNS * CARTOON_COLUMNS };
 static const struct rg_stage stages[CARTOON_WATER_STAGES] = {
     [CARTOON_WATER_GATHER] = {"cartoon_gather", PARAMS},
     [CARTOON_WATER_SPREAD] = {"cartoon_spread", PARAMS, .over = "water"},
-    [CARTOON_WATER_PUDDLES] = {"cartoon_puddles", PARAMS, .colour = "target",
+    [CARTOON_WATER_PUDDLES] = {"cartoon_puddles", PARAMS, .colour = RG_LAYER,
                                .blend = RG_BLEND_OVER},
 };
 

@@ -35,7 +35,7 @@ bool cartoon_water_open(struct cartoon_water *w, const struct cartoon_rain *rain
                         const struct cartoon_water_settings *settings);
 // Makes a step, after the rain's.
 bool cartoon_water_step(struct cartoon_water *w);
-// Draws puddles over the target.
+// Draws puddles into the layer.
 bool cartoon_water_draw(struct cartoon_water *w, const struct cartoon_water_view *view);
 
 // The law: water that has hit is in columns, has evaporated or has run off, exact to the unit.

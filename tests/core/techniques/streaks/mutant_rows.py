@@ -3,6 +3,8 @@ import collections
 
 Row = collections.namedtuple("Row", "about file old new tests")
 
+BLEND = "../dialect/draw/blend.h"
+WHOLE = "../scenery/layer/meet.h"
 COVER = ("picture/cover",)
 FURNACE = ("picture/furnace",)
 LOOKS = ("picture/looks",)
@@ -188,4 +190,8 @@ ROWS = [Row(*row) for row in (
     ("small drops end where large ones do", "particle.h", "p.drop_radius * (t.radius - 1.0f)", "0.0f", PARTICLES),
     ("small drops as slow splashes", "particle.h", "t.age = since / fall_speed", "t.age = since / p.fall_speed", PARTICLES),
     ("drops of all sizes swing alike", "rain.h", "r.cycles = p.cycles * t.swing", "r.cycles = p.cycles", LOOKS),
+    # the layer that they gather in
+    ("layers hide nothing of each other", BLEND, "float rest = 1.0f - source.a;", "float rest = 1.0f;", FURNACE),
+    ("the layer hides nothing", WHOLE, "float rest = 1.0f - light.a;", "float rest = 1.0f;", FURNACE),
+    ("the background is left out", WHOLE, "float rest = 1.0f - light.a;", "float rest = 0.0f;", FURNACE),
 )]

@@ -15,9 +15,6 @@ ROWS = [Row(*row) for row in (
     ("every face's first material", "faces.h", "materials_at(rg, p.first + i)", "materials_at(rg, 0)", STYLES),
     ("thin faces are the first ones", "faces.h", "return mesh_item(rg, p.to_clip, p.first + i);",
      "return mesh_item(rg, p.to_clip, i);", STYLES),
-    # what is kept
-    ("a kept picture moves", "kept.h", "picture_texel(rg, px, py, 0, 0)", "picture_texel(rg, px, rg_imax(py - 1, 0), 0, 0)",
-     STYLES),
     # what styles see
     ("red and green swapped", "seen.h", "v3_make(cartoon_byte(material), cartoon_byte(material >> 8),",
      "v3_make(cartoon_byte(material >> 8), cartoon_byte(material),", STYLES),

@@ -11,7 +11,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-// So much light that halves, which cut it off, lose nothing that matters.
+// So much light that the background of the night counts for nothing.
 enum { MOMENTS = 32, GAIN = 1000, SKY = 16 };
 
 // --- cross-sections ---
@@ -135,30 +135,41 @@ static double light_under(struct streaks *s, float sky)
     return light_of(rain_read(s));
 }
 
-static struct streaks *open_drops(const char *settings)
+static struct streaks *open_drops(const char *settings, int gain)
 {
     char all[640];
     snprintf(all, sizeof(all),
              "state=on geometry=off splashes=off lights=0 time=night streak_opacity=0 "
              "streak_gain=%d rain_width_m=30 rain_depth_m=30 rain_height_m=150 local_height_m=50 "
              "culling_radius_m=42 drops_m2_s=60 %s",
-             GAIN, settings);
+             gain, settings);
     struct streaks *s = rain_open(all);
     rain_step(s, 2);
     return s;
 }
 
+// The pixels that drops cover, and those that they should.
+struct cover {
+    double is, due;
+};
+
+static struct cover cover_of(const char *about, const char *settings, int gain, float sky)
+{
+    struct streaks *s = open_drops(settings, gain);
+    const double lit = light_under(s, sky), dry = light_under(s, 0);
+    int seen;
+    const struct cover c = {(lit - dry) / (gain * (double)sky), pixels_due(s, &seen)};
+    assert_above(seen, 2000);
+    if (!(fabs(c.is / c.due - 1) < 0.015))
+        fail_msg("%s: %d drops cover %.1f pixels, %.3f of their cross-sections", about, seen, c.is,
+                 c.is / c.due);
+    rain_close(s);
+    return c;
+}
+
 static void expect_cross_sections(const char *about, const char *settings)
 {
-    struct streaks *s = open_drops(settings);
-    const double lit = light_under(s, SKY), dry = light_under(s, 0);
-    int seen;
-    const double due = pixels_due(s, &seen), covered = (lit - dry) / (GAIN * (double)SKY);
-    assert_above(seen, 2000);
-    if (!(fabs(covered / due - 1) < 0.015))
-        fail_msg("%s: %d drops cover %.1f pixels, %.3f of their cross-sections", about, seen,
-                 covered, covered / due);
-    rain_close(s);
+    cover_of(about, settings, GAIN, SKY);
 }
 
 // From so far away that no drop counts much more than another.
@@ -205,6 +216,43 @@ static void test_sizes(void **state)
                                  "rain_mm_h=10 least_diameter_mm=0.6 kept=section kept_share=0.02");
 }
 
+// --- at the defaults' gain, before the sky by day and by night ---
+
+static void expect_ratio(const char *about, const struct cover *c, const struct cover *of,
+                         double due)
+{
+    print_message("%s: %.4f of the light, %.4f of what is due\n", about, c->is / of->is,
+                  c->is / c->due);
+    if (!(fabs(c->is / of->is / due - 1) < 0.02))
+        fail_msg("%s: %.4f of the light, not %.2f", about, c->is / of->is, due);
+}
+
+// Of as many drops: the light is the same however long they fall and however fast, and goes with
+// the square of their radius. The sky is as bright as it is by day, or a thirtieth of that.
+static void test_faint_light(void **state)
+{
+    (void)state;
+    static const char *const times[] = {"time=day", "time=night"};
+    for (int night = 0; night < 2; night++) {
+        const float sky = night ? 0.02f : 0.64f;
+        char settings[4][200];
+        static const char *const others[4] = {
+            "drops_m2_s=535.5", "drops_m2_s=535.5 exposure_s=0.0666667",
+            "drops_m2_s=535.5 drop_radius_mm=0.8", "fall_speed_m_s=4 drops_m2_s=262.5"};
+        struct cover covers[4];
+        for (int i = 0; i < 4; i++) {
+            snprintf(settings[i], sizeof(settings[i]),
+                     "%s eye_z_m=-26 target_y_m=25 target_z_m=0 view_angle_deg=20 "
+                     "local_height_m=100 %s",
+                     times[night], others[i]);
+            covers[i] = cover_of(others[i], settings[i], 1, sky);
+        }
+        expect_ratio("four times the exposure", &covers[1], &covers[0], 1);
+        expect_ratio("half the radius", &covers[2], &covers[0], 0.25);
+        expect_ratio("half the speed", &covers[3], &covers[0], 1);
+    }
+}
+
 // The most light of the pixels around one.
 static double most_around(const struct rain_texels *picture, int column, int row)
 {
@@ -219,7 +267,7 @@ static double most_around(const struct rain_texels *picture, int column, int row
 // exposure a fiftieth long.
 static void expect_all_seen(const char *settings)
 {
-    struct streaks *s = open_drops(settings);
+    struct streaks *s = open_drops(settings, GAIN);
     s->params.sky_g = 0;
     struct rain_texels *dry = rain_read(s);
     s->params.sky_g = SKY;
@@ -259,7 +307,7 @@ int main(int argc, char **argv)
     struct CMUnitTest tests[] = {
         cmocka_unit_test(test_views),        cmocka_unit_test(test_exposures),
         cmocka_unit_test(test_drops),        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_thin_streaks),
+        cmocka_unit_test(test_thin_streaks), cmocka_unit_test(test_faint_light),
     };
     return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }

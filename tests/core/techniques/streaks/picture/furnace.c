@@ -75,7 +75,7 @@ static const char *const views[] = {
 };
 enum { VIEWS = sizeof(views) / sizeof(views[0]) };
 
-// Halves cut off what is drawn, once a layer: less than a thousandth of the background together.
+// What is drawn is rounded to halves once: by less than a thousandth of the background.
 static void expect_unseen(const char *what, const char *view, const float sky[3])
 {
     static const float dark[3] = {0, 0, 0};
@@ -160,7 +160,7 @@ static void expect_as_sky(const char *what, const char *view)
     struct sun suns[200];
     const int count = make_suns(suns);
     char settings[384];
-    // So much light that halves, which cut it off, lose nothing that matters.
+    // So much light that the background counts for nothing.
     snprintf(settings, sizeof(settings),
              "time=night streak_gain=300 splash_gain=100 streak_opacity=0 splash_opacity=0 %s %s",
              what, view);

@@ -1,0 +1,13 @@
+// The parameters of meet.h: there is nothing to say.
+#ifndef RG_KERNELS_SCENERY_LAYER_PARAMS_H
+#define RG_KERNELS_SCENERY_LAYER_PARAMS_H
+
+#include "kernels/dialect/lang.h"
+
+RG_STRUCT(layer_params)
+{
+    int nothing;
+};
+RG_STRUCT_SIZE(layer_params, 1)
+
+#endif

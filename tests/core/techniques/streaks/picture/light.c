@@ -1,0 +1,78 @@
+// How much of their light rain's layers show, at the gains of the defaults: light DEVICE. What
+// rain adds to a picture is its gain times something, so that the light shown at a gain of 1 is
+// due a hundredth of that at a gain of 100: tests/core/techniques/streaks/picture/cover.c and
+// oracle.c hold the latter against optics.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "tests/core/techniques/streaks/rig.h"
+#include "tests/tools/expect.h"
+
+enum { GAIN = 100 };
+
+static struct streaks *open_sized(const char *settings, int width, int height)
+{
+    const struct rg_technique *technique = rg_technique_find("streaks");
+    char all[512];
+    void *defaults = rg_settings_create(technique);
+    snprintf(all, sizeof(all),
+             "atlas=small city=small depth_map_px=1024 shadow_map_px=256 geometry=off %s",
+             settings);
+    void *copy = rg_settings_copy(technique, defaults, all);
+    assert_non_null(copy);
+    struct rg_instance *instance = rg_instance_open(technique, rain_device, copy, width, height);
+    assert_non_null(instance);
+    free(copy);
+    free(defaults);
+    return (struct streaks *)instance;
+}
+
+// The sum of a picture's greens, with these gains of the rain.
+static double light_with(struct streaks *s, float gain)
+{
+    struct rg_picture picture = {0};
+    double sum = 0;
+    s->params.gain = s->params.splash_gain = gain;
+    assert_true(s->base.technique->draw(&s->base));
+    assert_true(rg_frame_read_picture(&s->base, &picture));
+    for (int i = 0; i < picture.width * picture.height; i++)
+        sum += (double)picture.texels[4 * i + 1];
+    rg_picture_destroy(&picture);
+    return sum;
+}
+
+static void expect_light(const char *about, const char *settings, int width, int height)
+{
+    struct streaks *s = open_sized(settings, width, height);
+    rain_step(s, 30);
+    const double none = light_with(s, 0), shown = light_with(s, 1) - none,
+                 due = (light_with(s, GAIN) - none) / GAIN;
+    print_message("%s: shown over due %.4f, due %.4f of the picture\n", about, shown / due,
+                  due / (width * height));
+    assert_above(due, 0);
+    if (!(fabs(shown / due - 1) < 0.005))
+        fail_msg("%s: %.4f of the light is shown that is due", about, shown / due);
+    rain_close(s);
+}
+
+static void test_day(void **state)
+{
+    (void)state;
+    expect_light("by day, 512 x 512", "", 512, 512);
+    expect_light("by day, 720p", "", 1280, 720);
+    expect_light("1/15 s", "exposure_s=0.0666667", 640, 360);
+    expect_light("a spectrum at 20 mm/h", "spectrum=marshall-palmer rain_mm_h=20", 640, 360);
+}
+
+static void test_night(void **state)
+{
+    (void)state;
+    expect_light("by night, eight lights", "time=night lights=8", 640, 360);
+}
+
+int main(int argc, char **argv)
+{
+    struct CMUnitTest tests[] = {cmocka_unit_test(test_day), cmocka_unit_test(test_night)};
+    return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
