@@ -131,7 +131,7 @@ RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int 
     scenery_light l = lights_at(rg, light);
     streaks_spot spot = streaks_spot_at(p, r, px, py);
     scenery_reach reach = scenery_light_reach(l, spot.at);
-    float matt = rg_max(v3_dot(reach.to_light, mesh_normal_unpack(r.up)), 0.0f);
+    float matt = rg_max(v3_dot(reach.to_light, streaks_up_unpack(r.up)), 0.0f);
     float streak = SCENERY_IRRADIANCE * streaks_streak(rg, p, r, spot, by);
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
     float share =
