@@ -1,25 +1,31 @@
-# raingauge: `make tables` regenerates the papers' tables, `make test` runs every test. Both install
-# what Debian packages are missing, build, say what they do, and can be run again at no cost.
+# raingauge: `make look` draws pictures and shows what was found, `make tables` regenerates the papers'
+# tables, `make test` runs every test. All install what Debian packages are missing, build, say what they
+# do, and can be run again at no cost. What apt and the compilers print lies in build/*.log.
 # `make results` replaces the tables that the repository keeps; `make thorough` runs the tests that
 # take too long for every change; `make mutants` tries the tests themselves, with faults, and `make gate-selftest` the gate, with
 # builds that are the same and that are slower; `make claims` decides what papers claim, in a night, and
 # `make claims-selftest` tries that on cells whose truth is known; `make lint` has tools look for faults in the sources.
 .POSIX:
-.PHONY: all setup build whole tables committed results claims test thorough mutants gate-selftest claims-selftest lint clean format
+.PHONY: all setup build whole look tables committed results claims test thorough mutants gate-selftest claims-selftest lint clean format
 
 BUILD = build
 ASAN = build-asan
 TSAN = build-tsan
 TABLES = $(BUILD)/tables
+LOOK = $(BUILD)/look
 # How long they may take together.
 BUDGET = 4m
 RESULTS = results/tables
 # Launches for claims, and what `make claims` measures: names of tables, --device, --full, --budget 8h.
 CLAIMS = results/claims
-# What `make results` measures: names of tables, all unless it has any, and --quick (unless it is set)
-# or --full. What `make mutants` tries: areas, as images, all unless it has any.
+# What `make results` measures: names of tables, --quick or --full; all tables, quick, where it is
+# empty. What `make mutants` tries: areas, as images, all unless it has any.
 WHAT =
 MODELS = /usr/share/doc/libcgal-dev/data.tar.gz
+STEPS = python3 tests/tools/steps.py
+# `make look` builds for one level of processors alone, which is sooner done.
+ALL_LEVELS = test ! -e $(BUILD)/one-level || \
+  { meson configure $(BUILD) -Dlevels=v2,v3,v4 && rm $(BUILD)/one-level; }
 
 all: build
 
@@ -38,14 +44,16 @@ setup:
 	  *) test -e $(MODELS) || missing="$$missing libcgal-demo";; \
 	esac; \
 	as_root=; [ "$$(id -u)" = 0 ] || as_root=sudo; \
-	[ -z "$$missing" ] || $$as_root apt-get update -q || exit; \
+	said() { mkdir -p $(BUILD) && "$$@" >>$(BUILD)/packages.log 2>&1 || \
+	  { tail -n 30 $(BUILD)/packages.log; echo "$(BUILD)/packages.log has all that apt said"; exit 1; }; }; \
+	[ -z "$$missing" ] || said $$as_root apt-get update -q; \
 	for package in $$(sed -n 's/^\([^#]*\) optional$$/\1/p' packages.txt); do \
 	  ! lacks $$package || ! apt-cache show $$package >/dev/null 2>&1 || \
 	    missing="$$missing $$package"; \
 	done; \
 	if [ -n "$$missing" ]; then \
-	  echo "== installing Debian packages:$$missing"; \
-	  $$as_root env DEBIAN_FRONTEND=noninteractive \
+	  echo "== installing $$(echo $$missing | wc -w) Debian packages:$$missing"; \
+	  said $$as_root env DEBIAN_FRONTEND=noninteractive \
 	    apt-get install -qy --no-install-recommends --reinstall \
 	    -o 'Dpkg::Options::=--path-include=/usr/share/doc/libcgal-dev/*' $$missing; \
 	fi
@@ -66,14 +74,32 @@ $(TSAN)/build.ninja:
 	  -Db_lundef=false -Ddrivers=false >/dev/null || { cat $(TSAN)/meson-logs/meson-log.txt; exit 1; }
 
 build: setup $(BUILD)/build.ninja
+	@$(ALL_LEVELS)
 	@echo "== building the program in $(BUILD)"
-	@ninja -C $(BUILD) program
+	@$(STEPS) $(BUILD)/build.log ninja -C $(BUILD) program
 
 # The program, and what tests it.
 whole: $(BUILD)/build.ninja
 	@$(MAKE) --no-print-directory setup FOR=tests
+	@$(ALL_LEVELS)
 	@echo "== building the program and its tests in $(BUILD)"
-	@ninja -C $(BUILD)
+	@$(STEPS) $(BUILD)/build.log ninja -C $(BUILD)
+
+look: setup
+	@test -e $(BUILD)/build.ninja || { echo "== configuring $(BUILD) for one level of processors"; mkdir -p $(BUILD); \
+	  meson setup $(BUILD) -Dlevels=v3 >$(BUILD)/build.log 2>&1 || { cat $(BUILD)/build.log; exit 1; }; \
+	  touch $(BUILD)/one-level; }
+	@echo "== building the program in $(BUILD)"
+	@$(STEPS) $(BUILD)/build.log ninja -C $(BUILD) program
+	@echo "== drawing three pictures into $(LOOK)"
+	@mkdir -p $(LOOK)
+	@$(BUILD)/harness/raingauge render streaks --size 960x540 --frame 90 -o $(LOOK)/rain.png
+	@$(BUILD)/harness/raingauge render flow --size 640x640 --frame 120 -o $(LOOK)/flow.png
+	@$(BUILD)/harness/raingauge render drops --size 800x480 --frame 300 -o $(LOOK)/drops.png
+	@echo "== what the papers claim, and what was found of it, by the records in $(RESULTS)"
+	@$(BUILD)/harness/raingauge table --claims --from $(RESULTS)
+	@$(BUILD)/harness/raingauge report $(RESULTS) docs/pictures.md -o $(LOOK)/page.html
+	@echo "== look at $(LOOK)/rain.png, flow.png and drops.png, and at $(LOOK)/page.html in a browser"
 
 # What was measured by this build before, within the same time, is printed again.
 tables: build
@@ -98,8 +124,8 @@ committed:
 	    "what they measured; commit them, or put them by with git stash -u" >&2; exit 2; }
 
 results: committed build
-	@echo "== regenerating the tables on every device, $(WHAT), into $(RESULTS)"
-	@$(BUILD)/harness/raingauge table $(WHAT) -o $(BUILD)/results
+	@echo "== regenerating the tables on every device, $(or $(WHAT),--quick), into $(RESULTS)"
+	@$(BUILD)/harness/raingauge table $(or $(WHAT),--quick) -o $(BUILD)/results
 	@python3 results/keep.py $(BUILD)/results $(RESULTS)
 	@python3 results/figures.py $(RESULTS)
 	@python3 results/walk.py $(BUILD)/harness/raingauge
@@ -107,14 +133,14 @@ results: committed build
 
 # Goes on where it was interrupted. A record of launches names the commit and the machine.
 claims: committed build
-	@echo "== deciding what papers claim, $(WHAT), by launches, into $(CLAIMS): a night"
-	@$(BUILD)/harness/raingauge claims $(WHAT) -o $(BUILD)/claims
+	@echo "== deciding what papers claim, $(or $(WHAT),--quick), by launches, into $(CLAIMS): a night"
+	@$(BUILD)/harness/raingauge claims $(or $(WHAT),--quick) -o $(BUILD)/claims
 	@mkdir -p $(CLAIMS)
 	@python3 results/keep.py $(BUILD)/claims $(CLAIMS)
 
 test: whole $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@echo "== building in $(ASAN)"
-	@ninja -C $(ASAN)
+	@$(STEPS) $(ASAN)/build.log ninja -C $(ASAN)
 	@echo "== testing, all devices"
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs || true
 	@echo "== testing under sanitizers, the CPU devices and the harness"

@@ -1,5 +1,7 @@
 #include "harness/commands/cli/shared.h"
 
+#include "core/base/log.h"
+
 const struct rg_option rg_timeout_option[] = {
     {RG_OPTION_INT, "timeout", .argument = "S",
      .about =
@@ -76,3 +78,12 @@ const struct rg_option rg_length_options[] = {
      .offset = AT(full)},
     {RG_OPTION_END},
 };
+
+bool rg_length_is_asked(const char *command, const struct rg_words *tables,
+                        const struct rg_length *length, const char *budget)
+{
+    return tables->count || length->quick || length->full || budget ||
+           rg_error("%s: all tables take hours; name some, as `raingauge list tables` prints "
+                    "them, or add --budget 4m, --quick or --full",
+                    command);
+}

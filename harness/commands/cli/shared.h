@@ -3,6 +3,7 @@
 #ifndef RG_HARNESS_COMMANDS_CLI_SHARED_H
 #define RG_HARNESS_COMMANDS_CLI_SHARED_H
 
+#include "core/base/text/words.h"
 #include "harness/commands/cli/option.h"
 #include "harness/devices/devices.h"
 
@@ -20,5 +21,10 @@ extern const struct rg_option rg_length_options[];  // struct rg_length: --quick
 struct rg_length {
     bool quick, full; // at most one is set
 };
+
+// Whether a command that takes hours for all tables was asked for them: by names of tables, a
+// length, or a budget (NULL: none). False, and one logged line, if not.
+bool rg_length_is_asked(const char *command, const struct rg_words *tables,
+                        const struct rg_length *length, const char *budget);
 
 #endif

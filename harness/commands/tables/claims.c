@@ -113,6 +113,7 @@ static int measure(const struct claims_options *o, const struct rg_words *argume
     int count;
     if ((o->budget && !rg_duration_read(o->budget, "--budget", &budget_s)) ||
         !choose(arguments, chosen, &count) ||
+        !rg_length_is_asked("claims", arguments, &o->length, o->budget) ||
         !rg_inputs_are_spared(chosen, count, NULL, o->output) ||
         (o->output && !rg_results_can_be_written(chosen, count, o->output)))
         return rg_exit_of_error();

@@ -52,7 +52,8 @@ static const char *const works[] = {"paper", "reading", "ours", "queries", NULL}
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
     {RG_OPTION_OPERAND, .argument = "ID",
-     .about = "a table; `raingauge list tables` prints them, and all are meant where none is named",
+     .about = "a table; `raingauge list tables` prints them. With --budget, --quick or --full none "
+              "need be named: all are meant, as by --from and --compile",
      .names = RG_NAMES_TABLE, .first = 1},
     {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
      .offset = AT(rows), .least = 1, .most = INT_MAX},
@@ -263,6 +264,8 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
         return rg_exit_of_error();
     if (o->compile)
         return compile(o, chosen, count);
+    if (!rg_length_is_asked("table", arguments, &o->length, o->budget))
+        return rg_exit_of_error();
     const struct rg_regenerate_options wanted = {.first_row = o->rows.first,
                                                  .last_row = o->rows.last,
                                                  .full = o->length.full,
