@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Keeps the printed tables in the README and docs/tables.md equal to what the program prints from the stored tables.
+"""Keeps the printed tables in the README, docs/tables.md and docs/claims.md equal to what the program prints from the stored tables.
 
     walk.py [--check] PROGRAM [PAGE...]
 
@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True  # the folder stays as it is
 import script
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-PAGES = [os.path.join(ROOT, "README.md"), os.path.join(ROOT, "docs", "tables.md")]
+PAGES = [os.path.join(ROOT, *page.split("/")) for page in ("README.md", "docs/tables.md", "docs/claims.md")]
 SHOWN = re.compile(r"^(    \$ raingauge (table [^\n|]*--from results/tables)\n)((?:    (?!\$ )[^\n]*\n|\n(?=\n*    [^$\s]))*)", re.M)
 
 

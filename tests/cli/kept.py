@@ -138,15 +138,16 @@ def check_damaged(runner):
 
 
 def check_walk(runner):
-    """the README and docs/tables.md show what table --from prints of the tables that are kept, and walk.py notices where one does not"""
+    """the README, docs/tables.md and docs/claims.md show what table --from prints of the tables that are kept, and walk.py notices where one does not"""
     with tempfile.TemporaryDirectory() as tmp:
         page = os.path.join(tmp, "page.md")
         def walk(*words):
             return subprocess.run([sys.executable, "-B", WALK, *words], check=False, capture_output=True, text=True)
-        readme = read(ROOT, "README.md")
-        shown = [line for line in readme.splitlines() if re.match(r"    \$ raingauge table .*--from results/tables$", line)]
-        problems = [] if len(shown) == 2 else ["the README shows %s" % shown]
-        problems += [] if walk("--check", runner.raingauge).returncode == 0 else ["the README shows something else"]
+        readme, problems = read(ROOT, "README.md"), []
+        for text, what in ((readme, ""), (read(ROOT, "docs", "tables.md"), ""), (read(ROOT, "docs", "claims.md"), "--claims ")):
+            shown = re.findall(r"^    \$ raingauge table .*--from results/tables$", text, re.M)
+            problems += [] if len(shown) == 1 and what in shown[0] else ["a page shows %s" % shown]
+        problems += [] if walk("--check", runner.raingauge).returncode == 0 else ["a page shows something else"]
         pathlib.Path(page).write_text(readme.replace("    ### paper: six height maps", "    ### paper: five"), encoding="utf-8")
         problems += [] if walk("--check", runner.raingauge, page).returncode == 1 else ["another page passes"]
         if walk(runner.raingauge, page).returncode or read(page) != readme:
