@@ -1,4 +1,4 @@
-// Prints the report as JSON; docs/records.md describes it.
+// Prints the report as JSON; "doctor" in docs/records.schema.json.
 #include <limits.h>
 #include <stdio.h>
 

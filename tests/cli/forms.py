@@ -47,16 +47,27 @@ def unsealed(record):
     return record
 
 
-def names(part):
-    """The names of all fields of a schema."""
-    found = set(part.get("properties", {})) if isinstance(part, dict) else set()
-    for inner in part.values() if isinstance(part, dict) else part if isinstance(part, list) else []:
-        found |= names(inner)
-    return found
+def described(part):
+    """Whether a field's schema, or the one that it refers to, says what the field means; what is constant needs no words."""
+    target = schema()["$defs"].get(part.get("$ref", "").split("/")[-1], {})
+    return bool("const" in part or part.get("description") or target.get("description"))
+
+
+def silent(part, place):
+    """The places of all fields of a schema that nothing describes."""
+    if isinstance(part, list):
+        return [name for inner in part for name in silent(inner, place)]
+    if not isinstance(part, dict):
+        return []
+    fields = part["properties"] if "object" in part.get("type", ()) and "properties" in part else {}
+    found = ["%s.%s" % (place, name) for name, field in fields.items() if not described(field)]
+    inside = {**fields, **{key: part[key] for key in ("items", "oneOf", "anyOf", "additionalProperties") if key in part}}
+    return found + [name for key, inner in inside.items() for name in silent(inner, "%s.%s" % (place, key) if key in fields else place)]
 
 
 def undocumented():
-    """Fields of the schema that docs/records.md does not tell of."""
+    """Fields that the schema does not describe, and forms that docs/records.md does not tell of."""
     with open(os.path.join(DOCS, "records.md")) as file:
-        told = {word for span in re.findall(r"`([^`]+)`", file.read()) for word in re.findall(r"[a-z0-9_]+", span)}
-    return sorted(names(schema()) - told - {"format"})
+        told = set(re.findall(r"`([^`]+)`", file.read()))
+    every = [form["$ref"].split("/")[-1] for form in schema()["oneOf"]]
+    return [name for form, part in schema()["$defs"].items() for name in silent(part, form)] + sorted(set(every) - told)

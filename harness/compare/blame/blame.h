@@ -37,7 +37,7 @@ bool rg_blame_row(const struct rg_digest_run *run, struct rg_device *device,
 bool rg_blame_find(const struct rg_digest_run *run, struct rg_device *device,
                    struct rg_device *truth, struct rg_blame *blame);
 
-// The blame as JSON (docs/records.md); the caller owns it.
+// "blame" in docs/records.schema.json; the caller owns it.
 json_t *rg_blame_json(const struct rg_blame *blame);
 
 #endif

@@ -1,5 +1,5 @@
 // The passport: a record's description of the machine, the drivers and this binary, which makes its
-// numbers understandable elsewhere. docs/records.md documents each field.
+// numbers understandable elsewhere. docs/records.schema.json documents each field.
 #ifndef RG_HARNESS_RECORD_PASSPORT_PASSPORT_H
 #define RG_HARNESS_RECORD_PASSPORT_PASSPORT_H
 

@@ -4,7 +4,7 @@
 
 #include "harness/tables/claims/text.h"
 
-// The document described in docs/records.md; the caller owns it. NULL when memory runs out.
+// "claims" in docs/records.schema.json; the caller owns it. NULL when memory runs out.
 json_t *rg_claims_json(const struct rg_claim_outcomes *outcomes);
 
 #endif

@@ -218,7 +218,7 @@ def check_sweep(runner):
 
 def check_forms(runner):
     """what list prints, and a table of textures, are as the schema has them, whose fields are all documented"""
-    problems = ["docs/records.md does not tell of %s" % name for name in forms.undocumented()]
+    problems = ["docs/records.schema.json does not describe, or docs/records.md not name, %s" % name for name in forms.undocumented()]
     for args in ("list techniques", "list tables", "list figures", "list devices", "list params raster", "table creus-5.2 --rows 1-1 --device cpu"):
         problems += [line for line in run_json(runner, args)[2] if not line.startswith("stderr: ")]
     # The check itself must find an error.
