@@ -20,6 +20,8 @@ def blocks(text):
         if line.lstrip().startswith('```'):
             fenced = not fenced
             line = ''
+        if not lines and re.match(r'    \S|\t', line):
+            continue
         begins = re.match(r'\s*([-*+]|\d+\.)\s+|#+\s|\s*\||\s*>', line)
         if fenced or not line.strip() or begins:
             if lines:
@@ -43,7 +45,7 @@ def sentences(text):
 
 def main():
     arguments = [argument for argument in sys.argv[1:] if argument != '--list']
-    paths = [pathlib.Path(a) for a in arguments] or [ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md'))]
+    paths = [pathlib.Path(a) for a in arguments] or [ROOT / 'README.md', ROOT / 'CONTRIBUTING.md', *sorted((ROOT / 'docs').glob('*.md'))]
     count = long = failed = 0
     for path in paths:
         for line, sentence, words in sentences(path.read_text()):
