@@ -73,7 +73,7 @@ static int run(int argc, char **argv)
     if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h"))
         return help(NULL);
     if (!strcmp(argv[1], "--version") || !strcmp(argv[1], "version")) {
-        printf("raingauge %s\n", rg_build_version);
+        printf("raingauge %s, commit %s\n", rg_build_version, rg_build_commit);
         return RG_EXIT_PASS;
     }
     const struct rg_command *command = rg_command_find(argv[1]);

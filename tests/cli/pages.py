@@ -201,7 +201,16 @@ def check_typed_lines(runner):
     return [] if printed == wanted else shown
 
 
-CHECKS = [check_manual_is_roff, check_manual_says_what_help_says, check_manual_lists_statuses, check_completed_words,
+def check_version(runner):
+    """--version names the version that CITATION.cff has, and the commit, which records hold too"""
+    with open(os.path.join(ROOT, "CITATION.cff"), encoding="utf-8") as file:
+        version = re.search(r"^version: (\S+)$", file.read(), re.M)[1]
+    printed = runner.run(["--version"]).stdout
+    wanted = r"raingauge %s, commit ([0-9a-f]{7,40}(-dirty)?|unknown)\n" % re.escape(version)
+    return [] if re.fullmatch(wanted, printed) else [printed]
+
+
+CHECKS = [check_version, check_manual_is_roff, check_manual_says_what_help_says, check_manual_lists_statuses, check_completed_words,
           check_typed_lines]
 if shutil.which("man"):
     CHECKS.append(check_manual_renders)
