@@ -8,9 +8,6 @@
 
 enum { RG_SHEET_COLUMNS = 32, RG_SHEET_CELL = 512 };
 
-// The columns of a page that terminals show whole.
-enum { RG_PAGE_WIDTH = 110 };
-
 struct rg_sheet {
     const char *title;
     int column_count;

@@ -6,7 +6,7 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
-#include "harness/console/colour.h"
+#include "harness/console/terminal.h"
 
 // The marks of verdicts on the page; its notes explain them. Figures of one launch are no verdict
 // and stand in brackets.

@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "core/base/text/wrap.h"
-#include "harness/console/colour.h"
-#include "harness/console/sheet.h"
+#include "harness/console/terminal.h"
 #include "harness/tables/claims/claim.h"
 #include "harness/tables/sheet/digits.h"
 #include "harness/tables/sheet/sheet.h"
@@ -86,7 +85,7 @@ static void print_claims(const struct rg_result *result, FILE *out)
         name_fewer_rows(claim, result, fewer, sizeof(fewer));
         rg_claim_title(claim, title);
         const int length = fprintf(out, "- %s (%s%s):", title, claim->where, fewer);
-        const bool fits = length + 1 + verdicts_length(claim, result) <= RG_PAGE_WIDTH;
+        const bool fits = length + 1 + verdicts_length(claim, result) <= rg_page_width(out);
         fprintf(out, fits ? " " : "\n  ");
         print_verdicts(claim, result, rg_has_colours(out), out);
         fprintf(out, "\n");
@@ -118,7 +117,8 @@ static void print_line(struct notes *notes, const char *text, int length, bool i
 static void add(struct notes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static void add(struct notes *notes, const char *format, ...)
 {
-    enum { ROOM = RG_PAGE_WIDTH - 2 };
+    const int width = rg_page_width(notes->out);
+    const int room = (width < RG_PAGE_WIDTH ? width : RG_PAGE_WIDTH) - 2;
     char text[2 * RG_NOTE_SIZE];
     va_list arguments;
     va_start(arguments, format);
@@ -126,7 +126,7 @@ static void add(struct notes *notes, const char *format, ...)
     va_end(arguments);
     const char *next;
     for (const char *line = text; *line; line = next) {
-        const int length = rg_wrap(line, ROOM, &next);
+        const int length = rg_wrap(line, room, &next);
         print_line(notes, line, length, line == text);
     }
 }

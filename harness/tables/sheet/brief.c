@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/techniques/technique.h"
-#include "harness/console/colour.h"
+#include "harness/console/terminal.h"
 #include "harness/console/sheet.h"
 #include "harness/record/passport/driver.h"
 #include "harness/tables/sheet/below.h"
@@ -13,6 +13,16 @@
 
 // Optional columns; the last are dropped first when lines get too wide.
 enum { DRAWN, ERROR, PACKED, SHADED, OPTIONAL };
+
+// How a cell tells its noise: "451 [430, 472]", "451 +-9%" or "451~".
+enum marks { INTERVALS, TEXTS, LETTERS };
+
+// What a line of a table holds.
+struct layout {
+    int optional;
+    enum marks marks;
+    bool lacks_reference, lacks_times;
+};
 
 // The index of each column; -1: not in this table.
 struct columns {
@@ -99,8 +109,13 @@ static bool has_optional(const struct rg_result *result, const struct rg_record 
     return which == ERROR ? *result->truth != 0 : first->has_tally;
 }
 
-static void add_columns(const struct rg_result *result, struct rg_place of, int optional,
-                        struct rg_sheet *sheet, struct columns *at)
+static bool is_reference(const struct rg_result *result, int device)
+{
+    return !strcmp(result->devices[device].name, "cpu:reference");
+}
+
+static void add_columns(const struct rg_result *result, struct rg_place of,
+                        const struct layout *layout, struct rg_sheet *sheet, struct columns *at)
 {
     static const char *const names[OPTIONAL] = {"drawn", "error", "packed, k", "shaded, k"};
     const struct rg_record *first = first_of(result, of);
@@ -110,14 +125,13 @@ static void add_columns(const struct rg_result *result, struct rg_place of, int 
     rg_record_published_range(first, &low, &high);
     if (isfinite(low) || result->is_of_textures)
         at->print = rg_sheet_column(sheet, "print");
-    for (int i = 0; i < optional; i++)
+    for (int i = 0; i < layout->optional; i++)
         if (!result->is_of_textures && has_optional(result, first, i))
             at->optional[i] = rg_sheet_column(sheet, "%s", names[i]);
-    for (int d = 0; d < result->device_count; d++) {
-        const char *name = result->devices[d].name;
-        at->device[d] =
-            rg_sheet_column(sheet, "%s", strcmp(name, "cpu:reference") ? name : "reference");
-    }
+    for (int d = 0; d < result->device_count; d++)
+        if (!layout->lacks_reference || !is_reference(result, d))
+            at->device[d] = rg_sheet_column(
+                sheet, "%s", is_reference(result, d) ? "reference" : result->devices[d].name);
 }
 
 // --- the cells ---
@@ -198,24 +212,38 @@ static void print_times(const struct rg_result *result, struct rg_place at, char
     snprintf(text, size, "%sx", ratio);
 }
 
-// A cell: "451 +-22%  1.1x". The mark is short, "451~ 1.1x" or, where others disturbed it,
-// "451! 1.1x", if the page has no room.
-static void fill_device(const struct rg_result *result, struct rg_place at, bool is_short,
-                        char text[RG_SHEET_CELL])
+static void print_mark(const struct rg_record *record, enum marks marks, char *text, size_t size)
+{
+    char mark[RG_MARK_SIZE], low[32], high[32];
+    const struct rg_interval *ms = &record->frame_ms;
+    rg_record_mark(record, mark);
+    if (marks == LETTERS)
+        snprintf(text, size, "%s", !*mark ? "" : rg_record_disturbed(record) ? "!" : "~");
+    else if (marks == TEXTS || !(ms->low > 0 && isfinite(ms->high)))
+        snprintf(text, size, "%s%s", *mark ? " " : "", mark);
+    else {
+        rg_digits_rate(1000 / ms->high, low, sizeof(low));
+        rg_digits_rate(1000 / ms->low, high, sizeof(high));
+        snprintf(text, size, " [%s, %s]%s", low, high, rg_record_disturbed(record) ? " busy" : "");
+    }
+}
+
+// A cell: "451 +-22%  1.1x". With less room it is "451~ 1.1x" or, where others disturbed it,
+// "451! 1.1x"; with more it has its interval.
+static void fill_device(const struct rg_result *result, struct rg_place at,
+                        const struct layout *layout, char text[RG_SHEET_CELL])
 {
     const struct rg_record *record = rg_result_at(result, at);
-    char rate[32], times[40], mark[RG_MARK_SIZE];
+    char rate[32], times[40], mark[RG_MARK_SIZE + 80];
     if (record->outcome != RG_OK) {
         snprintf(text, RG_SHEET_CELL, "%s", rg_outcome_name(record->outcome));
         return;
     }
     rg_digits_rate(rg_record_fps(record), rate, sizeof(rate));
     print_times(result, at, times, sizeof(times));
-    rg_record_mark(record, mark);
-    if (is_short && *mark)
-        snprintf(mark, sizeof(mark), rg_record_disturbed(record) ? "!" : "~");
-    snprintf(text, RG_SHEET_CELL, *times ? "%s%s%s %5s" : "%s%s%s%s", rate,
-             *mark && !is_short ? " " : "", mark, times);
+    print_mark(record, layout->marks, mark, sizeof(mark));
+    snprintf(text, RG_SHEET_CELL, *times && !layout->lacks_times ? "%s%s %5s" : "%s%s", rate, mark,
+             times);
 }
 
 // The width and height of a texture: "32 x 3606".
@@ -235,7 +263,7 @@ static void fill_texture(const struct rg_record *record, char text[RG_SHEET_CELL
 }
 
 static void add_row(const struct rg_result *result, struct rg_place of, const struct columns *at,
-                    bool is_short, struct rg_sheet *sheet)
+                    const struct layout *layout, struct rg_sheet *sheet)
 {
     const struct rg_record *record = rg_result_at(result, of);
     char(*cells)[RG_SHEET_CELL] = rg_sheet_row(sheet);
@@ -248,10 +276,12 @@ static void add_row(const struct rg_result *result, struct rg_place of, const st
         fill_print(cells[at->print], record);
     fill_optional(at, cells, record);
     for (; of.device < result->device_count; of.device++) {
+        if (at->device[of.device] < 0)
+            continue;
         if (result->is_of_textures)
             fill_texture(rg_result_at(result, of), cells[at->device[of.device]]);
         else
-            fill_device(result, of, is_short, cells[at->device[of.device]]);
+            fill_device(result, of, layout, cells[at->device[of.device]]);
     }
 }
 
@@ -279,21 +309,48 @@ static const char *paint_of_print(const char *cell)
     return times[1] == '0' ? NULL : RG_GREEN;
 }
 
-// Makes the sheet with as many optional columns as the page has room for.
-static void make_sheet(const struct rg_result *result, struct rg_place of, int optional,
-                       bool is_short, struct rg_sheet *sheet)
+static void make_sheet(const struct rg_result *result, struct rg_place of,
+                       const struct layout *layout, struct rg_sheet *sheet)
 {
-    const struct rg_place first = of;
     struct columns at;
     *sheet = (struct rg_sheet){.title = result->table, .level = 3, .width_step = 1};
-    add_columns(result, of, optional, sheet, &at);
+    add_columns(result, of, layout, sheet, &at);
     for (of.row = result->first_row; of.row <= result->last_row; of.row++)
         if (rg_result_has(result, of.row))
-            add_row(result, of, &at, is_short, sheet);
-    if (rg_sheet_width(sheet) > RG_PAGE_WIDTH && optional > 0 && !sheet->incomplete) {
+            add_row(result, of, &at, layout, sheet);
+}
+
+// The next layout that takes less room, in which the columns that are least needed go first; only
+// terminals have those after short marks. False after the last one.
+static bool take_less(struct layout *layout, bool is_file)
+{
+    if (layout->marks == INTERVALS)
+        layout->marks = TEXTS;
+    else if (layout->optional)
+        layout->optional--;
+    else if (layout->marks == TEXTS)
+        *layout = (struct layout){OPTIONAL, LETTERS, false, false};
+    else if (!layout->lacks_reference && !is_file)
+        layout->lacks_reference = true;
+    else if (!layout->lacks_times && !is_file)
+        layout->lacks_times = true;
+    else
+        return false;
+    return true;
+}
+
+// Makes the sheet that holds most in the width. Wider pages than files have intervals.
+static struct layout fit_sheet(const struct rg_result *result, struct rg_place of, int width,
+                               struct rg_sheet *sheet)
+{
+    const bool is_file = width == RG_PAGE_WIDTH;
+    struct layout layout = {OPTIONAL, width > RG_PAGE_WIDTH ? INTERVALS : TEXTS, false, false};
+    make_sheet(result, of, &layout, sheet);
+    while (rg_sheet_width(sheet) > width && !sheet->incomplete && take_less(&layout, is_file)) {
         rg_sheet_free(sheet);
-        make_sheet(result, first, optional - 1, is_short, sheet);
+        make_sheet(result, of, &layout, sheet);
     }
+    return layout;
 }
 
 // The kind of a table's cells: "paper, no_geometry: two textures a light (section 4.4.2)".
@@ -313,11 +370,7 @@ static bool print_table(const struct rg_result *result, struct rg_place of, FILE
 {
     struct rg_sheet sheet;
     char title[RG_TITLE_SIZE + 3 * RG_NAME_SIZE];
-    make_sheet(result, of, OPTIONAL, false, &sheet);
-    if (rg_sheet_width(&sheet) > RG_PAGE_WIDTH && !sheet.incomplete) {
-        rg_sheet_free(&sheet);
-        make_sheet(result, of, OPTIONAL, true, &sheet);
-    }
+    const struct layout layout = fit_sheet(result, of, rg_page_width(out), &sheet);
     name_table(result, of, title, sizeof(title));
     sheet.title = title;
     if (rg_has_colours(out))
@@ -325,6 +378,10 @@ static bool print_table(const struct rg_result *result, struct rg_place of, FILE
     rg_sheet_print_md(&sheet, out);
     rg_sheet_free(&sheet);
     fprintf(out, "\n");
+    if (layout.lacks_reference)
+        fprintf(out,
+                "Without cpu:reference%s, for want of room; `raingauge table --wide` has all.\n\n",
+                layout.lacks_times ? " and how many times print it is" : "");
     if (!result->is_of_textures)
         rg_curves_print(result, of, out);
     return !sheet.incomplete;

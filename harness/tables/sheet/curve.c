@@ -3,11 +3,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/console/terminal.h"
 #include "harness/tables/sheet/trend.h"
 
 enum { LEVELS = 8 };
 
-// The width of a line of curves; the next line begins after it.
+// The width of a line of curves, if the page is that wide; the next line begins after it.
 enum { WIDTH = 100 };
 
 static double measured(const struct rg_record *record)
@@ -74,20 +75,38 @@ static bool has_axis(const struct rg_result *result, struct rg_place of)
            rg_trend_axis(rg_result_at(result, of));
 }
 
+// "Curves from 5 to 40: ": the first and the last value of the axis. Returns its length.
+static int print_ends(const struct rg_result *result, struct rg_place of, FILE *out)
+{
+    struct rg_place last = of;
+    of.row = result->first_row;
+    last.row = result->last_row;
+    const struct rg_named *end =
+        rg_result_has(result, last.row) ? rg_trend_axis(rg_result_at(result, last)) : NULL;
+    return end ? fprintf(out, "Curves from %.10g to %.10g: ",
+                         rg_trend_axis(rg_result_at(result, of))->number, end->number)
+               : fprintf(out, "Curves: ");
+}
+
 void rg_curves_print(const struct rg_result *result, struct rg_place of, FILE *out)
 {
     of.device = 0;
     if (!has_axis(result, of))
         return;
-    int column = fprintf(out, "Curves: ");
+    const int width_most = rg_page_width(out) < WIDTH ? rg_page_width(out) : WIDTH;
+    int column = print_ends(result, of, out);
     of.row = result->first_row;
-    if (isfinite(rg_record_published_fps(rg_result_at(result, of))))
+    const char *before = "";
+    if (isfinite(rg_record_published_fps(rg_result_at(result, of)))) {
         column += print_curve(result, of, "print", rg_record_published_fps, out);
+        before = ", ";
+    }
     for (; of.device < result->device_count; of.device++) {
         const int rows = result->last_row - result->first_row + 1;
         const int width = (int)strlen(result->devices[of.device].name) + rows + 4;
-        const bool fits = column + width <= WIDTH;
-        fprintf(out, "%s", !fits ? "\n        " : column > 8 ? ", " : "");
+        const bool fits = column + width <= width_most;
+        fprintf(out, "%s", fits ? before : "\n        ");
+        before = ", ";
         column = (fits ? column + 2 : 8) +
                  print_curve(result, of, result->devices[of.device].name, measured, out);
     }

@@ -5,15 +5,19 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <pty.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "harness/record/schema/schema.h"
-#include "harness/console/sheet.h"
+#include "harness/console/terminal.h"
 #include "harness/tables/sheet/below.h"
 #include "harness/tables/sheet/brief.h"
 #include "harness/tables/sheet/digits.h"
+#include "tests/tools/expect.h"
 
 enum { ROWS = 4 };
 
@@ -83,6 +87,39 @@ static const char *print(const struct rg_result *result)
     return text;
 }
 
+// The same on a terminal of so many columns, without colours.
+static const char *print_on(const struct rg_result *result, unsigned short columns)
+{
+    static char text[1 << 16];
+    const struct winsize size = {.ws_row = 24, .ws_col = columns};
+    size_t used = 0;
+    int terminal, status;
+    const pid_t child = forkpty(&terminal, NULL, NULL, &size);
+    assert_at_least(child, 0);
+    if (child == 0) {
+        setenv("NO_COLOR", "1", 1);
+        _exit(!rg_brief_print(result, stdout) || fflush(stdout));
+    }
+    for (ssize_t got = 1; got > 0; used += got > 0 ? (size_t)got : 0)
+        got = read(terminal, text + used, sizeof(text) - 1 - used);
+    text[used] = 0;
+    close(terminal);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+    return text;
+}
+
+// The characters of the longest line; of UTF-8 the bytes that begin one, and no line's end.
+static int width_of(const char *text)
+{
+    int width = 0, widest = 0;
+    for (const char *c = text; *c; c++) {
+        width = *c == '\n' ? 0 : width + ((*c & 0xc0) != 0x80 && *c != '\r');
+        widest = width > widest ? width : widest;
+    }
+    return widest;
+}
+
 static void expect(const char *text, const char *part)
 {
     if (!strstr(text, part))
@@ -135,24 +172,47 @@ static void curves_are_those_of_print(void **state)
     struct rg_result result;
     make(&result);
     const char *text = print(&result);
-    expect(text, "Curves: print \u2588\u2586\u2583\u2581, cpu \u2588\u2586\u2583\u2581, ");
+    expect(text,
+           "Curves from 5 to 40: print \u2588\u2586\u2583\u2581, cpu \u2588\u2586\u2583\u2581, ");
     expect(text, "opencl \u2588\u2585\u2581.\n");
     rg_result_free(&result);
 }
 
-// Of each line its characters; of UTF-8 those bytes that begin one.
 static void lines_are_short(void **state)
 {
     (void)state;
     struct rg_result result;
     make(&result);
-    const char *text = print(&result);
-    int width = 0, widest = 0;
-    for (const char *c = text; *c; c++) {
-        width = *c == '\n' ? 0 : width + ((*c & 0xc0) != 0x80);
-        widest = width > widest ? width : widest;
+    assert_in_range(width_of(print(&result)), 90, RG_PAGE_WIDTH);
+    rg_result_free(&result);
+}
+
+// A narrow terminal gets fewer columns, and is told of it; a wide one gets the intervals.
+static void tables_fit_terminals(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    make(&result);
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);) {
+        struct rg_interval *ms = &rg_result_at(&result, at)->frame_ms;
+        ms->low = ms->median / 1.25;
+        ms->high = ms->median * 1.25;
     }
-    assert_in_range(widest, 90, RG_PAGE_WIDTH);
+    const char *text = print_on(&result, 100);
+    assert_in_range(width_of(text), 80, 100);
+    expect(text, " 160~  2.0x |");
+    text = print_on(&result, 80);
+    assert_in_range(width_of(text), 60, 80);
+    expect(text, "Without cpu:reference, for want of room; `raingauge table --wide` has all.");
+    expect(text, " 160~  2.0x |");
+    assert_null(strstr(text, "reference |"));
+    text = print_on(&result, 60);
+    assert_in_range(width_of(text), 40, 60);
+    expect(text, "Without cpu:reference and how many times print it is, for");
+    assert_null(strstr(text, "2.0x"));
+    text = print_on(&result, 200);
+    assert_in_range(width_of(text), RG_PAGE_WIDTH + 1, 200);
+    expect(text, "| 160 [128, 200]  2.0x |");
     rg_result_free(&result);
 }
 
@@ -258,6 +318,7 @@ int main(void)
         cmocka_unit_test(uncertain_numbers_are_marked),
         cmocka_unit_test(curves_are_those_of_print),
         cmocka_unit_test(lines_are_short),
+        cmocka_unit_test(tables_fit_terminals),
         cmocka_unit_test(claims_and_five_lines_stand_below),
         cmocka_unit_test(choices_tell_rows_apart),
         cmocka_unit_test(changed_settings_have_no_ratio),

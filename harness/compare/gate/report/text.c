@@ -1,7 +1,7 @@
 // The text form, for terminals and CI logs.
 #include <string.h>
 
-#include "harness/console/colour.h"
+#include "harness/console/terminal.h"
 #include "harness/compare/gate/report/report.h"
 #include "harness/compare/gate/report/texts.h"
 
