@@ -169,14 +169,17 @@ void rg_sheet_print_csv(const struct rg_sheet *sheet, FILE *out)
     }
 }
 
-// --- LaTeX: a tabular in a table, needing no package ---
+// --- LaTeX: a tabular in a table, with the rules of booktabs ---
 
 static void print_tex_text(FILE *out, const char *text)
 {
     for (; *text; text++) {
         if (*text == '\\')
             fprintf(out, "\\textbackslash{}");
-        else if (strchr("^~", *text))
+        else if (!strncmp(text, "+-", 2)) {
+            fprintf(out, "$\\pm$");
+            text++;
+        } else if (strchr("^~", *text))
             fprintf(out, "\\%c{}", *text);
         else
             fprintf(out, strchr("_%&#${}", *text) ? "\\%c" : "%c", *text);
@@ -185,20 +188,20 @@ static void print_tex_text(FILE *out, const char *text)
 
 void rg_sheet_print_tex(const struct rg_sheet *sheet, FILE *out)
 {
-    fprintf(out, "\\begin{table}\n\\caption{");
+    fprintf(out, "\\begin{table} %% \\usepackage{booktabs}\n\\caption{");
     print_tex_text(out, sheet->title);
-    fprintf(out, "}\n\\begin{tabular}{");
+    fprintf(out, "}\n\\centering\\footnotesize\n\\begin{tabular}{@{}");
     for (int c = 0; c < sheet->column_count; c++)
         fputc('r', out);
-    fprintf(out, "}\n\\hline\n");
+    fprintf(out, "@{}}\n\\toprule\n");
     for (int r = -1; r < sheet->row_count; r++) {
         for (int c = 0; c < sheet->column_count; c++) {
             fprintf(out, c ? " & " : "");
             print_tex_text(out, r < 0 ? sheet->columns[c] : sheet->cells[r][c]);
         }
-        fprintf(out, r < 0 ? " \\\\\n\\hline\n" : " \\\\\n");
+        fprintf(out, r < 0 ? " \\\\\n\\midrule\n" : " \\\\\n");
     }
-    fprintf(out, "\\hline\n\\end{tabular}\n");
+    fprintf(out, "\\bottomrule\n\\end{tabular}\n");
     for (int n = 0; n < sheet->note_count; n++) {
         fprintf(out, "\n\\noindent ");
         print_tex_text(out, sheet->notes[n]);

@@ -40,12 +40,12 @@ bool rg_result_print(const struct rg_result *result, int format, FILE *out)
         return print_json(result, out);
     if (format == RG_RESULT_MD)
         return rg_brief_print(result, out);
+    if (format == RG_RESULT_TEX)
+        return rg_brief_print_tex(result, out);
     struct rg_sheet sheet;
     rg_result_sheet(result, &sheet);
     if (format == RG_RESULT_CSV)
         rg_sheet_print_csv(&sheet, out);
-    else if (format == RG_RESULT_TEX)
-        rg_sheet_print_tex(&sheet, out);
     else
         rg_sheet_print_md(&sheet, out);
     rg_sheet_free(&sheet);

@@ -10,5 +10,8 @@
 // paper's claims, and up to five lines of notes. Coloured on terminals with colours. False, and one
 // logged line, when memory runs out.
 bool rg_brief_print(const struct rg_result *result, FILE *out);
+// Prints it for an article, as print has it: a LaTeX table for each work and variant, of what tells
+// rows apart, print, and frames a second on each device. Needs booktabs. The same on failure.
+bool rg_brief_print_tex(const struct rg_result *result, FILE *out);
 
 #endif

@@ -216,6 +216,29 @@ static void tables_fit_terminals(void **state)
     rg_result_free(&result);
 }
 
+// For an article: a table for each work, of what print has and no more.
+static void articles_have_what_print_has(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    static char text[1 << 16];
+    make(&result);
+    rg_result_at(&result, (struct rg_place){.device = 1})->frame_ms.high *= 1.44;
+    FILE *out = fmemopen(text, sizeof(text), "w");
+    assert_non_null(out);
+    assert_true(rg_brief_print_tex(&result, out));
+    assert_int_equal(fclose(out), 0);
+    expect(text,
+           "\\caption{creus-5.4, paper: two textures a light. Frames a second; in print on an "
+           "old machine}\n");
+    expect(text, "\\begin{tabular}{@{}rrrrrrr@{}}\n\\toprule\nculling radius, m & print & cpu & "
+                 "reference & gl & vulkan & opencl ");
+    expect(text, "5 & 80.0 & 160 & 40.0 $\\pm$20\\% & 9.84 & 80.0 & 3.20 \\\\\n");
+    expect(text, "\\caption{creus-5.4, ours, times paper.");
+    expect(text, "& fail \\\\\n\\bottomrule\n");
+    rg_result_free(&result);
+}
+
 static void claims_and_five_lines_stand_below(void **state)
 {
     (void)state;
@@ -319,6 +342,7 @@ int main(void)
         cmocka_unit_test(curves_are_those_of_print),
         cmocka_unit_test(lines_are_short),
         cmocka_unit_test(tables_fit_terminals),
+        cmocka_unit_test(articles_have_what_print_has),
         cmocka_unit_test(claims_and_five_lines_stand_below),
         cmocka_unit_test(choices_tell_rows_apart),
         cmocka_unit_test(changed_settings_have_no_ratio),
