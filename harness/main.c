@@ -18,9 +18,17 @@
 
 static void print_usage(void)
 {
-    printf("raingauge COMMAND [OPTION]...\n%s\n\n", rg_program_about);
-    for (int i = 0; rg_commands[i]; i++)
-        printf("  %-8s %s\n", rg_commands[i]->name, rg_commands[i]->about);
+    static const char *const titles[RG_READERS] = {
+        [RG_FOR_DRIVERS] = "Drivers: correct, and as fast as before",
+        [RG_FOR_PAPERS] = "Papers: their tables, claims and figures",
+        [RG_FOR_ALL] = "Pictures, names and pages"};
+    printf("raingauge COMMAND [OPTION]...\n%s\n", rg_program_about);
+    for (int reader = 0; reader < RG_READERS; reader++) {
+        printf("\n%s\n", titles[reader]);
+        for (int i = 0; rg_commands[i]; i++)
+            if ((int)rg_commands[i]->reader == reader)
+                printf("  %-8s %s\n", rg_commands[i]->name, rg_commands[i]->about);
+    }
     printf("\n`raingauge COMMAND --help` prints a command's options.\n");
 }
 

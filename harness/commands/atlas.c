@@ -31,19 +31,20 @@ struct atlas_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to make"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
-     .about = "the textures that it generates, such as cartoon's; without one, the streak atlas",
+     .about = "a technique whose textures to make, such as cartoon; without one, the streak "
+              "atlas",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_TEXT, "from", .argument = "DIR",
-     .about = "packs the original database in this folder instead", .offset = AT(from),
-     .names = RG_NAMES_FOLDER},
+     .about = "packs the original streak database in this folder, and generates nothing",
+     .offset = AT(from), .names = RG_NAMES_FOLDER},
     {RG_OPTION_TEXT, "compare", .argument = "DIR",
-     .about = "lays what pictures of the original database are in this folder beside the atlas', "
-              "and prints how alike they are",
+     .about = "compares the atlas with pictures of the original database in this folder, and "
+              "prints how alike they are",
      .offset = AT(compare), .names = RG_NAMES_FOLDER},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
-     .about = "writes it into this folder, as EXR and PNG files", .offset = AT(output),
+     .about = "writes the textures into this folder, as EXR and PNG files", .offset = AT(output),
      .letter = 'o', .names = RG_NAMES_FOLDER},
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -277,8 +278,9 @@ static int atlas_command(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_atlas = {
     .name = "atlas",
+    .reader = RG_FOR_PAPERS,
     .usage = "[TECHNIQUE] [--quick|--full] [--from DIR] [--compare DIR] [-o DIR] [--json]",
-    .about = "makes the streak atlas or a technique's textures; describes and exports them",
+    .about = "makes, describes and exports the streak atlas or a technique's textures",
     .options = options,
     .options_size = sizeof(struct atlas_options),
     .run = atlas_command,

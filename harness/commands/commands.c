@@ -11,7 +11,7 @@ RG_COMMANDS(DECLARE)
 const struct rg_command *const rg_commands[] = {RG_COMMANDS(ENTRY) NULL};
 
 const char rg_program_about[] =
-    "runs the rain of published papers on every graphics API, compares, and measures";
+    "finds out whether a graphics driver draws correctly, and how fast, by the rain of five papers";
 
 const struct rg_command *rg_command_find(const char *name)
 {

@@ -31,8 +31,9 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     {RG_OPTION_TEXT, "kernels", .argument = "NAMES",
-     .about = "compiles kernels instead, each by itself, and runs an item of those that need "
-              "nothing for it: all, or names with commas; lists those that a driver cannot",
+     .about = "compiles each of these kernels by itself instead, and runs one item where a "
+              "kernel needs no input. Names them with commas, or all. Prints those that a driver "
+              "cannot compile",
      .offset = AT(kernels)},
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
@@ -193,8 +194,9 @@ static int doctor(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_doctor = {
     .name = "doctor",
+    .reader = RG_FOR_DRIVERS,
     .usage = "[--device D,...|all] [--kernels NAMES|all] [--json]",
-    .about = "examines machine, drivers, their arithmetic and their timers",
+    .about = "examines the machine and its drivers: arithmetic, drawing and timers",
     .options = options,
     .options_size = sizeof(struct doctor_options),
     .run = doctor,

@@ -23,7 +23,8 @@ struct figures_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to draw"),
     {RG_OPTION_OPERAND, .argument = "ID...",
-     .about = "figures by the names that `raingauge list figures` prints; without one, all",
+     .about = "figures to draw, all if none is named; `raingauge list figures` prints the "
+              "names",
      .names = RG_NAMES_FIGURE, .first = 1},
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     RG_GROUP("Devices"),
@@ -34,7 +35,7 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
-     .about = "the folder of the pictures, and of figures.md, which shows them with captions",
+     .about = "the folder for the pictures and for figures.md, which shows them with captions",
      .offset = AT(output), .letter = 'o', .initial = "figures", .names = RG_NAMES_FOLDER},
     {RG_OPTION_END},
 };
@@ -99,8 +100,9 @@ static int figures_command(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_figures = {
     .name = "figures",
+    .reader = RG_FOR_PAPERS,
     .usage = "[ID...] [--device D] [--size WxH] [-o DIR]",
-    .about = "draws figures of the papers anew, with captions",
+    .about = "redraws figures of the papers, with captions",
     .options = options,
     .options_size = sizeof(struct figures_options),
     .run = figures_command,

@@ -31,9 +31,10 @@ static const char *const lists[] = {"techniques", "tables", "figures", "devices"
 static const struct rg_option options[] = {
     RG_GROUP("What to list"),
     {RG_OPTION_OPERAND,
-     .about = "techniques, papers' tables and figures, this machine's devices, or parameters",
+     .about = "what to list: techniques, the papers' tables or figures, this machine's "
+              "devices, or parameters",
      .choices = lists, .first = 1, .last = 1},
-    {RG_OPTION_OPERAND, .argument = "TECHNIQUE", .about = "whose parameters",
+    {RG_OPTION_OPERAND, .argument = "TECHNIQUE", .about = "the technique whose parameters to list",
      .names = RG_NAMES_TECHNIQUE, .first = 2, .last = 2},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
@@ -216,8 +217,9 @@ static int list(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_list = {
     .name = "list",
+    .reader = RG_FOR_ALL,
     .usage = "techniques|tables|figures|devices|params TECHNIQUE [--json]",
-    .about = "prints what there is to name: techniques, tables, figures, devices, parameters",
+    .about = "lists techniques, tables, figures, devices or parameters",
     .options = options,
     .options_size = sizeof(struct list_options),
     .run = list,

@@ -42,18 +42,17 @@ enum { DEFAULT_FPS = 60 };
 static const struct rg_option options[] = {
     RG_GROUP("What to draw"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
-     .about = "its picture; `raingauge list techniques` prints them", .names = RG_NAMES_TECHNIQUE,
-     .first = 1, .last = 1},
+     .about = "the technique to draw; `raingauge list techniques` prints the names",
+     .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_frame_option, AT(frame), "60"),
     {RG_OPTION_RANGE, "frames", .argument = "A-B",
-     .about = "every frame from A to B instead, as a clip or as numbered pictures",
+     .about = "draws every frame from A to B, as a clip or as numbered pictures",
      .offset = AT(frames), .least = 0, .most = 1e7, .excludes = "frame"},
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     {RG_OPTION_TEXT, "case", .argument = "FILE",
-     .about =
-         "replays a case of `raingauge shrink` instead: says whether the device leaves what is "
-         "expected, and writes no picture",
+     .about = "replays a case of `raingauge shrink`: says whether the device leaves the "
+              "expected bits, and writes no picture",
      .offset = AT(replayed), .names = RG_NAMES_FILE,
      .excludes = "set frame frames size output fps exposure json"},
     RG_GROUP("Devices"),
@@ -65,14 +64,12 @@ static const struct rg_option options[] = {
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "FILE",
      .about =
-         "the picture: .png, .exr, .hdr, .tif or .tiff; TECHNIQUE.png where none is named. Of "
-         "several frames a clip: .webm; TECHNIQUE.webm where none is named; or pictures, whose "
-         "name has %04d where the frame's number goes",
+         "the picture (default TECHNIQUE.png): .png, .exr, .hdr, .tif or .tiff. For "
+         "several frames a clip (default TECHNIQUE.webm), or pictures, with %04d in their name "
+         "for the frame's number",
      .offset = AT(output), .letter = 'o', .names = RG_NAMES_FILE},
     {RG_OPTION_INT, "fps", .argument = "N",
-     .about =
-         "frames a second of a clip; where it is not given 60, which is real time for steps of "
-         "1/60 s",
+     .about = "frames a second of a clip (default 60, real time for steps of 1/60 s)",
      .offset = AT(fps), .least = 1, .most = 240},
     RG_INCLUDE(rg_exposure_option, AT(exposure), NULL),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
@@ -214,9 +211,10 @@ static int render(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_render = {
     .name = "render",
+    .reader = RG_FOR_ALL,
     .usage = "TECHNIQUE [--device D] [--frame N|--frames A-B] [--size WxH] [--set KEY=VALUE]... "
              "[-o FILE] [--fps N] [--json]",
-    .about = "draws a frame of a technique into an image file, or several into a clip",
+    .about = "draws a frame of a technique into a picture, or several frames into a clip",
     .options = options,
     .options_size = sizeof(struct render_options),
     .run = render,

@@ -86,7 +86,7 @@ def check_manual_renders(runner):
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=dict(os.environ, MANWIDTH="100"))
     text = re.sub(".\b", "", done.stdout)  # bold letters are struck twice
     problems = [done.stderr] if done.stderr or done.returncode else []
-    return problems + [word for word in ("NAME", "EXIT STATUS", "raingauge verify", "--background FILE") if word not in text]
+    return problems + [word for word in ("NAME", "EXAMPLES", "EXIT STATUS", "raingauge verify", "--background FILE") if word not in text]
 
 
 def complete(runner, lines, folder):

@@ -5,8 +5,12 @@
 #include "harness/commands/cli/option.h"
 #include "harness/console/exit.h"
 
+// Whom a command is for first; `raingauge --help` groups them so.
+enum rg_reader { RG_FOR_DRIVERS, RG_FOR_PAPERS, RG_FOR_ALL, RG_READERS };
+
 struct rg_command {
     const char *name;
+    enum rg_reader reader;
     const char *usage;               // after "raingauge NAME"
     const char *about;               // one line
     const struct rg_option *options; // table of options

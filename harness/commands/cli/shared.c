@@ -4,15 +4,15 @@
 
 const struct rg_option rg_timeout_option[] = {
     {RG_OPTION_INT, "timeout", .argument = "S",
-     .about =
-         "seconds after which a device, or the encoder of a clip, that does nothing is given up",
+     .about = "gives up a device, or the encoder of a clip, that does nothing for so many "
+              "seconds",
      .least = 1, .most = 86400, .initial = "120"},
     {RG_OPTION_END},
 };
 
 const struct rg_option rg_devices_option[] = {
     {RG_OPTION_TEXT, "device", .argument = "D,...|all",
-     .about = "devices to use; `raingauge list devices` prints the names, and "
+     .about = "devices to use; `raingauge list devices` prints their names. "
               "gl@LP_NUM_THREADS=1;KEY=VALUE is one with an environment of its own",
      .names = RG_NAMES_DEVICES},
     {RG_OPTION_END},
@@ -22,7 +22,7 @@ const struct rg_option rg_devices_option[] = {
 
 const struct rg_option rg_asked_options[] = {
     {RG_OPTION_TEXT, "require", .argument = "D,...",
-     .about = "devices or APIs without which the command fails", .offset = AT(require),
+     .about = "fails unless these devices or APIs are there", .offset = AT(require),
      .names = RG_NAMES_DEVICES},
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     {RG_OPTION_END},
@@ -32,9 +32,8 @@ const struct rg_option rg_asked_options[] = {
 
 const struct rg_option rg_settings_option[] = {
     {RG_OPTION_TEXTS, "set", .argument = "KEY=VALUE",
-     .about =
-         "sets a parameter, and can be given again for another; `raingauge list params TECHNIQUE` "
-         "prints them",
+     .about = "sets a parameter; give it again for another. `raingauge list params TECHNIQUE` "
+              "prints them",
      .names = RG_NAMES_PARAMETER},
     {RG_OPTION_END},
 };
@@ -47,8 +46,8 @@ const struct rg_option rg_size_option[] = {
 
 const struct rg_option rg_memory_option[] = {
     {RG_OPTION_BYTES, "memory", .argument = "SIZE",
-     .about = "memory that may be taken, as 512M or 4G; what needs more is refused. Without it, "
-              "what is free, less a tenth"},
+     .about = "refuses work that needs more memory, as 512M or 4G. Without it: nine tenths of "
+              "the free memory"},
     {RG_OPTION_END},
 };
 
@@ -59,13 +58,13 @@ const struct rg_option rg_frame_option[] = {
 };
 
 const struct rg_option rg_exposure_option[] = {
-    {RG_OPTION_FACTOR, "exposure", .argument = "X", .about = "brightness of 8-bit images, a factor",
-     .most = 1e6, .initial = "1"},
+    {RG_OPTION_FACTOR, "exposure", .argument = "X",
+     .about = "brightens 8-bit images by this factor", .most = 1e6, .initial = "1"},
     {RG_OPTION_END},
 };
 
 const struct rg_option rg_json_option[] = {
-    {RG_OPTION_FLAG, "json", .about = "results in machine form (docs/records.md)"},
+    {RG_OPTION_FLAG, "json", .about = "prints JSON for programs (docs/records.md)"},
     {RG_OPTION_END},
 };
 

@@ -26,15 +26,14 @@ struct baseline_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to keep"),
     {RG_OPTION_TEXT, "cells", .argument = "FILE",
-     .about =
-         "the cells to run, one a line (docs/expectations.md); without it those that are built "
-         "in",
+     .about = "a file of cells to run, one a line (docs/expectations.md); without it, the "
+              "built-in ones",
      .offset = AT(cells), .names = RG_NAMES_FILE},
     {RG_OPTION_INT, "launches", .argument = "N",
-     .about = "how often each device is started anew, and times each cell", .offset = AT(launches),
+     .about = "how many times to start each device anew and time each cell", .offset = AT(launches),
      .initial = "24", .least = 8, .most = RG_BASELINE_LAUNCHES},
     {RG_OPTION_FLAG, "pictures",
-     .about = "keeps pictures' digests, states and counters, and times nothing",
+     .about = "keeps digests of pictures, states and counters, and times nothing",
      .offset = AT(pictures_only), .excludes = "launches"},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
@@ -45,7 +44,8 @@ static const struct rg_option options[] = {
      .about = "the baseline, which `raingauge gate --baseline FILE` reads", .offset = AT(output),
      .letter = 'o', .names = RG_NAMES_FILE},
     {RG_OPTION_FLAG, "update",
-     .about = "writes FILE though one is there and something changes; without it that is only told",
+     .about = "replaces an existing FILE that differs; without it, the differences are only "
+              "printed",
      .offset = AT(update)},
     {RG_OPTION_END},
 };
@@ -222,8 +222,10 @@ static int baseline(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_baseline = {
     .name = "baseline",
+    .reader = RG_FOR_DRIVERS,
     .usage = "-o FILE [--device D,...] [--cells FILE] [--launches N] [--update]",
-    .about = "keeps what a gate's cells do on devices, for `raingauge gate --baseline`",
+    .about = "records what each cell of a gate draws and how fast, for `raingauge gate "
+             "--baseline`",
     .options = options,
     .options_size = sizeof(struct baseline_options),
     .run = baseline,

@@ -28,32 +28,32 @@ static const char *const crashes[] = {"skip", "bad", NULL};
 static const struct rg_option options[] = {
     RG_GROUP("What to search"),
     {RG_OPTION_OPERAND, .argument = "CANDIDATE",
-     .about = "what is tried, in order: devices with their environments, folders of builds, or any "
-              "words",
+     .about = "what to try, in order: devices with their environments, folders of builds, or "
+              "any words",
      .names = RG_NAMES_FILE, .first = 1},
     {RG_OPTION_TEXT, "list", .argument = "FILE",
-     .about = "the same, one a line; empty lines and those that begin with # say nothing",
+     .about = "a file with a candidate a line; empty lines and lines that begin with # are "
+              "ignored",
      .offset = AT(list), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXT, "good", .argument = "A",
-     .about = "the candidate that is known to be good; where neither end is among the candidates, "
-              "the two stand around them",
+     .about = "the candidate known to be good; if neither end is among the candidates, they "
+              "lie between the two",
      .offset = AT(good), .names = RG_NAMES_FILE},
-    {RG_OPTION_TEXT, "bad", .argument = "B", .about = "the candidate that is known to be bad",
+    {RG_OPTION_TEXT, "bad", .argument = "B", .about = "the candidate known to be bad",
      .offset = AT(bad), .names = RG_NAMES_FILE},
     RG_GROUP("How one is judged"),
     {RG_OPTION_TEXT, "run", .argument = "COMMAND",
-     .about =
-         "a line for the shell, in which \"$RG_CANDIDATE\" is the candidate, \"$RG_GOOD\" the "
-         "good end, and \"$RG_BUDGET\" a time; its exit status is the verdict: 0 good, 1 bad, 3 "
-         "again, 4, 77 and 125 skip, else it stops (docs/ci.md)",
+     .about = "a command for the shell, in which \"$RG_CANDIDATE\" is the candidate, "
+              "\"$RG_GOOD\" the good end, and \"$RG_BUDGET\" a time. Its exit status is the "
+              "verdict: 0 good; 1 bad; 3 again; 4, 77 and 125 skip; any other stops (docs/ci.md)",
      .offset = AT(line)},
     {RG_OPTION_INT, "tries", .argument = "N",
-     .about = "what says 3 is tried so many times, then skipped", .offset = AT(tries),
-     .initial = "3", .least = 1, .most = 16},
+     .about = "how many times to try a candidate whose status is 3, before it is skipped",
+     .offset = AT(tries), .initial = "3", .least = 1, .most = 16},
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "RG_BUDGET at the first try; at each further it is twice as much",
+     .about = "RG_BUDGET of the first try; each further try gets twice as much",
      .offset = AT(budget), .initial = "2m"},
-    {RG_OPTION_CHOICE, "crash", .about = "what a command says that a signal ends",
+    {RG_OPTION_CHOICE, "crash", .about = "the verdict on a candidate whose command a signal ends",
      .offset = AT(crash), .initial = "skip", .choices = crashes},
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
@@ -147,9 +147,9 @@ static int bisect(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_bisect = {
     .name = "bisect",
+    .reader = RG_FOR_DRIVERS,
     .usage = "[--good A --bad B] --run COMMAND [--list FILE | CANDIDATE...] [--json]",
-    .about = "finds the first of several drivers or builds that is bad, or judges for `git bisect "
-             "run`",
+    .about = "finds the first bad driver or build of several, or judges for `git bisect run`",
     .options = options,
     .options_size = sizeof(struct bisect_options),
     .run = bisect,

@@ -26,30 +26,31 @@ struct diff_options {
 static const struct rg_option options[] = {
     RG_GROUP_OF(1, "What to compare: a technique on devices"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
-     .about = "one frame of it, on every pair of devices; `raingauge list techniques` prints them",
+     .about = "draws one frame on every pair of devices; `raingauge list techniques` prints "
+              "the names",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_frame_option, AT(frames), "60"),
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     {RG_OPTION_FLAG, "mutants", .offset = AT(mutants),
-     .about = "of a pair that does not hold what it owes, says which of the mutants of `raingauge "
-              "verify` would pass with the tier that it holds"},
+     .about = "for a pair that misses its tier, names the mutants of `raingauge verify` that "
+              "the tier it reaches would let pass"},
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_GROUP_OF(2, "What to compare: two files"),
     // The operand is unlimited in number, so that a wrong number of arguments reaches the check
     // below.
-    {RG_OPTION_OPERAND, .argument = "A B", .about = "picture files of one size; A is the true one",
+    {RG_OPTION_OPERAND, .argument = "A B", .about = "picture files of one size; A is the reference",
      .names = RG_NAMES_FILE, .first = 1},
     {RG_OPTION_TEXT, "background", .argument = "FILE",
-     .about = "the picture without rain: differences are gated where it rains",
+     .about = "the picture without rain: only differences where it rains count",
      .offset = AT(background), .names = RG_NAMES_FILE},
     RG_GROUP("Either"),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "PREFIX",
-     .about = "writes heat maps into files whose names begin so", .offset = AT(heatmap_prefix),
-     .letter = 'o', .names = RG_NAMES_FILE},
+     .about = "writes heat maps into files whose names begin with this",
+     .offset = AT(heatmap_prefix), .letter = 'o', .names = RG_NAMES_FILE},
     RG_INCLUDE(rg_exposure_option, AT(exposure), NULL),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -112,8 +113,10 @@ static int diff(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_diff = {
     .name = "diff",
+    .reader = RG_FOR_DRIVERS,
     .usage = "TECHNIQUE [--device A,B,...]  |  A.exr B.exr [--background FILE]",
-    .about = "compares pictures: every pair of devices, or two files; heat maps with -o PREFIX",
+    .about = "compares pictures of devices in pairs, or two files; -o PREFIX writes heat "
+             "maps",
     .options = options,
     .options_size = sizeof(struct diff_options),
     .run = diff,

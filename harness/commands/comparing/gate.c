@@ -42,59 +42,59 @@ struct gate_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to compare"),
     {RG_OPTION_OPERAND, .argument = "A B",
-     .about = "two devices: B is held against A; each may have an environment, as in "
+     .about = "two devices; B is judged against A. Each may have an environment, as in "
               "'new=vulkan@DRIVER=PREFIX'",
      .names = RG_NAMES_DEVICE, .first = 1, .last = 2},
     {RG_OPTION_TEXT, "against", .argument = "BINARY",
-     .about =
-         "instead of A and B: devices of this build are held against those of another raingauge",
+     .about = "judges this build's devices against those of another raingauge, instead of A "
+              "and B",
      .offset = AT(against), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXT, "baseline", .argument = "FILE",
-     .about = "instead of A and B: devices are held against what `raingauge baseline -o` wrote",
+     .about = "judges devices against what `raingauge baseline -o` wrote, instead of A and B",
      .offset = AT(baseline), .names = RG_NAMES_FILE, .excludes = "against"},
     RG_INCLUDE(rg_devices_option, AT(devices.names), NULL),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     {RG_OPTION_TEXT, "cells", .argument = "FILE",
-     .about =
-         "the cells to run, one a line (docs/expectations.md); without it those that are built "
-         "in",
+     .about = "a file of cells to run, one a line (docs/expectations.md); without it, the "
+              "built-in ones",
      .offset = AT(cells), .names = RG_NAMES_FILE},
     {RG_OPTION_FACTOR, "margin", .argument = "PERCENT",
-     .about = "B is worse where its frames take longer by so much; without it 5, and against a "
-              "baseline, since one run is as such faster than another, 10",
+     .about = "how much longer B's frames may take. Without it 5, or 10 against a baseline, "
+              "since whole runs differ in speed",
      .offset = AT(margin_percent), .most = 100},
     {RG_OPTION_FLAG, "pictures",
      .about = "compares pictures, states and counters, and times nothing",
      .offset = AT(pictures_only), .excludes = "margin budget"},
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "ends within so much time of its start, as 90s or 4m; what is not decided by then "
-              "is inconclusive, and a time in which nothing can be is refused",
+     .about = "ends within this time of its start, as 90s or 4m. Cells that are undecided by "
+              "then are inconclusive; a time too short for any verdict is refused",
      .offset = AT(budget)},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("What is known"),
     {RG_OPTION_TEXTS, "expectations", .argument = "FILE",
-     .about = "failures, flakes and skips that are expected (docs/expectations.md)",
+     .about = "a file of expected failures, flakes and skips (docs/expectations.md)",
      .offset = AT(known[RG_FORM_OWN]), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXTS, "fails", .argument = "FILE",
-     .about = "the same as Mesa's *-fails.txt has them", .offset = AT(known[RG_FORM_FAILS]),
-     .names = RG_NAMES_FILE},
-    {RG_OPTION_TEXTS, "flakes", .argument = "FILE", .about = "the same as Mesa's *-flakes.txt",
+     .about = "expected failures, as Mesa's *-fails.txt has them",
+     .offset = AT(known[RG_FORM_FAILS]), .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXTS, "flakes", .argument = "FILE",
+     .about = "expected flakes, as Mesa's *-flakes.txt has them",
      .offset = AT(known[RG_FORM_FLAKES]), .names = RG_NAMES_FILE},
-    {RG_OPTION_TEXTS, "skips", .argument = "FILE", .about = "the same as Mesa's *-skips.txt",
-     .offset = AT(known[RG_FORM_SKIPS]), .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXTS, "skips", .argument = "FILE",
+     .about = "cells to skip, as Mesa's *-skips.txt has them", .offset = AT(known[RG_FORM_SKIPS]),
+     .names = RG_NAMES_FILE},
     {RG_OPTION_FLAG, "update",
-     .about = "writes the files of --expectations and --fails anew where they are not true of this "
-              "run; `git diff` shows what changed",
+     .about = "rewrites the files of --expectations and --fails to fit this run; `git diff` "
+              "shows what changed",
      .offset = AT(update), .excludes = "gtest_filter gtest_list_tests"},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
-     .about =
-         "writes pictures that differ, A's and B's and heat maps, which reports then name, and "
-         "what every launch told; after Ctrl-C the same command goes on. With --junit FILE "
-         "pictures go to FILE's folder, into FILE-pictures",
+     .about = "writes differing pictures of A and B with heat maps, and every launch, into "
+              "this folder. After Ctrl-C the same command goes on there. Without it, --junit FILE "
+              "puts pictures into FILE-pictures",
      .offset = AT(pictures), .letter = 'o', .names = RG_NAMES_FOLDER},
-    {RG_OPTION_FLAG, "fresh", .about = "begins anew, whatever the folder of -o keeps",
-     .offset = AT(fresh)},
+    {RG_OPTION_FLAG, "fresh",
+     .about = "begins anew, and ignores launches that the folder of -o keeps", .offset = AT(fresh)},
     RG_INCLUDE(rg_report_options, AT(reports), NULL),
     RG_INCLUDE(rg_gtest_options, AT(gtest), NULL),
     {RG_OPTION_END},
@@ -359,12 +359,11 @@ static int gate(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_gate = {
     .name = "gate",
+    .reader = RG_FOR_DRIVERS,
     .usage = "{A B | {--against BINARY | --baseline FILE} [--device D,...|all]} [--require D,...] "
              "[--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--expectations "
              "FILE]... [--update] [--junit FILE] [--bmf FILE] [--github] [--json]",
-    .about =
-        "tells whether device B is worse than A, or than a baseline: other pictures, states or "
-        "counters, or slower",
+    .about = "tells whether device B draws otherwise or slower than A, or than a baseline",
     .options = options,
     .options_size = sizeof(struct gate_options),
     .run = gate,

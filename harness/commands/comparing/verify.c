@@ -27,19 +27,23 @@ struct verify_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to verify"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
-     .about = "`raingauge list techniques` prints them; all are meant where none is named",
+     .about = "techniques to verify, all if none is named; `raingauge list techniques` prints "
+              "the names",
      .names = RG_NAMES_TECHNIQUE, .first = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     {RG_OPTION_FLAG, "quick", .offset = AT(length.quick), .excludes = "full",
-     .about = "the poses that show the most, for few steps (100, unless a pose says otherwise)"},
+     .about = "runs the poses that show most, for few steps (100, unless a pose says "
+              "otherwise)"},
     {RG_OPTION_FLAG, "full", .offset = AT(length.full),
-     .about = "every pose with three seeds, for all its steps (1,000, unless it says otherwise); "
-              "without either, a fifth of them, with three seeds of the first pose and one of each "
-              "other"},
+     .about =
+         "runs every pose with three seeds, for all its steps (1,000, unless it says "
+         "otherwise). Without either: a fifth of the steps, with three seeds of the first pose "
+         "and one of each other"},
     RG_INCLUDE(rg_frame_option, AT(steps), NULL),
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     {RG_OPTION_FLAG, "stages", .offset = AT(stages),
-     .about = "names the first stage that leaves other bits in an asset, instead; 3 frames"},
+     .about = "names the first stage that leaves other bits in an asset, and verifies nothing "
+              "else; 3 frames"},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -196,8 +200,10 @@ static int verify(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_verify = {
     .name = "verify",
+    .reader = RG_FOR_DRIVERS,
     .usage = "[TECHNIQUE...] [--device D,...|all] [--quick|--full] [--set KEY=VALUE]... [--json]",
-    .about = "proves that all devices compute the same: poses, laws and mutants",
+    .about = "checks that all devices compute the same states and pictures, that laws hold, "
+             "and that mutants are noticed",
     .options = options,
     .options_size = sizeof(struct verify_options),
     .run = verify,

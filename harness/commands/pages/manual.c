@@ -56,10 +56,9 @@ static void print_row(const struct rg_option *row)
 }
 
 static const char description[] =
-    "Every technique is the rain of a paper, written once and run on interchangeable devices: the "
-    "CPU, OpenGL, Vulkan and OpenCL. The commands draw it, prove that all devices compute the "
-    "same, "
-    "and measure it beside the numbers that the papers printed.";
+    "A technique is the rain of a paper. It is written once and runs on interchangeable devices: "
+    "the CPU, OpenGL, Vulkan and OpenCL. The commands draw it, check that all devices compute the "
+    "same, and measure it beside the numbers that the papers printed.";
 
 static void print_command(const struct rg_command *command)
 {
@@ -107,6 +106,26 @@ static void print_statuses(void)
     }
 }
 
+static void print_examples(void)
+{
+    static const struct {
+        const char *command, *about;
+    } rows[] = {
+        {"raingauge doctor", "Examines the machine and its drivers."},
+        {"raingauge diff flow --device gl,vulkan", "Compares a picture on two devices."},
+        {"raingauge verify flow --quick", "Checks states, pictures, laws and mutants."},
+        {"raingauge gate vulkan new=vulkan@DRIVER=/opt/mesa-25",
+         "Judges a driver that was unpacked into a folder against the installed one."},
+        {"raingauge table creus-5.4 --device cpu", "Measures a paper's table on the processor."},
+        {"raingauge table --claims --from results/tables", "Prints what the papers claim, and "
+                                                           "what kept records say of it."},
+        {"raingauge render streaks --size 960x540 --frame 90 -o rain.png", "Draws a picture."},
+    };
+    printf(".SH EXAMPLES\n");
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
+        print_entry(rows[i].command, rows[i].about);
+}
+
 void rg_print_manual(void)
 {
     printf(".TH RAINGAUGE 1 \"\" \"raingauge %s\" \"User Commands\"\n", rg_build_version);
@@ -121,5 +140,6 @@ void rg_print_manual(void)
     printf(".SH TABLES\n");
     for (int i = 0; rg_tables[i]; i++)
         print_entry(rg_tables[i]->id, rg_tables[i]->about);
+    print_examples();
     print_statuses();
 }

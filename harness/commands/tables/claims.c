@@ -31,15 +31,15 @@ struct claims_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
     {RG_OPTION_OPERAND, .argument = "ID",
-     .about = "a table whose claims are decided; all that have some are meant where none is named",
+     .about = "a table whose claims to decide; with --budget, --quick or --full all that have "
+              "claims if none is named",
      .names = RG_NAMES_TABLE, .first = 1},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "begins no launch after this time from the command's start, as 30m or 8h; claims "
-              "that are open then say what they would take",
+     .about = "starts no launch later than this after the command's start, as 30m or 8h; open "
+              "claims then say how much more they need",
      .offset = AT(budget)},
-    {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a run that was interrupted",
-     .offset = AT(fresh)},
+    {RG_OPTION_FLAG, "fresh", .about = "ignores what an interrupted run kept", .offset = AT(fresh)},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
      .about = "judges launches that -o or an interrupted run wrote there, and measures nothing",
      .offset = AT(from), .names = RG_NAMES_FILE,
@@ -49,9 +49,9 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
-    {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format),
+    {RG_OPTION_CHOICE, "format", .about = "the form of the output", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
-    {RG_OPTION_FLAG, "wide", .about = "prints sections and the reason of each verdict",
+    {RG_OPTION_FLAG, "wide", .about = "prints the section and the reason of each verdict",
      .offset = AT(wide), .excludes = "format json"},
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "writes the tables with their launches into this folder, in every format",
@@ -162,9 +162,10 @@ static int claims(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_claims = {
     .name = "claims",
+    .reader = RG_FOR_PAPERS,
     .usage = "[ID...] [--device D,...|all] [--quick|--full] [--budget TIME] [--fresh] "
              "[--from FILE|DIR] [--wide] [--format F|--json] [-o DIR]",
-    .about = "decides what papers claim of their tables, by launches of new processes",
+    .about = "decides whether the papers' claims about their tables hold, by many launches",
     .options = options,
     .options_size = sizeof(struct claims_options),
     .run = claims,

@@ -24,8 +24,8 @@ static const char *const formats[] = {"html", "md", "badge", NULL};
 static const struct rg_option options[] = {
     RG_GROUP("What to show"),
     {RG_OPTION_OPERAND, .argument = "RECORDS...",
-     .about = "files or folders of the JSON that commands wrote: tables, gates, baselines, diffs, "
-              "verify, doctor, render; a text of Markdown gives the pictures that it shows",
+     .about = "files or folders of JSON that commands wrote: tables, gates, baselines, diffs, "
+              "verify, doctor, render. A Markdown file adds the pictures that it shows",
      .names = RG_NAMES_FILE, .first = 1},
     {RG_OPTION_TEXT, "against", .argument = "RECORDS",
      .about = "a file or folder of earlier records: the page shows what changed since",
@@ -36,7 +36,8 @@ static const struct rg_option options[] = {
      .about = "a page; Markdown below 60 kB for a merge request; a badge as SVG",
      .offset = AT(format), .choices = formats, .initial = "html"},
     {RG_OPTION_TEXT, "output", .argument = "FILE",
-     .about = "where to write it; without it a page is report.html, and the others are printed",
+     .about = "where to write; without it, a page goes to report.html, and the other forms "
+              "are printed",
      .offset = AT(output), .letter = 'o', .names = RG_NAMES_FILE},
     {RG_OPTION_END},
 };
@@ -82,8 +83,9 @@ static int report(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_report = {
     .name = "report",
+    .reader = RG_FOR_ALL,
     .usage = "RECORDS... [--against RECORDS] [--format html|md|badge] [-o FILE]",
-    .about = "shows records as one page for people: tables, claims, gates, pictures",
+    .about = "makes one page for people from records: tables, claims, gates, pictures",
     .options = options,
     .options_size = sizeof(struct report_options),
     .run = report,

@@ -37,12 +37,12 @@ struct sweep_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
-     .about = "what is timed; `raingauge list techniques` prints them", .names = RG_NAMES_TECHNIQUE,
-     .first = 1, .last = 1},
+     .about = "the technique to time; `raingauge list techniques` prints the names",
+     .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     {RG_OPTION_TEXTS, "axis", .argument = "KEY=VALUES",
-     .about = "a parameter and its values: 5,10,40; or 5,10..40 in equal steps. Given again, each "
-              "value of one meets each of the other. device=cpu,gl names the devices, which else "
-              "--device does (cpu alone without either)",
+     .about = "a parameter and its values: 5,10,40; or 5,10..40 in equal steps. With two axes "
+              "each value of one meets each of the other. device=cpu,gl names devices, as --device "
+              "does (default cpu)",
      .offset = AT(axes), .names = RG_NAMES_PARAMETER},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_size_option, AT(size), "1280x720"),
@@ -50,8 +50,7 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_FLAG, "dry-run", .about = "prints the plan, and measures nothing",
      .offset = AT(dry_run)},
-    {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a run that was interrupted",
-     .offset = AT(fresh)},
+    {RG_OPTION_FLAG, "fresh", .about = "ignores what an interrupted run kept", .offset = AT(fresh)},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), NULL),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -59,7 +58,7 @@ static const struct rg_option options[] = {
     RG_GROUP("Output"),
     {RG_OPTION_FLAG, "wide", .about = "prints all columns and notes, one line a cell",
      .offset = AT(wide), .excludes = "format json"},
-    {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format),
+    {RG_OPTION_CHOICE, "format", .about = "the form of the output", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "writes the table into this folder too, in every format", .offset = AT(output),
@@ -181,10 +180,11 @@ static int sweep(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_sweep = {
     .name = "sweep",
+    .reader = RG_FOR_PAPERS,
     .usage = "TECHNIQUE --axis KEY=VALUES [--axis KEY=VALUES]... [--set KEY=VALUE]... [--size WxH] "
              "[--frame N] [--device D,...|all] [--quick|--full] [--dry-run] [--fresh] [--wide] "
              "[--format F|--json] [-o DIR]",
-    .about = "measures a table of one's own: each value of a parameter on each device",
+    .about = "measures a table of your own: each value of a parameter on each device",
     .options = options,
     .options_size = sizeof(struct sweep_options),
     .run = sweep,

@@ -52,37 +52,35 @@ static const char *const works[] = {"paper", "reading", "ours", "queries", NULL}
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
     {RG_OPTION_OPERAND, .argument = "ID",
-     .about = "a table; `raingauge list tables` prints them. With --budget, --quick or --full none "
-              "need be named: all are meant, as by --from and --compile",
+     .about = "tables to measure; `raingauge list tables` prints the names. With --budget, "
+              "--quick, --full, --from or --compile all are meant if none is named",
      .names = RG_NAMES_TABLE, .first = 1},
     {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
      .offset = AT(rows), .least = 1, .most = INT_MAX},
     {RG_OPTION_CHOICE, "work",
-     .about = "the work that was printed, another reading of the paper, ours, or the API's "
-              "occlusion queries, where a table tells them apart; all without",
+     .about = "only this work, where a table has several: as printed, by another reading of "
+              "the paper, ours, or with the API's occlusion queries",
      .offset = AT(work), .choices = works},
     {RG_OPTION_TEXT, "variant", .argument = "NAME",
-     .about = "only this of what is timed of each row: full, no_geometry", .offset = AT(variant)},
+     .about = "only this variant of each row: full, no_geometry", .offset = AT(variant)},
     {RG_OPTION_TEXTS, "set", .argument = "KEY=VALUE",
-     .about = "sets a parameter in all cells, over what their rows set; what is measured then is "
-              "not held against print",
+     .about = "sets a parameter in all cells, over what their rows set; the result is then "
+              "not compared with print",
      .offset = AT(sets)},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about =
-         "measures what fits into this time from the command's start, as 90s or 4m: the rows "
-         "that curves and claims need first, on small pictures, then more; says in the end what "
-         "was left out",
+     .about = "measures as much as fits into this time from the command's start, as 90s or "
+              "4m: first the rows that curves and claims need, on small pictures, then more. Says "
+              "at the end what was left out",
      .offset = AT(budget), .excludes = "full rows work variant set from fresh"},
-    {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a run that was interrupted",
-     .offset = AT(fresh)},
+    {RG_OPTION_FLAG, "fresh", .about = "ignores what an interrupted run kept", .offset = AT(fresh)},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
      .about = "prints results that -o, --json or an interrupted run wrote there, and measures "
               "nothing",
      .offset = AT(from), .names = RG_NAMES_FILE, .excludes = "device quick full fresh set"},
     {RG_OPTION_FLAG, "compile",
-     .about = "has drivers compile what the tables need, side by side, and measures nothing: what "
-              "they keep of it saves the time when tables are measured",
+     .about = "has drivers compile and cache what the tables need, side by side, and measures "
+              "nothing",
      .offset = AT(compile),
      .excludes = "full quick rows work variant set from fresh budget claims kept format wide "
                  "output json"},
@@ -92,18 +90,18 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_FLAG, "claims",
-     .about = "prints what the papers claim about the tables, and whether it holds, not the tables",
+     .about = "prints the papers' claims about the tables and whether they hold, instead of "
+              "the tables",
      .offset = AT(claims)},
     {RG_OPTION_TEXT, "kept", .argument = "DIR",
-     .about =
-         "with --claims: launches that `raingauge claims -o` wrote there give the verdicts, and "
-         "it is told where today's figures differ",
+     .about = "with --claims: takes verdicts from launches that `raingauge claims -o` wrote "
+              "there, and says where today's figures differ",
      .offset = AT(kept), .names = RG_NAMES_FOLDER},
-    {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format),
+    {RG_OPTION_CHOICE, "format", .about = "the form of the output", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
     {RG_OPTION_FLAG, "wide",
-     .about = "prints all columns and notes, as the other formats have them, one line a cell; with "
-              "--claims the reason of every verdict",
+     .about = "prints all columns and notes, one line a cell; with --claims the reason of "
+              "every verdict",
      .offset = AT(wide), .excludes = "format json"},
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "writes each table into this folder too, in every format", .offset = AT(output),
@@ -408,12 +406,13 @@ static int table(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_table = {
     .name = "table",
+    .reader = RG_FOR_PAPERS,
     .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work "
              "paper|reading|ours|queries] "
              "[--variant NAME] [--set KEY=VALUE]... [--claims] [--kept DIR] [--wide] [--format "
              "F|--json] [-o DIR] "
              "[--budget TIME] [--fresh] [--from FILE|DIR] [--compile]",
-    .about = "regenerates the papers' tables: published beside measured, on every device",
+    .about = "measures the papers' tables on every device, beside the published numbers",
     .options = options,
     .options_size = sizeof(struct table_options),
     .run = table,
