@@ -235,6 +235,10 @@ COMMANDS = [
     Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
 
     # figures
+    Case("trace", 2, r"TECHNIQUE"),
+    Case("trace flow --frames 0", 2, r"--frames 0: "),
+    Case("trace flow --device cpu --frames 1 --size 32x32 -o {tmp}/none/trace.json", 2, r"none/trace\.json: its folder is not there; make it first"),
+    Case("trace raster --device cpu --frames 1 --size 32x32 -o {tmp}/trace.json", 0, None, made=("trace.json",)),
     Case("figures creus-4.41", 2, r"figure 'creus-4.41': unknown; the nearest is 'creus-4.1', and `raingauge list figures` prints them"),
     Case("figures creus-4.4 -o {tmp}/none/out", 2, r"none/out: its folder is not there; make it first"),
     Case("figures creus-4.4 --device nonsense", 2, UNKNOWN_DEVICE),

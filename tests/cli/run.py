@@ -9,7 +9,7 @@
            tables   the same of `table`
            drivers  the same, of devices that need a driver or lack one
            results  what table, diff, render and atlas print, and what is refused for its size, on the CPU
-           clips    frames in a row, as clips and as numbered pictures, on the CPU
+           clips    frames in a row: as clips and numbered pictures on the CPU, as a timeline
            stored   tables that were interrupted, or are printed again
            losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
            long     what verify prints, tables that are counted, set in a row, begun or measured anew, an atlas that is not kept
@@ -70,6 +70,7 @@ import resuming
 import shrinking
 import stored
 import tables
+import traces
 import vacuous
 import verifying
 import wrong
@@ -82,7 +83,7 @@ SUITES = {
     "tables": lambda runner: cases.run(runner, cases.TABLES),
     "drivers": lambda runner: cases.run(runner, cases.WITH_DRIVERS),
     "results": lambda runner: runner.check_all(tables.CHECKS + pictures.CHECKS + besides.CHECKS + atlases.CHECKS + limits.CHECKS),
-    "clips": lambda runner: runner.check_all(clips.CHECKS),
+    "clips": lambda runner: runner.check_all(clips.CHECKS + traces.CHECKS),
     "stored": lambda runner: runner.check_all(stored.CHECKS),
     "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
     "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + atlases.LONG + limits.LONG + kept.LONG),
