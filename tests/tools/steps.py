@@ -2,7 +2,7 @@
 """Runs a build in few lines: steps.py LOG COMMAND... keeps what the command prints in LOG.
 
 It prints how far the command's own steps are, as ninja counts them ("[12/345] ..."): on a terminal in one line that changes, with the time
-left, else a line for each quarter. If the command fails, the end of LOG follows and its status is returned.
+left, else a line for each quarter. If the command fails, what it said of that follows, and its status is returned.
 """
 import os
 import re
@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 
-LAST_LINES = 30
+MOST_LINES = 60
 
 
 def duration(seconds):
@@ -52,7 +52,9 @@ def run(path, command):
     progress.end()
     if child.returncode:
         with open(path, encoding="utf-8", errors="replace") as log:
-            sys.stdout.writelines(log.readlines()[-LAST_LINES:])
+            lines = log.readlines()
+        first = next((i for i, line in enumerate(lines) if line.startswith("FAILED: ")), len(lines) - MOST_LINES)
+        sys.stdout.writelines(lines[max(first, 0):][:MOST_LINES])
         print(f"{command[0]} ended with {child.returncode}; {path} has all that it said")
     return child.returncode
 
