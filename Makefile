@@ -18,6 +18,7 @@ BUDGET = 4m
 RESULTS = results/tables
 # Launches for claims, and what `make claims` measures: names of tables, --device, --full, --budget 8h.
 CLAIMS = results/claims
+KEPT = $$(! ls $(CLAIMS)/*.json >/dev/null 2>&1 || echo "--kept $(CLAIMS)")
 # What `make results` measures: names of tables, --quick or --full; all tables, quick, where it is
 # empty. What `make mutants` tries: areas, as images, all unless it has any.
 WHAT =
@@ -97,13 +98,13 @@ look: setup
 	@$(BUILD)/harness/raingauge render flow --size 640x640 --frame 120 -o $(LOOK)/flow.png
 	@$(BUILD)/harness/raingauge render drops --size 800x480 --frame 300 -o $(LOOK)/drops.png
 	@echo "== what the papers claim, and what was found of it, by the records in $(RESULTS)"
-	@$(BUILD)/harness/raingauge table --claims --from $(RESULTS)
-	@$(BUILD)/harness/raingauge report $(RESULTS) docs/pictures.md -o $(LOOK)/page.html
+	@$(BUILD)/harness/raingauge table --claims --from $(RESULTS) $(KEPT)
+	@$(BUILD)/harness/raingauge report $(RESULTS) docs/pictures.md $(KEPT) -o $(LOOK)/page.html
 	@echo "== look at $(LOOK)/rain.png, flow.png and drops.png, and at $(LOOK)/page.html in a browser"
 
 # What was measured by this build before, within the same time, is printed again.
 tables: build
-	@kept=; ! ls $(CLAIMS)/*.json >/dev/null 2>&1 || kept="--kept $(CLAIMS)"; \
+	@kept="$(KEPT)"; \
 	if test "$$(cat $(TABLES)/done 2>/dev/null)" = "$(BUDGET)" && \
 	  test -z "$$(find $(BUILD)/harness $(BUILD)/backends $(BUILD)/kernels -type f -newer $(TABLES)/done)"; then \
 	  echo "== the tables in $(TABLES) are of this build; rm -r $(TABLES) has them measured anew"; \
@@ -115,7 +116,7 @@ tables: build
 	  rm -rf $(TABLES); \
 	  $(BUILD)/harness/raingauge table --budget $(BUDGET) --claims $$kept -o $(TABLES) && echo "$(BUDGET)" >$(TABLES)/done; \
 	fi
-	@$(BUILD)/harness/raingauge report $(TABLES) docs/pictures.md -o $(BUILD)/page.html
+	@$(BUILD)/harness/raingauge report $(TABLES) docs/pictures.md $(KEPT) -o $(BUILD)/page.html
 
 # A record names the commit that it was measured with.
 committed:
@@ -129,7 +130,7 @@ results: committed build
 	@python3 results/keep.py $(BUILD)/results $(RESULTS)
 	@python3 results/figures.py $(RESULTS)
 	@python3 results/walk.py $(BUILD)/harness/raingauge
-	@$(BUILD)/harness/raingauge report $(RESULTS) docs/pictures.md -o $(BUILD)/results.html
+	@$(BUILD)/harness/raingauge report $(RESULTS) docs/pictures.md $(KEPT) -o $(BUILD)/results.html
 
 # Goes on where it was interrupted. A record of launches names the commit and the machine.
 claims: committed build

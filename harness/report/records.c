@@ -111,7 +111,7 @@ static bool add_tables(struct rg_page *page, const char *path)
     for (int i = 0; ok && i < stored.count; i++) {
         const char *table = stored.results[i].table;
         ok = is_first(page, path, table) &&
-             rg_claims_add(&page->outcomes, &stored.results[i], NULL, &all);
+             rg_claims_add(&page->outcomes, &stored.results[i], page->kept, &all);
         json_t *document = ok ? rg_result_json(&stored.results[i]) : NULL;
         trim(document);
         ok = ok && append(page, "table", path, document, rg_page_printed(table));

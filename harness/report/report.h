@@ -17,6 +17,8 @@ struct rg_page {
     int64_t picture_bytes;
     int left_out; // pictures for which there was no room
     int gates, gates_left_out;
+    // Launches that give the verdicts on tables without any; NULL: none. Not owned.
+    const struct rg_stored *kept;
     struct rg_claim_outcomes outcomes;
 };
 

@@ -6,11 +6,13 @@
 #include "core/base/memory.h"
 #include "harness/commands/cli/command.h"
 #include "harness/commands/cli/shared.h"
+#include "harness/record/disk/stored.h"
 #include "harness/record/output.h"
 #include "harness/report/report.h"
 
 struct report_options {
     char *against; // NULL: nothing is compared
+    char *kept;    // a folder of launches; NULL: none
     char *output;  // NULL: report.html, or standard output for what is short
     int format;    // index into `formats`
     int64_t memory_bytes;
@@ -30,6 +32,9 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXT, "against", .argument = "RECORDS",
      .about = "a file or folder of earlier records: the page shows what changed since",
      .offset = AT(against), .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXT, "kept", .argument = "DIR",
+     .about = "takes verdicts on claims from launches that `raingauge claims -o` wrote there",
+     .offset = AT(kept), .names = RG_NAMES_FOLDER},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_CHOICE, "format",
@@ -65,10 +70,12 @@ static bool write_brief(const struct rg_page *page, const struct report_options 
 static int report(const void *values, const struct rg_words *arguments)
 {
     const struct report_options *o = values;
-    struct rg_page page = {0}, before = {0};
+    struct rg_stored kept = {0};
+    struct rg_page page = {.kept = &kept}, before = {0};
     rg_memory_allow(o->memory_bytes);
     bool ok = arguments->count > 0 ||
               rg_error("report: names no records; name files or folders, such as results/tables");
+    ok = ok && (!o->kept || rg_stored_read(&kept, o->kept));
     for (int i = 0; ok && i < arguments->count; i++)
         ok = rg_page_add(&page, arguments->items[i]);
     ok = ok && (!o->against || rg_page_add(&before, o->against));
@@ -78,13 +85,14 @@ static int report(const void *values, const struct rg_words *arguments)
     const int exit = ok ? RG_EXIT_PASS : rg_exit_of_error();
     rg_page_free(&page);
     rg_page_free(&before);
+    rg_stored_free(&kept);
     return exit;
 }
 
 const struct rg_command rg_command_report = {
     .name = "report",
     .reader = RG_FOR_ALL,
-    .usage = "RECORDS... [--against RECORDS] [--format html|md|badge] [-o FILE]",
+    .usage = "RECORDS... [--against RECORDS] [--kept DIR] [--format html|md|badge] [-o FILE]",
     .about = "makes one page for people from records: tables, claims, gates, pictures",
     .options = options,
     .options_size = sizeof(struct report_options),

@@ -6,7 +6,7 @@ import signal
 import tempfile
 
 import forms
-from cases import FORMATS
+from cases import FORMATS, ROOT
 from machine import run_json
 
 TWO_TABLES = "table stuppacher-2 raster-1 --rows 1-1 --device cpu "
@@ -52,6 +52,9 @@ def check_launches(runner):
             json.dump(record, file)
         judged, table = runner.run(["claims", "--from", tmp]).stdout, runner.run(["table", "--from", tmp]).stdout
         beside = json.loads(runner.run(["table", "chin-timing", "--device", "cpu", "--work", "paper", "--claims", "--json", "--kept", tmp]).stdout)
+        page = runner.run(["report", os.path.join(ROOT, "results", "tables", "chin-timing.json"), "--format", "md", "--kept", tmp]).stdout
+    if page.count("| cpu: reproduced, cpu:reference: one launch, ") != 2:
+        problems.append("report --kept: " + page)
     told = {(one["verdict"], one["kept"], one["today"] in ("agrees", "differs"), one["launches"]) for claim in beside["claims"] for one in claim["verdicts"]}
     if "- Holds: 2 (cpu 2)." not in judged or '30fps" (5): reproduced on cpu\n' not in table or told != {("reproduced", True, True, 24)}:
         problems.append("%s\n%s\n%s" % (judged, table, told))
