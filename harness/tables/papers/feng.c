@@ -1,4 +1,4 @@
-// Feng et al., "Real-time Rain Simulation in Cartoon Style" (2006). The numbers are those of
+// Feng et al., "Real-time Rain Simulation in Cartoon Style" (2005). The numbers are those of
 // results/published/feng-*.csv, which a test compares.
 #include "harness/tables/papers/published.h"
 
