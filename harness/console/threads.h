@@ -10,8 +10,8 @@ long rg_threads_most(void);
 // warning if more are asked for. libgomp's complaints appear once.
 void rg_threads_settle(char **argv);
 
-// Limits OpenMP to as many threads as can be started, with one warning if that is fewer than it
-// would use, because libgomp ends a process that cannot start one.
+// Limits OpenMP to as many threads as can be started, because libgomp ends a process that cannot
+// start one. Warns once if that is fewer than it would use.
 void rg_threads_fit(void);
 
 #endif

@@ -38,7 +38,7 @@ static size_t short_length(const char *name)
     return name[length] == '=' ? length : 0;
 }
 
-// Splits off the short name, or replaces a short name by what it stands for.
+// Splits off the short name, or replaces a short name by the name that it stands for.
 static bool read_short(struct rg_device_name *name)
 {
     const size_t length = short_length(name->name);

@@ -3,8 +3,8 @@
 // The unit is a launch: a new process, which gives one value for each part of the claim. A part
 // holds if its median lies between two bounds. The interval is that of the sign test, over groups
 // of launches if neighbours are correlated. A claim is looked at after 12, 24, 48 and 96 launches,
-// which share the error; if it holds or fails, as many launches again have to say the same.
-// Launches that others disturbed are left out before; nothing here knows of them.
+// which share the error. If it holds or fails, as many launches again have to confirm it. The
+// caller leaves out launches that others disturbed.
 #ifndef RG_HARNESS_JUDGE_SETTLE_H
 #define RG_HARNESS_JUDGE_SETTLE_H
 
@@ -46,11 +46,11 @@ struct rg_settling {
     enum rg_settled settled;
     int launches;          // launches that were looked at
     int more;              // open: launches until the next look; 0: no look is left
-    int part;              // the part that decided, or keeps it open
+    int part;              // the part that decided, or that is still open
     struct rg_interval of; // its median and interval at the last look; ends NAN: too few launches
     double spread;         // robust standard deviation of a launch's value, of that part
     int needed;            // open: launches that would probably settle it, a look's number
-    bool is_unconfirmed;   // open: the second half contradicts the first, or leaves it open
+    bool is_unconfirmed;   // open: the second half contradicts the first, or does not settle
 };
 
 // Settles a claim by its parts (at least one), all of them with values of the same launches, of

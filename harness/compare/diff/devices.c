@@ -169,9 +169,9 @@ static bool is_truer(const struct rg_device_info *a, const struct rg_device_info
     return !strncmp(a->full, "cpu", 3) && strcmp(b->full, "cpu:reference") != 0;
 }
 
-// Finds where two devices part, for a pair that fails its tier; the device nearer to cpu:reference
-// counts as the truth. NULL where nothing is found, or on a failure, which has been logged: the
-// pair's own failure is known already.
+// Finds the first difference of a pair that fails its tier; the device nearer to cpu:reference
+// counts as the truth. NULL if nothing is found, or on a failure, which has been logged: the pair's
+// own failure is known already.
 static json_t *blame_pair(struct session *s, const struct shot *a, const struct shot *b)
 {
     const struct rg_diff_devices_request *r = s->asked;

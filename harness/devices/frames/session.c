@@ -122,7 +122,7 @@ bool rg_session_code(struct rg_session *session, struct rg_session_code *code)
 
 // --- its picture ---
 
-// The bytes of what was told; NULL, and freed, where that failed.
+// The bytes of a reply; frees them and returns NULL if the call failed.
 static void *bytes_of(struct rg_told_bytes *told, bool ok, size_t *size)
 {
     *size = told->size;

@@ -22,8 +22,8 @@ static struct rg_doing *map(int page)
     return bytes != MAP_FAILED ? bytes : page < 0 ? NULL : map(-1);
 }
 
-// Makes the page's file; -1 where that fails, as with ulimit -f 0. Writes zeros up to the page's
-// size, because no filter of system calls refuses a write.
+// Makes the page's file; -1 on failure, as with ulimit -f 0. Writes zeros up to the page's size,
+// because no filter of system calls refuses a write.
 static int make_page(void)
 {
     static const char zeros[sizeof(struct rg_doing)];

@@ -21,12 +21,12 @@ struct evidence {
     struct rg_judgement judgement;
 };
 
-// Finds the work, the variants and the rows. False where that already decides the verdict.
+// Finds the work, the variants and the rows. False if that already decides the verdict.
 bool rg_evidence_begin(struct evidence *e);
 // Takes the logarithms of all launches; false if there are none. Then of the medians.
 bool rg_evidence_take_launches(struct evidence *e);
 void rg_evidence_take_medians(struct evidence *e);
-// Takes the printed frame rates of all rows as a launch's. False where a variant is missing, or
+// Takes the printed frame rates of all rows as a launch's. False if a variant is missing, or
 // nothing is printed.
 bool rg_evidence_take_print(struct evidence *e);
 // Ends with a verdict and one sentence.

@@ -1,6 +1,6 @@
 // Measures a table's rows. As many rows as fit into memory are open together and timed in turn. If
-// not all fit, each group of rows is visited several times, so that a temporary disturbance of the
-// machine does not hit one row alone.
+// not all fit, each group of rows is visited several times: a temporary disturbance of the machine
+// then does not hit one row alone.
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -213,8 +213,8 @@ static bool has_room(const struct measuring *m, int rows)
            have_room(m, rows + 1);
 }
 
-// How many rows have to fit before the deadline together with this one: all later ones if the
-// deadline wants whole results, else only this one.
+// The number of rows that have to end before the deadline with this one: all later ones if only
+// whole results count, else this one.
 static int rows_due(const struct measuring *m, int row)
 {
     int rows = 1;
@@ -249,7 +249,7 @@ static int open_group(struct measuring *m, struct group *group, int row, bool *o
         }
         group->last_row = row;
     }
-    // A texture's row has no mark of being complete.
+    // A row of textures does not show whether it is complete, so it is dropped.
     if (rg_interrupted() && result->is_of_textures && group->last_row >= group->first_row)
         rg_result_drop_row(result, group->last_row);
     group->job_count = m->batch.job_count - group->first_job;

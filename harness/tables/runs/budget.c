@@ -80,9 +80,9 @@ static void note_why(struct budget *b, const struct rg_step *step, double expect
 
 // --- measuring a step ---
 
-// Makes a copy of a table that has only the given share of it, and of this only the variants or
-// works that the turn adds (RG_TURNS: all). The caller frees *quick, to which the copy points.
-// False, and one logged line, without memory.
+// Makes a copy of a table with only this share of it, and of the share only the variants or works
+// that the turn adds (RG_TURNS: all). The caller frees *quick, to which the copy points. False, and
+// one logged line, without memory.
 static bool view(const struct rg_table *table, const struct rg_share *share, enum rg_turn turn,
                  struct rg_table *seen, char **quick)
 {

@@ -25,10 +25,11 @@ struct rg_gtest_shards {
 // file of $GTEST_SHARD_STATUS_FILE. False, and one logged line, if they name no shard.
 bool rg_gtest_shards(struct rg_gtest_shards *shards);
 
-// The gtest name of a report's case, "streaks.small/cpu" for "streaks.small.cpu": the suite ends at
-// the first point, and further points become slashes. If the name has no suite, is longer than
-// RG_GTEST_KEPT bytes, or has characters that a filter or a list would misread, it is cut or gets
-// "_" for them, and a hash of the whole name follows to keep it unique.
+// The gtest name of a report's case, "streaks.small/cpu" for "streaks.small.cpu". The suite ends at
+// the first point; further points become slashes. A name without a suite gets the suite
+// "raingauge". A name of more than RG_GTEST_KEPT bytes is cut, and characters that a filter or a
+// list would misread become "_". After any of these changes a hash of the whole name follows, to
+// keep the name unique.
 enum { RG_GTEST_KEPT = 160, RG_GTEST_NAME = 256 };
 void rg_gtest_name(const char *name, char made[RG_GTEST_NAME]);
 

@@ -303,7 +303,7 @@ static bool run_all(struct rg_running_gate *r)
     return ok && (rg_interrupted() || rg_gate_report(r->asked, r->gate));
 }
 
-// The enum rg_exit of what was found. A budget in which no case came as far as its first look is
+// The enum rg_exit of the findings. A budget in which no case came as far as its first look is
 // refused, since nothing could be decided.
 static int exit_of(const struct rg_running_gate *r)
 {
