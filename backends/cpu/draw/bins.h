@@ -10,7 +10,7 @@ enum { CPU_MOST_CHUNKS = 256 };
 // A primitive in a tile.
 enum { CPU_PLAIN = 1 << 30 };
 struct cpu_ref {
-    int prim;      // its number, and CPU_PLAIN where its record is plain
+    int prim;      // its number, and CPU_PLAIN if its record is plain
     int place;     // of its mask: y << 16 | x; -1: no mask, the corners decide
     uint64_t mask; // pixels within the tile only
 };
