@@ -30,8 +30,8 @@ static void bound(const double (*points)[2], int count, double box[4])
 // --- the hull ---
 
 // Cuts a convex body, given by its corners, at two planes across the fall, and finds the corners of
-// the slice: the body's corners in it, and the points where its edges meet the planes. All pairs of
-// corners are treated as edges; false edges give inner points, which the hull drops.
+// the slice. They are the body's corners in it, and the points where its edges meet the planes. All
+// pairs of corners are treated as edges; false edges give inner points, which the hull drops.
 static int slice(const double corners[CORNERS][3], double above, double below, double (*points)[2])
 {
     const double planes[2] = {above, below};
