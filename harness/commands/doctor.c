@@ -1,4 +1,4 @@
-// raingauge doctor: reports what this machine and its drivers can be trusted with.
+// raingauge doctor: reports how far this machine and its drivers can be trusted.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

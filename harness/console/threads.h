@@ -6,7 +6,7 @@
 long rg_threads_most(void);
 
 // Corrects the variables that libgomp reads, and restarts raingauge if one has changed, because
-// libgomp reads them once, when it is loaded. There are at most four threads a processor, with one
+// libgomp reads them once, when it is loaded. Threads are limited to four a processor, with one
 // warning if more are asked for. libgomp's complaints appear once.
 void rg_threads_settle(char **argv);
 

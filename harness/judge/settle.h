@@ -23,7 +23,7 @@ struct rg_settle_rule {
 };
 extern const struct rg_settle_rule rg_settle_rule;
 
-// A part of a claim. It holds where the median of its values is between the bounds.
+// A part of a claim. It holds if the median of its values is between the bounds.
 struct rg_settle_part {
     const double *values; // logarithms of ratios, one a launch, in the order of launches
     double least, most;   // -INFINITY, INFINITY: no such bound
@@ -58,8 +58,8 @@ struct rg_settling {
 struct rg_settling rg_settle(const struct rg_settle_rule *rule, enum rg_settle_join join,
                              const struct rg_settle_part *parts, int part_count, int launches);
 
-// The same of a single launch, or of medians: without interval, course and confirmation. HOLDS,
-// FAILS, or AT_BOUND where a part that decides is within `near` of its bound.
+// The same for a single launch, or for medians: without interval, course and confirmation. HOLDS,
+// FAILS, or AT_BOUND if a part that decides is within `near` of its bound.
 enum rg_settled rg_settle_once(const struct rg_settle_rule *rule, enum rg_settle_join join,
                                const struct rg_settle_part *parts, int part_count, int *part);
 

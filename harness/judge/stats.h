@@ -17,7 +17,7 @@ struct rg_interval rg_median(double *samples, int count);
 // The same with another interval: the true median is below it, and above it, with a probability of
 // at most `tail` each. Its ends are NAN if the samples are too few.
 struct rg_interval rg_median_at(double *samples, int count, double tail);
-// The same of samples that are sorted already.
+// The same for samples that are sorted already.
 struct rg_interval rg_median_sorted(const double *sorted, int count, double tail);
 
 #endif

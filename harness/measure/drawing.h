@@ -18,7 +18,7 @@ struct rg_drawing {
 };
 
 // Draws panes that hide and show through each other, with depth and blending, to each format, and
-// compares colour and depth. False, and one logged line, where the device failed.
+// compares colour and depth. False, and one logged line, if the device failed.
 bool rg_drawing_check(struct rg_device *device, struct rg_drawing *drawing);
 
 // Whether the number of differing pixels is acceptable: 0 on devices of T0, one in 1,000 on others.

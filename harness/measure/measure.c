@@ -95,7 +95,7 @@ struct rounds {
     pid_t ours[RG_MAX_DEVICES];  // processes of the jobs' devices
     int our_count;
     double end_ms; // as in struct rg_measure_options
-    int patience;  // disturbed batches in a row after which none is taken again
+    int patience;  // disturbed batches left until none is taken again
 };
 
 // Decides how the measurable jobs are sampled.
@@ -118,9 +118,9 @@ static void begin(struct rounds *r, struct rg_job *jobs, int count,
 
 // --- what others take ---
 
-// Linux tells idle time to 10 ms, so a batch takes this much of the processors' time, or it ends
-// with the last round. A disturbed batch is taken again so many times. A machine that stays busy
-// over some batches is not waited for.
+// Linux tells idle time to 10 ms, so a batch takes this much of the processors' time, or ends with
+// the last round. A disturbed batch is taken again up to this many times. If the machine stays busy
+// over some batches, none is taken again until one is undisturbed.
 enum { BATCH_MS = 500, RETAKES = 2, PATIENCE = 3 };
 
 static void find_ours(struct rounds *r)

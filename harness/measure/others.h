@@ -29,7 +29,7 @@ struct rg_taken {
 // tests. `ours`: processes whose time is our own, besides this one and its children that have
 // ended.
 struct rg_processors rg_processors_read(const char *root, const pid_t *ours, int our_count);
-// The same of this machine.
+// The same for this machine.
 typedef struct rg_processors rg_watch(const pid_t *ours, int our_count);
 rg_watch rg_processors_now;
 // The shares that others took between two readings with the same processes; zeros if unknown.

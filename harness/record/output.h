@@ -15,8 +15,8 @@ enum {
     RG_OUTPUT_TABLE_BYTES = 1 << 13, // least bytes of a table's files
 };
 
-// Writes files that belong together: either all are replaced or none. They are first written under
-// other names, which is where failures occur, and then renamed. The folder is made as below.
+// Writes files that belong together: either all are replaced or none. First writes them under other
+// names, when failures occur, and then renames them. The folder is made as below.
 bool rg_output_write_set(const char *folder, const struct rg_output_file *files, int count);
 
 // Writes `text` to FOLDER/NAME by a temporary file that is renamed. The last part of the folder's

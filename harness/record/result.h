@@ -1,5 +1,5 @@
 // A result: a measured table, as plain data. Code that prints or compares tables works on results:
-// it opens no device, and does not depend on where a result came from.
+// it opens no device, and does not depend on a result's origin.
 #ifndef RG_HARNESS_RECORD_RESULT_H
 #define RG_HARNESS_RECORD_RESULT_H
 

@@ -75,8 +75,8 @@ static size_t last_of(const struct rg_page *page, const char *kind)
     return last;
 }
 
-// Calls `tell` for each element of an array in the records of a kind. Only the last gate is told:
-// earlier ones are the history that the page shows.
+// Calls `tell` for each element of an array in the records of a kind. Earlier gates than the last
+// are left out: they are the history that the page shows.
 static void each(const struct rg_page *page, const char *kind, const char *array,
                  void (*tell)(const json_t *element, void *user), void *user)
 {
@@ -97,7 +97,7 @@ static void each(const struct rg_page *page, const char *kind, const char *array
 
 struct finding {
     struct brief *brief;
-    const char *wanted; // the ending that is told now
+    const char *wanted; // the ending that is printed now
     int count, most;
 };
 

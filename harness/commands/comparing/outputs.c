@@ -195,7 +195,7 @@ static bool has_page(const struct rg_gate_outputs *outputs, const struct rg_repo
            (!stat(outputs->pictures, &found) || (outputs->is_folder_asked && failures));
 }
 
-// Writes the page into the folder of pictures and launches, next to what it shows.
+// Writes the page next to the pictures and launches that it shows, into their folder.
 static bool write_page(const struct rg_gate_outputs *outputs, const struct rg_gate *gate)
 {
     char path[PATH_MAX + 32], *text = NULL;

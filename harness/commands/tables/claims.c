@@ -1,4 +1,4 @@
-// raingauge claims: decides what papers claim of their tables, by launches.
+// raingauge claims: decides by launches whether papers' claims about their tables hold.
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/commands/cli/command.h"

@@ -166,8 +166,8 @@ static bool has_work(const struct rg_table *table, const char *wanted)
     return has;
 }
 
-// Whether each table's technique accepts the assignments. False, and one logged line, where one
-// does not.
+// Whether each table's technique accepts the assignments. False, and one logged line, if one does
+// not.
 static bool take_sets(const struct rg_words *sets, const struct rg_table *const chosen[], int count)
 {
     bool ok = true;

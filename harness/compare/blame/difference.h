@@ -22,7 +22,7 @@ enum rg_difference {
 const char *rg_difference_name(enum rg_difference difference);
 // "in the last bits": words for a sentence.
 const char *rg_difference_words(enum rg_difference difference);
-// The difference of this name; RG_DIFFERENCE_NONE where there is none.
+// The difference of this name; RG_DIFFERENCE_NONE if there is none.
 enum rg_difference rg_difference_find(const char *name);
 
 // The first differing word, and the number of differing words, within the shorter of the two.

@@ -70,7 +70,7 @@ static void note_failure(struct session *s, const char *device, enum rg_outcome 
     json_array_append_new(s->failures, row);
 }
 
-// Draws on a device. False where the first device refuses the user's input, as every other would.
+// Draws on a device. False if the first device refuses the user's input, as every other would.
 static bool take_picture(struct session *s, struct rg_device *device)
 {
     const struct rg_diff_devices_request *r = s->asked;

@@ -196,7 +196,7 @@ static bool texture(struct rg_session *session, const void *request, void *reply
     return true;
 }
 
-// --- runs whose stages are looked at, and kernels alone ---
+// --- runs whose stages are examined, and kernels alone ---
 
 static bool digests(struct rg_device *device, const void *request, void *reply)
 {

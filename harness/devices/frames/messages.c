@@ -6,7 +6,7 @@
 
 #include "core/base/log.h"
 
-// --- settings, by name: another build may have them elsewhere, and others beside them ---
+// --- settings, by name: another build may have more, and at other offsets ---
 
 enum { VALUE_SIZE = RG_PATH_SIZE + 1 };
 

@@ -207,7 +207,7 @@ bool rg_session_texture(const struct rg_session *session, const char *name,
     return true;
 }
 
-// --- runs whose stages are looked at, and kernels alone ---
+// --- runs whose stages are examined, and kernels alone ---
 
 bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
                      struct rg_digests *digests)

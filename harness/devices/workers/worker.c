@@ -33,8 +33,8 @@ enum { LOOK_MS = 100, END_MS = 5000, HELLO_MS = 20000 };
 // process's, so that more than this is dropped.
 enum { MOST_PRINTED = 1 << 20 };
 
-// Memory allowed to a process in addition to what it counts (core/base/memory.h): the program, its
-// driver, and compiled code.
+// Memory allowed to a process in addition to the memory that it counts (core/base/memory.h): the
+// program, its driver, and compiled code.
 #define OWN_BYTES ((int64_t)1 << 30)
 
 struct rg_workers rg_workers = {.timeout_s = 120};

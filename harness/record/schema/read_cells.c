@@ -7,7 +7,7 @@
 #include "harness/record/schema/read.h"
 #include "harness/record/schema/schema.h"
 
-// --- what was measured ---
+// --- measurements ---
 
 static bool read_samples(struct rg_reader *r, const json_t *measured, struct rg_record *record)
 {

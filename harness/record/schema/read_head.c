@@ -6,7 +6,7 @@
 #include "harness/record/schema/read.h"
 #include "harness/record/schema/schema.h"
 
-// --- what the table is ---
+// --- the table ---
 
 static bool read_format(struct rg_reader *r, const json_t *document)
 {

@@ -151,7 +151,7 @@ static json_t *works_json(const struct rg_result *result)
     return works;
 }
 
-// Text, or null where there is none.
+// Text, or null if there is none.
 static json_t *text_or_null(const char *text)
 {
     return *text ? rg_json_text(text) : json_null();

@@ -59,7 +59,7 @@ struct rg_claim_parts {
 // Makes the claim's parts from the evidence's logarithms. False: there is nothing to compare.
 bool rg_claim_parts_make(const struct evidence *e, struct rg_claim_parts *parts);
 // Writes one sentence about a part: its rows, its median with its interval (ends NAN: none), and
-// what is due.
+// the bounds.
 void rg_claim_part_tell(const struct evidence *e, const struct rg_claim_parts *parts, int part,
                         const struct rg_interval *of, char *text, size_t size);
 

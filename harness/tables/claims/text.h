@@ -8,7 +8,7 @@
 
 enum { RG_CLAIMS_LENGTH = RG_TITLE_SIZE + 64 };
 
-// Whether today's figures say the same as the verdict that is kept.
+// Whether today's figures agree with the kept verdict.
 enum rg_claim_agreement {
     RG_AGREEMENT_NONE, // no verdict is kept
     RG_AGREEMENT_AGREES,

@@ -40,7 +40,8 @@ struct measuring {
     int group_count;
     struct group *now; // the visited group
     double share;      // part of the group's samples that this visit takes
-    // When the first round of this visit was over (0: it is not), and what was left then.
+    // The time at which the first round of this visit was over (0: it is not), and the time that
+    // was expected to be left then.
     double first_ms, first_left_ms;
     int64_t units;     // of the bar, for samples of this visit
     double kept_ms;    // time of the last save
@@ -74,9 +75,10 @@ static double samples_left_ms(const struct measuring *m)
     return ms;
 }
 
-// The time that samples take, by what was expected, since the first round of this visit. Frames may
-// take longer than the last one of the warm-up, on a busy machine above all. They are not taken to
-// be faster, for the first of a window come before it is opened anew. 0: not known yet.
+// The ratio of the time that samples take to the expected time, since the first round of this
+// visit. Frames may take longer than the last one of the warm-up, on a busy machine above all. They
+// are not taken to be faster, for the first of a window come before it is opened anew. 0: not known
+// yet.
 static double pace_of(struct measuring *m, double left_ms)
 {
     const double now_ms = rg_now_ms(), done_ms = m->first_left_ms - left_ms;

@@ -1,6 +1,6 @@
 // Chin, "Animating Raindrops on a Surface" (2016). The numbers are those of
 // results/published/chin-timing.csv, which a test compares. The paper has one time; tables of our
-// own show what it consists of.
+// own divide it into its parts.
 #include "harness/tables/papers/published.h"
 
 enum { OFF, ON };

@@ -64,7 +64,7 @@ struct rg_step {
     struct rg_share share; // the table's share after the step
     int cells;             // per device, the fewest that are useful
     double expected_s;     // for these cells, from earlier times; 0: unknown
-    double part_s;         // of the time left, what the step's rows may take
+    double part_s;         // seconds of the time left that the step's rows may take
 };
 
 // Takes the next step, which counts as tried from then on. It is in the first turn that has an

@@ -168,7 +168,7 @@ static void add_other_work(struct notes *notes, const struct rg_result *result)
             *result->hardware ? ": not what was printed" : "");
 }
 
-// Notes what a budget of time reduced, so that the result is not taken for the full table.
+// Notes the parts that a time budget reduced, so that nobody takes the result for the full table.
 static void add_budget(struct notes *notes, const struct rg_result *result)
 {
     int rows = 0;

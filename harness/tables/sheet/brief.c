@@ -198,8 +198,8 @@ static void print_times(const struct rg_result *result, struct rg_place at, char
     snprintf(text, size, "%sx", ratio);
 }
 
-// A cell: "451 +-22%  1.1x". The mark is short, "451~ 1.1x" or, where others disturbed it,
-// "451! 1.1x", if the page has no room.
+// A cell: "451 +-22% 1.1x". If the page has no room, the mark is short: "451~ 1.1x", or "451! 1.1x"
+// if others disturbed it.
 static void fill_device(const struct rg_result *result, struct rg_place at, bool is_short,
                         char text[RG_SHEET_CELL])
 {

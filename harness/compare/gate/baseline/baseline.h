@@ -1,5 +1,5 @@
-// A baseline: what cells did on devices earlier. It has no pictures but their digests; where a
-// digest differs, cpu:reference draws the true picture anew.
+// A baseline: what cells did on devices earlier. It has digests in place of pictures; if a digest
+// differs, cpu:reference draws the true picture anew.
 #ifndef RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 #define RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 

@@ -48,7 +48,7 @@ struct rg_expectation {
     const char *values[RG_FIELD_COUNT]; // as written in the file; NULL: not given
     int64_t at[RG_FIELD_COUNT];         // the line of each field
     unsigned outcomes;                  // bit 1 << enum rg_outcome is set for each expected outcome
-    struct rg_envelope pixels, difference; // valid where values[] has the field
+    struct rg_envelope pixels, difference; // valid if values[] has the field
     int since, until; // days (harness/compare/gate/text/date.h); INT_MAX: no end
 };
 

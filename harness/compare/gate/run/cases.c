@@ -89,7 +89,7 @@ static void put_change(const struct rg_gate_decision *d, double before_ms, char 
              before_ms);
 }
 
-// Reports the times whatever is expected of the case: quarantined cases are measured to be seen.
+// Reports the times regardless of expectations: quarantined cases are measured to be seen.
 static void put_times(const struct rg_gate_case *c, char *text, size_t size)
 {
     const enum rg_ending ending = ending_of_times(c);

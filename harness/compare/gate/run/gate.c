@@ -117,7 +117,7 @@ static int look_at_sides(struct rg_running_gate *r)
                                                                            : RG_EXIT_FAIL;
 }
 
-// Describes what the report's numbers depend on: the machine, and the sides that are there.
+// Describes the machine, and the sides that are present, on which the report's numbers depend.
 static bool set_passport(struct rg_running_gate *r)
 {
     struct rg_device_info there[RG_GATE_MOST_SIDES];

@@ -12,7 +12,7 @@ struct rg_side {
     const char *name;         // as an argument of --device for one device; not owned
     struct rg_device *device; // NULL: not open
     bool was_closed_badly;    // at least once closing it found a leak or a crash
-    bool was_lacking;         // at least once raingauge lacked what it needs to open it
+    bool was_lacking;         // at least once raingauge lacked something for opening it
 };
 
 // Closes the device if it is open, and opens it again in a new worker process. False, with one
