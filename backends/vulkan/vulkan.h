@@ -120,7 +120,7 @@ union vk_descriptor {
 // made on first use.
 struct vk_drawing {
     VkShaderModule vertex, fragment;
-    VkShaderModule blending; // fragments that blend by themselves; none where the driver does
+    VkShaderModule blending; // fragments that blend by themselves; none if the driver does
     VkPipeline pipelines[VK_COLOURS][RG_BLEND_ADD + 1][RG_DEPTH_WRITE + 1];
 };
 
@@ -152,8 +152,8 @@ int vk_functions(struct rg_device *device, const void **functions, int max);
 // reason in `why` when it is 0.
 int vk_physical_devices(struct vk_instance *instance, VkPhysicalDevice *devices, int max, char *why,
                         size_t why_size);
-// api/drivers.c: where the loader finds drivers, and the result of backend->list for `count`
-// devices found.
+// api/drivers.c: the places where the loader finds drivers, and the result of backend->list for
+// `count` devices found.
 extern const struct rg_manifest_rules vk_manifests;
 int vk_judge(const struct vk_instance *instance, int count, char *why, size_t why_size);
 // The first family that computes and draws, else the first that computes. False: there is none.

@@ -41,7 +41,7 @@ struct cpu_sorter {
 // The data of a round, in memory that grows on demand and stays with the device.
 struct cpu_bins {
     struct cpu_tiling tiling;
-    // Primitives by number: records, items, and corners where there is no mask.
+    // Primitives by number: records, items, and corners if there is no mask.
     int prim_room, prim_limit, prim_count;
     size_t record_room; // in bytes
     struct cpu_records records;

@@ -57,7 +57,7 @@ struct convex {
     rg_edge fourth;
 };
 
-// Positive where three corners turn in the same direction as a triangle's edges.
+// Positive if three corners turn in the same direction as a triangle's edges.
 static inline int64_t turn_of(int x0, int y0, int x1, int y1, int x2, int y2)
 {
     return (int64_t)(x0 - x1) * (y2 - y0) - (int64_t)(x2 - x0) * (y0 - y1);
