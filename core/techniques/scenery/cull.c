@@ -88,7 +88,7 @@ static void clip_face(const struct corner corners[4], struct polygon *g)
     }
 }
 
-// Twice the area; positive where corners turn clockwise on the screen.
+// Twice the area; positive if corners turn clockwise on the screen.
 static float area_of(const struct polygon *g)
 {
     float area = 0;

@@ -1,5 +1,5 @@
-// The parameters of the rain's kernels: where drops start, how long they live, how many there may
-// be.
+// The parameters of the rain's kernels: the place where drops start, how long they live, how many
+// there may be.
 #include <math.h>
 
 #include "core/base/log.h"

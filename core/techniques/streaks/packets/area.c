@@ -55,7 +55,7 @@ static int slice(const double corners[CORNERS][3], double above, double below, d
     return count;
 }
 
-// Above 0 where c is to the left of the line from a to b.
+// Above 0 if c is to the left of the line from a to b.
 static double turn(const double a[2], const double b[2], const double c[2])
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
