@@ -8,7 +8,8 @@
 #include "harness/judge/stats.h"
 
 // Launches are averaged in pairs, and pairs in pairs again, if their lag-1 autocorrelation exceeds
-// both this and the bound that independent launches exceed by chance in one of twenty cases.
+// two bounds: this one, and the one that independent launches exceed by chance in one of twenty
+// cases.
 #define CORRELATED 0.2
 #define NORMAL_95  1.645 // the normal distribution's quantile of 0.95
 // Fewer launches cannot show their autocorrelation.

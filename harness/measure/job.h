@@ -54,9 +54,9 @@ bool rg_job_check(struct rg_job *job, const struct rg_expected *expected);
 bool rg_job_count(struct rg_job *job);
 bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options);
 
-// Reopens a job's session up to its check frames if it is closed, if its worker has crashed in
-// another job's call, or if this many more frames would exceed the window. Ends the record on
-// failure.
+// Reopens a job's session up to its check frames in three cases: it is closed, its worker has
+// crashed in another job's call, or this many more frames would exceed the window. Ends the record
+// on failure.
 bool rg_job_be_ready(struct rg_job *job, int frames);
 // The wall time of each of some frames, between full syncs. Ends the record on failure.
 double rg_job_time(struct rg_job *job, int frames);

@@ -47,8 +47,8 @@ struct rg_judged {
 struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidate,
                           const char *good);
 
-// The exit status of a verdict inside `git bisect run`, which reads 125 as skip, other values from
-// 1 to 127 as bad, and ends the bisect at higher ones (git-bisect(1)).
+// The exit status of a verdict inside `git bisect run`. git reads 125 as skip and other values from
+// 1 to 127 as bad; higher ones end the bisect (git-bisect(1)).
 int rg_judgement_git(enum rg_judgement verdict);
 // The exit status for a logged error. While git bisects the repository of the current folder it is
 // that of stop; otherwise git would take a misspelt option for a bad commit at every step.

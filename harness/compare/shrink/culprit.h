@@ -14,10 +14,10 @@ struct rg_culprit {
     char why_not[1400];       // one line, if nothing was found
 };
 
-// Records the dispatches of the blamed stage as `device` makes them (for a draw, those of its
-// packing kernels), and runs each alone on both devices from its recorded inputs. The culprit is
-// the first that differs. Then halves its items along each axis and zeroes its inputs, as long as
-// it still differs and until `end_ms` (rg_now_ms).
+// Records the dispatches of the blamed stage as `device` makes them; for a draw, those of its
+// packing kernels. Runs each alone on both devices from its recorded inputs. The culprit is the
+// first that differs. Then halves its items along each axis and zeroes its inputs, as long as it
+// still differs and until `end_ms` (rg_now_ms).
 //
 // If the device fails (`fall`; NULL: it does not), the dispatches are recorded on the truth, and
 // the culprit is the first on which the device fails, in whatever way. False, and one logged line,

@@ -1,6 +1,6 @@
 // Mutants: a comparison that accepts a slightly wrong model proves nothing. Each mutant is drawn on
-// one device and compared with the true model's image, at T1, the loosest tier that verify accepts,
-// or at a requested tier.
+// one device and compared with the true model's image. The tier is T1, the loosest that verify
+// accepts, or a requested one.
 //
 // Mutants have a scene of their own, the proof's over the technique's defaults, regardless of the
 // user's settings: on a pane without drops a mutant would survive. Their pictures are early ones:

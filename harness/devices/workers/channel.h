@@ -2,7 +2,7 @@
 // worker does. It ends when the other process does.
 //
 // Messages pass through the socket as a whole, so that limits on shared memory or file sizes do not
-// apply, and nobody can change a message while it is received.
+// apply. Nor can anybody change a message while it is received.
 #ifndef RG_HARNESS_DEVICES_WORKERS_CHANNEL_H
 #define RG_HARNESS_DEVICES_WORKERS_CHANNEL_H
 

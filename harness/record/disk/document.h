@@ -1,7 +1,7 @@
 // JSON documents on disk.
 //
-// Functions that fail give the reason in one line, which names the file, the place and `mend`: the
-// remedy, such as "name a file as `raingauge table -o` writes it".
+// Functions that fail give the reason in one line, which names the file, the place and `mend`. This
+// is the remedy, such as "name a file as `raingauge table -o` writes it".
 #ifndef RG_HARNESS_RECORD_DISK_DOCUMENT_H
 #define RG_HARNESS_RECORD_DISK_DOCUMENT_H
 

@@ -31,9 +31,9 @@ enum rg_claim_test {
 };
 
 // RG_CLAIM_FALL is the least whole value of FALLS, since enough launches find any fall.
-// RG_CLAIM_REVERSAL is the largest rise between neighbouring rows. Creus calls a table a decrease
-// in which one row is 1.09 times as fast as the one before it (table 5.3, second camera, 5 and 10
-// m), so his words allow a tenth.
+// RG_CLAIM_REVERSAL is the largest rise between neighbouring rows. Creus's words allow a tenth: he
+// calls a table a decrease in which one row is 1.09 times as fast as the one before it (table 5.3,
+// second camera, 5 and 10 m).
 #define RG_CLAIM_FALL     1.05
 #define RG_CLAIM_REVERSAL 1.1
 

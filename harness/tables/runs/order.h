@@ -68,8 +68,8 @@ struct rg_step {
 };
 
 // Takes the next step, which counts as tried from then on. It is in the first turn that has an
-// untried one, and has the least expected or guessed time of these, so that a large table does not
-// keep small ones out. False if all steps were tried.
+// untried one. Among these it has the least expected or guessed time, so that a large table does
+// not keep small ones out. False if all steps were tried.
 bool rg_order_next(struct rg_order *order, double left_s, struct rg_step *step);
 // Updates the times per cell: a step took `seconds` for `cells` cells per device.
 void rg_order_learn(struct rg_order *order, const struct rg_step *step, int cells, double seconds);

@@ -1,9 +1,9 @@
 // googletest's protocol, so that runners that know gtest can drive the gate: their options, and the
 // lines that they read. https://google.github.io/googletest/advanced.html
 //
-// deqp-runner is the strictest of them. In the list it takes a line with a point for a suite,
-// and ends a name at a space. While a test runs, it takes any "[WORD] " for the result, stops at a
-// WORD that it does not know, and takes a process that ends without a result for a crash.
+// deqp-runner is the strictest of them. In the list it takes a line with a point for a suite, and
+// ends a name at a space. While a test runs, it takes any "[WORD] " for the result, and stops at a
+// WORD that it does not know. A process that ends without a result is a crash to it.
 #ifndef RG_HARNESS_COMPARE_GATE_REPORT_GTEST_H
 #define RG_HARNESS_COMPARE_GATE_REPORT_GTEST_H
 
