@@ -66,8 +66,8 @@ struct rg_device_info {
     // API's driver; an empty path ends the list.
     struct rg_library libraries[RG_DRIVER_LIBRARIES];
     bool software; // runs on the CPU
-    // How closely its pictures agree with cpu:reference's: T0 for drivers that compute as C does,
-    // T1 for a GPU's arithmetic, T2 for a device that draws in another way.
+    // How closely its pictures agree with cpu:reference's. T0: the driver computes as C does. T1:
+    // it has a GPU's arithmetic. T2: the device draws in another way.
     enum rg_tier tier;
     struct rg_limits limits;
 };
@@ -82,7 +82,7 @@ struct rg_device {
     struct rg_shared *shared;   // owned by core/device/shared.c
 };
 
-// The ways of the device's GRID kernels and of what it draws without blending.
+// The ways of the device's GRID kernels, and of its draws without blending.
 static inline unsigned rg_device_ways(const struct rg_device *device)
 {
     return device->rounds ? RG_CODE_ROUNDS : 0;
@@ -121,7 +121,7 @@ enum rg_blend {
     RG_BLEND_OVER, // premultiplied: source + target (1 - alpha of the source)
     RG_BLEND_ADD,
 };
-// The nearer fragment wins; of equal depths the first one stays.
+// The nearer fragment wins; at equal depths the first one stays.
 enum rg_depth_mode { RG_DEPTH_OFF, RG_DEPTH_TEST, RG_DEPTH_WRITE };
 enum rg_cull {
     RG_CULL_NONE,
@@ -139,9 +139,9 @@ struct rg_draw {
     enum rg_cull cull;
     int x0, y0, x1, y1;     // scissor: x0 <= x < x1, y0 <= y < y1; all 0: the whole target
     struct rg_buf *samples; // uints, by item, to which visible samples are added. NULL: not counted
-    // 0: fragments count samples. Otherwise the API's occlusion queries do, each for this many
-    // items from a multiple of that on; it must be a multiple of 32. `samples` is then by query,
-    // and is overwritten.
+    // 0: fragments count samples. Otherwise the API's occlusion queries do, and `samples` is by
+    // query, and is overwritten. Each query counts this many items, beginning at a multiple of this
+    // number, which must be a multiple of 32.
     int items_a_query;
 };
 
@@ -151,7 +151,7 @@ static inline bool rg_draw_counts(const struct rg_draw *draw)
     return draw->samples && !draw->items_a_query;
 }
 
-// A DRAW pass's primitives, packed by core/device/packing.c, for backends with `packed` true.
+// The primitives of a DRAW pass, packed by core/device/packing.c, for backends with `packed` true.
 struct rg_packed {
     struct rg_buf *prims; // rg_prim of kernels/dialect/draw/draw.h, drawn in this order
     struct rg_buf *args;  // 5 uints: vertices, 1, 0, 0 (an indirect draw), then the number of prims
@@ -182,7 +182,7 @@ struct rg_run {
 enum { RG_MAX_DEVICES = 32, RG_LIST_WHY_SIZE = 640 }; // length of a list; size of its reason
 // Returned in place of a number of devices.
 enum rg_list_end {
-    RG_LIST_FAILED = -1, // a driver is installed, and fails when it is asked
+    RG_LIST_FAILED = -1, // a driver is installed, and fails when it is called
     RG_LIST_BROKEN = -2, // a driver is installed, and its files or settings are broken
 };
 
@@ -193,22 +193,22 @@ struct rg_backend {
     bool packed;         // draws primitives packed by core/device/packing.c, rather than items
 
     // Fills `infos` with up to `max` devices, best first, and returns their number; 0: no driver is
-    // installed; else an enum rg_list_end. `why` (of `why_size` bytes, RG_LIST_WHY_SIZE
-    // are enough) then says so in one line, with the mend. If devices were found, `why` is "" or
-    // tells of another driver that fails. Logs nothing and leaves nothing open.
+    // installed; else an enum rg_list_end. Without devices `why` (of `why_size` bytes,
+    // RG_LIST_WHY_SIZE are enough) says so in one line, with the mend. With devices `why` is "" or
+    // tells of another driver that fails. Logs nothing and closes everything again.
     int (*list)(struct rg_device_info *infos, int max, char *why, size_t why_size);
 
     // Opens the device at `index` of the list. NULL and one logged line on failure.
     struct rg_device *(*create)(int index);
-    // Whether the driver runs a pixel's fragments in the order of items and lets them read what the
-    // pixel holds, so that programs can blend by themselves; with the API's word for it. NULL: the
+    // Whether programs can blend by themselves: the driver runs a pixel's fragments in the order of
+    // items, and lets them read what the pixel holds. `word` gets the API's word for it. NULL: the
     // device blends by kernels/dialect/draw/blend.h as it is.
     bool (*can_blend)(const struct rg_device *device, const char **word);
     // Finds addresses of functions in the driver's code that serve this device: up to `max`, at
     // least one in each file, the API's driver first. Returns their number. NULL: the program
     // itself draws.
     int (*functions)(struct rg_device *device, const void **functions, int max);
-    // False, and one logged line, where the driver failed while closing.
+    // False, and one logged line, if the driver failed while closing.
     bool (*destroy)(struct rg_device *device);
 
     // Contents are undefined until written. `size` is at most limits.max_buffer_bytes.
@@ -217,8 +217,9 @@ struct rg_backend {
     bool (*buf_write)(struct rg_buf *buf, size_t offset, const void *data, size_t size);
     bool (*buf_read)(struct rg_buf *buf, size_t offset, void *data, size_t size);
 
-    // Texels are transferred tightly packed, rows from y = 0, one layer of one level at a time, in
-    // the image's format (kernels/dialect/image/format.h): rg_format_size(format) bytes each.
+    // Texels are transferred in the image's format (kernels/dialect/image/format.h), tightly
+    // packed, with rg_format_size(format) bytes each. A call transfers one layer of one level, rows
+    // from y = 0.
     struct rg_image *(*image_create)(struct rg_device *device, const struct rg_image_desc *desc,
                                      const char *name);
     void (*image_destroy)(struct rg_image *image);
@@ -235,12 +236,11 @@ struct rg_backend {
     // parameters.
     bool (*pass_run)(struct rg_pass *pass, const struct rg_run *run);
     // Returns the driver's compiled code for a pass, in the API's form, which may be less than
-    // native code: `*bytes`, which the caller frees, or NULL where there is none. False, and one
-    // logged line, on failure. Drivers compile late, so ask after the pass has run. NULL: the API
-    // cannot.
+    // native code. The caller frees `*bytes`, which is NULL if there is none. False, and one logged
+    // line, on failure. Drivers compile late, so ask after the pass has run. NULL: the API cannot.
     bool (*pass_code)(struct rg_pass *pass, void **bytes, size_t *size);
 
-    // Waits for all queued work. False: some of it failed.
+    // Waits for all queued work. False if a part of it failed.
     bool (*sync)(struct rg_device *device);
     // Reads the API's clock, in nanoseconds from an arbitrary start, after all queued work has
     // ended. The difference of two readings is an interval. Drivers may be wrong, so callers

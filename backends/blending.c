@@ -20,7 +20,7 @@ struct pane {
     rgba colour;
 };
 
-// A pane as raster_quads has it packed.
+// A pane as raster_quads packs it.
 struct packed {
     rg_snapped corners;
     int item;
@@ -47,7 +47,7 @@ static float random_unit(uint32_t *seed)
     return (float)(*seed >> 8) * 0x1p-24f;
 }
 
-// From faint to opaque.
+// Makes random panes, from faint to opaque.
 static void make_panes(struct pane panes[PANES])
 {
     uint32_t seed = 1;
@@ -62,7 +62,7 @@ static void make_panes(struct pane panes[PANES])
     }
 }
 
-// By the words of kernels/raster/quads_params.h, for devices that draw items.
+// Writes a pane as the words of kernels/raster/quads_params.h, for devices that draw items.
 static void fill_quad(const struct pane *p, float quad[RASTER_QUAD_WORDS])
 {
     const float words[RASTER_QUAD_WORDS] = {(float)(p->x0 + p->x1) / SIDE - 1,

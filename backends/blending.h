@@ -6,11 +6,11 @@
 
 struct rg_device;
 
-// Sets `blends` of a newly created device, and notes it in its API's name. A device whose tier does
-// not say that it draws as cpu:reference does is tested with layers of panes in each format, over
-// and added, against a loop in C; where a bit differs, programs blend if the driver lets them.
-// RG_BLENDING, if set, decides instead. False, and one logged line, where that variable is invalid
-// or asks for what the driver lacks, or the device failed.
+// Sets `blends` of a newly created device, and notes it in its API's name. RG_BLENDING, if set,
+// decides. Otherwise a device whose tier does not promise cpu:reference's drawing is tested: layers
+// of panes in each format, over and added, are compared with a loop in C. If a bit differs,
+// programs blend if the driver lets them. False, and one logged line, if that variable is invalid
+// or asks for something that the driver lacks, or if the device failed.
 bool rg_blending_settle(struct rg_device *device);
 
 #endif

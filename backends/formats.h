@@ -47,12 +47,12 @@ const char *rg_format_name(enum rg_format format);
 // The width or height of a level.
 int rg_level_size(int size, int level);
 
-// The layout of images in plain memory, used by cpu and opencl (kernels/dialect/image/memory.h): a
-// header with the first word of each level, which is copied to `header`, then the levels. Returns
-// the words of the whole image, header included.
+// The layout of images in plain memory, used by cpu and opencl (kernels/dialect/image/memory.h). A
+// header with the first word of each level, which is copied to `header`, precedes the levels.
+// Returns the words of the whole image, header included.
 int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX_LEVELS]);
-// The limits of devices with such images: every format for all uses, up to `max_bytes` and as many
-// texels as kernels can index by an int.
+// The limits of devices with such images: every format for all uses. Images have up to `max_bytes`,
+// and as many texels as kernels can index by an int.
 enum { RG_PLAIN_MAX_PX = 32768, RG_PLAIN_MAX_LAYERS = 2048 };
 void rg_plain_formats(struct rg_format_limits limits[RG_FORMAT_COUNT], int64_t max_bytes);
 // The offset of a layer of a level, and its size, both in bytes.

@@ -31,11 +31,10 @@ struct rg_slot_info {
     enum rg_slot_kind kind;
     int element_size;      // of a buffer's element, in bytes; 0 for an image
     enum rg_format format; // of an image; RG_FORMAT_NONE for a buffer
-    const char *words; // of a buffer's element: a letter a word, as enum rg_word has them; NULL:
-                       // not told
+    const char *words; // of a buffer's element: a letter a word, as in enum rg_word; NULL: unknown
 };
 
-// What four bytes of a buffer are; an element's are told in one text, "uff".
+// The type of each four bytes of a buffer; one text has an element's, "uff".
 enum rg_word { RG_WORD_FLOAT = 'f', RG_WORD_INT = 'i', RG_WORD_UINT = 'u' };
 
 // One driver's form of a kernel. Text is not terminated by a zero.
@@ -47,7 +46,7 @@ struct rg_kernel_code {
 // The same as embedded by the build, compressed by zlib to a quarter of the size.
 struct rg_embedded_code {
     const unsigned char *bytes;
-    size_t packed_size, size; // both 0 where the kernel has no such form
+    size_t packed_size, size; // both 0 if the kernel has no such form
 };
 
 // A GRID kernel has the first three; a DRAW program has OpenCL C and the last four.
@@ -116,14 +115,14 @@ int rg_kernel_all(const struct rg_kernel *const **kernels);
 // A kernel's index in rg_kernel_all, for tables by kernel.
 int rg_kernel_index(const struct rg_kernel *kernel);
 
-// The code for a driver: embedded at build time, or, where RG_KERNEL_DIR names a folder, read from
+// The code for a driver: embedded at build time, or, if RG_KERNEL_DIR names a folder, read from
 // NAME.glsl, NAME.spv, NAME.cl and so on there. `ways` has bits of RG_CODE_ROUNDS and
 // RG_CODE_BLENDS; only fragments blend. False, and one logged line, on failure; then there is
 // nothing to free.
 bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, unsigned ways,
                     struct rg_kernel_code *code);
 
-// Decompresses embedded code; `name` is for messages. True, without bytes, where there is no such
+// Decompresses embedded code; `name` is for messages. True, without bytes, if there is no such
 // form.
 bool rg_embedded_code(const struct rg_embedded_code *embedded, const char *name,
                       struct rg_kernel_code *code);

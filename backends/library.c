@@ -60,7 +60,7 @@ void rg_build_id(const struct dl_phdr_info *object, char id[RG_BUILD_ID_SIZE])
 
 // --- files ---
 
-// Finds the line of the process's map with the address. False without /proc, or where no file is
+// Finds the line of the process's map with the address. False without /proc, or if no file is
 // mapped there.
 static bool read_map(uintptr_t code, struct rg_library *library)
 {

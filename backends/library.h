@@ -1,8 +1,8 @@
 // Finds the file on disk that holds code of this process.
 //
-// A driver's name and version are its own claims, and a path is only a request: the loaders of
-// Vulkan, EGL and OpenCL search folders, and may load another file. So the file is found by the
-// address of a function in it.
+// A driver's name and version are its own claims. A path is only a request: the loaders of Vulkan,
+// EGL and OpenCL search folders, and may load another file. So the file is found by the address of
+// a function in it.
 #ifndef RG_BACKENDS_LIBRARY_H
 #define RG_BACKENDS_LIBRARY_H
 
@@ -23,7 +23,7 @@ struct dl_phdr_info;
 // Without a build id, a hash of the code.
 void rg_build_id(const struct dl_phdr_info *object, char id[RG_BUILD_ID_SIZE]);
 
-// The file with the code at this address; all "" and 0 where there is none.
+// The file with the code at this address; all "" and 0 if there is none.
 void rg_library_at(const void *code, struct rg_library *library);
 
 // Whether the object that contains the address exports the symbol itself, rather than through an
@@ -35,8 +35,8 @@ bool rg_library_exports(const void *code, const char *symbol);
 int rg_libraries_find(bool (*is_wanted)(const char *path, const void *code), const void **codes,
                       int max);
 
-// Whether both are one file: by device and inode, or by path and build id where a file system has
-// no stable numbers.
+// Whether both are one file: by device and inode, or by path and build id if a file system has no
+// stable numbers.
 bool rg_library_is_same(const struct rg_library *a, const struct rg_library *b);
 
 #endif

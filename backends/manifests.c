@@ -23,7 +23,7 @@ struct walk {
     int drivers;          // number of drivers
     int devices;          // devices that the drivers report when asked
     bool is_named_broken;
-    bool is_failing;   // the broken driver could be loaded, and fails when it is asked
+    bool is_failing;   // the broken driver could be loaded, and fails when it is called
     char sound[4096];  // files of drivers that work, separated by ':'; "": none
     char broken[512];  // why the first broken driver fails, preferring a named one; "": none
     char foreign[512]; // the same for a driver for another kind of processor
@@ -35,8 +35,8 @@ static bool ends_with(const char *text, const char *ending)
     return length >= end && !strcmp(text + length - end, ending);
 }
 
-// Notes a driver's failure. A driver for another kind of processor may be installed beside this
-// machine's, and is a failure only where there is no other.
+// Notes a driver's failure. A driver for another kind of processor may be installed next to this
+// machine's, and is a failure only if there is no other.
 static void note(struct walk *walk, const char *path, const char *fault, bool is_failing)
 {
     const bool is_foreign = !walk->variable && strstr(fault, "wrong ELF class");
@@ -70,7 +70,7 @@ static bool has_function(const struct rg_manifest_rules *rules, void *library)
 }
 
 // Tries a driver's library; `fault` says why it does not work, or is "". True if it could be loaded
-// and fails when it is asked.
+// and fails when it is called.
 static bool try_library(struct walk *walk, void *library, const char *name, char *fault,
                         size_t size)
 {
@@ -254,7 +254,7 @@ void rg_manifests_begin(const struct rg_manifest_rules *rules)
     rg_doing_begin("loading drivers of", what);
 }
 
-// Examines all places. Returns the variable that replaces the usual ones, NULL where none is set.
+// Examines all places. Returns the variable that replaces the usual ones; NULL if none is set.
 static const char *examine_all(struct walk *walk)
 {
     const struct rg_manifest_rules *rules = walk->rules;

@@ -13,13 +13,13 @@
 
 #include "backends/backend.h"
 
-// A variable that holds folders, separated by ':', and the default where it is not set; "~/" is the
+// A variable that holds folders, separated by ':', and the default if it is not set; "~/" is the
 // user's folder.
 struct rg_manifest_place {
     const char *variable, *usual; // either may be NULL
 };
 
-// Where an API's loader looks for drivers. Lists end with NULL.
+// The places in which an API's loader looks for drivers. Lists end with NULL.
 struct rg_manifest_rules {
     // Variables with files or folders that replace the usual places; the first that is set counts.
     // And variables with additional files.
@@ -39,24 +39,24 @@ struct rg_manifest_rules {
     const char *package; // the Debian package with a driver
 };
 
-// The loader's own result, where it gave no usable device.
+// The loader's own result when it gave no usable device.
 enum rg_manifest_state {
     RG_MANIFEST_NONE,    // it found none
-    RG_MANIFEST_UNCLEAR, // an error that it also reports where there is none
+    RG_MANIFEST_UNCLEAR, // an error that it also reports if it finds none
     RG_MANIFEST_FAILED,  // an error
     RG_MANIFEST_BROKEN,  // an error of this machine's set-up
 };
 
 // The result of a backend's list that has found `count` devices: `count`; 0: no driver is
-// installed; or an enum rg_list_end. Without devices, `why` (of `why_size` bytes) has
-// the loader's reason, and gets one line: what failed, or how to install a driver. With devices it
-// is "", or tells of another driver that fails. If a variable names a driver that cannot be loaded,
-// the list fails whatever else was found, because the named driver must be the one that runs.
+// installed; or an enum rg_list_end. Without devices, `why` (of `why_size` bytes) has the loader's
+// reason, and gets one line: what failed, or how to install a driver. With devices it is "", or
+// tells of another driver that fails. If a variable names a driver that cannot be loaded, the list
+// fails in any case, because the named driver must be the one that runs.
 int rg_manifests_judge(const struct rg_manifest_rules *rules, int count,
                        enum rg_manifest_state state, char *why, size_t why_size);
 
-// Notes that drivers are being loaded, for reports of a crash (core/base/doing.h), where a variable
-// names them.
+// If a variable names drivers, notes that they are being loaded, for reports of a crash
+// (core/base/doing.h).
 void rg_manifests_begin(const struct rg_manifest_rules *rules);
 
 // The files of drivers that can be loaded, separated by ':', if others cannot and no variable names
@@ -64,12 +64,12 @@ void rg_manifests_begin(const struct rg_manifest_rules *rules);
 bool rg_manifests_sound(const struct rg_manifest_rules *rules, char *paths, size_t size);
 
 // The library named in a driver's file: ICD.library_path of JSON, or the first word of a text.
-// False, and `fault` says why, where there is none.
+// False, with the reason in `fault`, if there is none.
 bool rg_manifest_read_library(FILE *file, bool is_text, char named[PATH_MAX], char *fault,
                               size_t size);
 
-// Loads and unloads a library. False where that fails, and `why` has the linker's words;
-// `is_absent` is set where there is no such file.
+// Loads and unloads a library. False on failure, with the linker's words in `why`; `is_absent` is
+// set if there is no such file.
 bool rg_manifests_load(const char *library, bool *is_absent, char *why, size_t why_size);
 
 #endif

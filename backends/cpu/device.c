@@ -41,7 +41,7 @@ static const struct cpu_level *choose_level(void)
     return NULL;
 }
 
-// The CPU's name from Linux, or the architecture's where there is none.
+// The CPU's name from Linux, or the architecture's name if there is none.
 static void read_cpu_name(char *name, size_t size)
 {
     snprintf(name, size, "unnamed CPU");

@@ -42,7 +42,7 @@ static void emit_items(const struct drawing *d, int most)
         const int begin = bins->chunks[i].begin;
         cpu_emit(&mine, i, d->end - begin > size ? begin + size : d->end);
     }
-    // If a chunk leaves items for the next round, later chunks must wait, too.
+    // If a chunk has items left for the next round, later chunks must wait, too.
     bins->chunk_count = 0;
     while (bins->chunk_count < chunks && bins->chunks[bins->chunk_count++].whole)
         ;
@@ -109,7 +109,7 @@ bool cpu_draw(struct cpu_device *device, const char *name, const struct cpu_prog
 }
 
 // The rest of this file counts a draw's work by plain loops. The drawing itself cannot count, since
-// it skips early whatever covers nothing.
+// it skips early everything that covers nothing.
 
 static rg_snapped corners_of(const struct cpu_items *items, int i)
 {
@@ -131,7 +131,7 @@ static int64_t count_clipped(const struct cpu_program *program, const struct cpu
     return fragments;
 }
 
-// Returns the first item behind the batch.
+// Returns the first item after the batch.
 static int count_batch(const struct cpu_program *program, const struct cpu_call *call, int begin,
                        struct rg_counts *counts)
 {

@@ -47,8 +47,8 @@ static int part(int64_t count, int index, int parts)
     return (int)(count * index / parts);
 }
 
-// A thread's block: a band of rows, or of layers or columns where there are fewer rows than blocks.
-// It is the same in every pass of equal size, so that a core finds its own writes in its cache.
+// A thread's block: a band of rows, or of layers or columns if there are fewer rows than blocks. It
+// is the same in every pass of equal size, so that a core finds its own writes in its cache.
 static struct cpu_call block(const struct cpu_call *call, const struct rg_extent *extent, int index,
                              int blocks)
 {

@@ -94,7 +94,7 @@ static int gl_list(struct rg_device_info *infos, int max, char *why, size_t why_
     return gl_judge(&search, count, why, why_size);
 }
 
-// Opens the device at `index` of the list and leaves its context current.
+// Opens the device at `index` of the list and makes its context current.
 static bool open_at(int index, struct gl_egl *egl)
 {
     struct gl_search search;

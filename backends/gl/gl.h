@@ -1,7 +1,8 @@
 // The gl backend: kernels as programs of OpenGL 4.5 core, on EGL without a window.
 //
 // A device is one context without a framebuffer. A context belongs to the thread that last used it,
-// so a device stays on the thread that opened it, where no other code may make a context current.
+// so a device stays on the thread that opened it. No other code on that thread may make a context
+// current.
 #ifndef RG_BACKENDS_GL_GL_H
 #define RG_BACKENDS_GL_GL_H
 
@@ -139,8 +140,8 @@ struct gl_pass {
 void gl_search_begin(struct gl_search *search);
 // Opens the next target that works and makes its context current; false: none is left.
 bool gl_search_next(struct gl_search *search, struct gl_egl *egl);
-// api/drivers.c: where EGL finds drivers, and the result of backend->list for `count` devices
-// found.
+// api/drivers.c: the places where EGL finds drivers, and the result of backend->list for `count`
+// devices found.
 extern const struct rg_manifest_rules gl_manifests;
 int gl_judge(const struct gl_search *search, int count, char *why, size_t why_size);
 // Whether the current context is of the driver that a Mesa variable asks for, or no variable does;
@@ -159,7 +160,7 @@ bool gl_use(struct gl_device *device);
 
 // Turns the driver's messages about errors into the text that gl_check logs.
 void gl_debug_begin(struct gl_device *device);
-// Whether all calls since the last check succeeded; if not, logs one line that names `call`, the
+// Whether all calls since the last check succeeded. If not, logs one line that names `call`, the
 // error's code and the object ("buffer 'heights'": `kind` is "buffer", `name` is "heights").
 bool gl_check(struct gl_device *device, const char *call, const char *kind, const char *name);
 // As gl_check, but sees only errors that the driver reported itself, which costs no call.
@@ -243,7 +244,7 @@ bool gl_draw_begin(struct gl_device *device);
 void gl_draw_end(struct gl_device *device);
 // Draws packed primitives. The caller has bound the pass's program, parameters and slots.
 bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const struct rg_run *run);
-// backend->can_blend, of the current context
+// backend->can_blend, for the current context
 bool gl_can_blend(const struct rg_device *device, const char **word);
 
 // api/query.c

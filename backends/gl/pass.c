@@ -57,9 +57,10 @@ void gl_pass_destroy(struct rg_pass *pass)
     free(mine);
 }
 
-// Mesa names a shader by the number of its program object ("GLSL168"), which is another where a
-// cache has it from another process, pads the name with zeros, and counts and checks all of it in
-// its head. Without these the same code has the same bytes; how many are left.
+// Drops the parts of Mesa's code that differ between processes, so that the same code has the same
+// bytes. Mesa names a shader by the number of its program object ("GLSL168"), which a cache may
+// have from another process, and pads the name with zeros. Its head has the size and a checksum of
+// all of it. Returns how many bytes are left.
 static size_t drop_numbers(unsigned char *bytes, size_t size)
 {
     enum { HEAD = 24, COUNTED = 32, NAME = 4 }; // count and checksum lie between the first two

@@ -10,8 +10,8 @@ static GLuint id_of(const struct rg_image *image)
     return image ? ((const struct gl_image *)image)->id : 0;
 }
 
-// A depth image is attached where the driver tests it. Where samples are counted, fragments test
-// the depth, and may not fetch an attached image.
+// A depth image is attached if the driver tests it. If samples are counted, fragments test the
+// depth, and may not fetch an attached image.
 static struct gl_framebuffer_key key_of(const struct rg_draw *draw)
 {
     const struct rg_image *image = draw->colour ? draw->colour : draw->depth;

@@ -12,12 +12,12 @@ extern const struct rg_embedded_code rg_code_bins[RG_CODE_COUNT];
 // words.
 enum { MAX_LANES = 64, ITEMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
 
-// The list's size starts with the first and doubles up to the second. A draw that needs more takes
+// The list's sizes: the first one, which doubles up to the second. A draw that needs more takes
 // several rounds.
 enum { MIN_LIST_BYTES = 256 << 10, MAX_LIST_BYTES = 64 << 20 };
 
-// Side of the block of pixels that a work item shades: on a processor a whole tile, on a GPU a
-// part, with a work group for each tile.
+// Side of the block of pixels that a work item shades. On a processor it is a whole tile, on a GPU
+// a part, with a work group for each tile.
 enum { BLOCK_PX_CPU = RG_TILE_PX, BLOCK_PX_GPU = 2 };
 
 static bool make_kernel(struct opencl_bins *bins, cl_kernel *kernel, const char *name)

@@ -84,12 +84,13 @@ struct opencl_search {
     char why[512]; // preferring failures; "": none
 };
 int opencl_find(struct opencl_search *search, cl_device_id *ids, int max);
-// Where the loader finds drivers, and the result of backend->list for `count` devices found.
+// The places where the loader finds drivers, and the result of backend->list for `count` devices
+// found.
 extern const struct rg_manifest_rules opencl_manifests;
 int opencl_judge(const struct opencl_search *search, int count, char *why, size_t why_size);
 // backend->functions
 int opencl_functions(struct rg_device *device, const void **functions, int max);
-// A text property of a device or platform; "unnamed" and 0 where its driver does not know it.
+// A text property of a device or platform; "unnamed" and 0 if its driver does not know it.
 enum { OPENCL_TEXT = 1024 };
 const char *opencl_text(cl_device_id id, cl_device_info what, char text[OPENCL_TEXT]);
 const char *opencl_platform_text(cl_platform_id id, cl_platform_info what, char text[OPENCL_TEXT]);

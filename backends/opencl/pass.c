@@ -28,7 +28,7 @@ struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_ker
     return NULL;
 }
 
-enum { NO_MEMORY = 1 }; // raingauge's own, which is no code of OpenCL: those are 0 or below
+enum { NO_MEMORY = 1 }; // a code of raingauge; OpenCL's are 0 or below
 
 // Appends a kernel's program, built for the context's one device.
 static cl_int append_program(cl_kernel kernel, unsigned char **bytes, size_t *size)

@@ -26,7 +26,7 @@ static VkShaderStageFlags slot_stages(const struct rg_kernel *kernel, int slot)
                                                  : block_stages(kernel);
 }
 
-// The layout of what a target holds, for fragments that blend by themselves.
+// The layout of the set with a target's colour, for fragments that blend by themselves.
 static bool prepare_before(struct vk_device *device, const struct rg_kernel *kernel)
 {
     const VkDescriptorSetLayoutBinding held = {0, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, 1,

@@ -20,8 +20,7 @@ struct vk_target vk_target_of(const struct vk_device *device, const struct rg_dr
     return (struct vk_target){
         .colour = draw->colour ? draw->colour->desc.format : RG_FORMAT_NONE,
         .blends = device->pub.blends && draw->colour && draw->blend != RG_BLEND_OFF,
-        // Where samples are counted, the fragment shader tests the depth, so that it is no
-        // attachment.
+        // If samples are counted, the fragment shader tests the depth, so that it is no attachment.
         .depth = draw->depth_mode != RG_DEPTH_OFF && !rg_draw_counts(draw),
     };
 }

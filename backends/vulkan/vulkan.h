@@ -75,7 +75,8 @@ struct vk_device {
     VkPhysicalDeviceMemoryProperties memory;
     VkDeviceSize max_allocation_bytes;
     bool ordered; // fragments can read what their pixel holds, in the order of items
-    VkDescriptorSetLayout before; // of that, where programs blend; made on first use
+    VkDescriptorSetLayout before; // layout of the set with that, if programs blend; made on first
+                                  // use
     bool direct;                  // the host reads and writes device memory at full speed
     VkDevice handle;
     VkQueue queue;
@@ -119,7 +120,7 @@ union vk_descriptor {
 // made on first use.
 struct vk_drawing {
     VkShaderModule vertex, fragment;
-    VkShaderModule blending; // fragments that blend by themselves; none where the driver does
+    VkShaderModule blending; // fragments that blend by themselves; none if the driver does
     VkPipeline pipelines[VK_COLOURS][RG_BLEND_ADD + 1][RG_DEPTH_WRITE + 1];
 };
 
@@ -151,13 +152,13 @@ int vk_functions(struct rg_device *device, const void **functions, int max);
 // reason in `why` when it is 0.
 int vk_physical_devices(struct vk_instance *instance, VkPhysicalDevice *devices, int max, char *why,
                         size_t why_size);
-// api/drivers.c: where the loader finds drivers, and the result of backend->list for `count`
-// devices found.
+// api/drivers.c: the places where the loader finds drivers, and the result of backend->list for
+// `count` devices found.
 extern const struct rg_manifest_rules vk_manifests;
 int vk_judge(const struct vk_instance *instance, int count, char *why, size_t why_size);
 // The first family that computes and draws, else the first that computes. False: there is none.
 bool vk_queue_family(VkPhysicalDevice device, struct vk_family *family);
-// False, and `why`, where the driver cannot describe its image formats.
+// False, with the reason in `why`, if the driver cannot describe its image formats.
 bool vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info, char *why,
                  size_t why_size);
 
@@ -220,7 +221,7 @@ bool vk_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
 VkFormat vk_format(enum rg_format format);
 // The usages of images of a format, from bits of enum rg_format_use.
 VkImageUsageFlags vk_usage(enum rg_format format, unsigned uses);
-// The usage that programs need which blend by themselves, 0 where the driver blends.
+// The additional usage if programs blend by themselves; 0 if the driver blends.
 VkImageUsageFlags vk_input_usage(const struct vk_device *device, enum rg_format format);
 VkImageAspectFlags vk_aspect(enum rg_format format);
 
@@ -245,7 +246,7 @@ void vk_slots_fill(const struct vk_device *device, const struct rg_kernel *kerne
 void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf);
 void vk_slot_image(union vk_descriptor *descriptor, const struct vk_device *device,
                    VkImageView view);
-// Makes a set with the colour that a draw blends with by itself.
+// Makes a set with the target's colour, for a draw that blends by itself.
 bool vk_slot_before(struct vk_device *device, const struct vk_batch *batch,
                     const struct vk_pass *pass, const struct rg_draw *draw, VkDescriptorSet *set);
 // Makes pass->set a set with these descriptors.
@@ -260,9 +261,9 @@ struct vk_target {
     bool blends; // the program does, and reads the colour
 };
 struct vk_target vk_target_of(const struct vk_device *device, const struct rg_draw *draw);
-// A view of one layer of one level, which the image owns; VK_NULL_HANDLE where the driver failed.
+// A view of one layer of one level, which the image owns; VK_NULL_HANDLE if the driver failed.
 VkImageView vk_place(struct vk_device *device, struct rg_image *image, int layer, int level);
-// The device owns both; VK_NULL_HANDLE where the driver failed.
+// The device owns both; VK_NULL_HANDLE if the driver failed.
 VkRenderPass vk_render_pass(struct vk_device *device, struct vk_target target, const char *name);
 VkFramebuffer vk_framebuffer(struct vk_device *device, const struct rg_draw *draw);
 // Destroys the views and framebuffers of an image.

@@ -8,7 +8,7 @@
 #include "core/base/text/cgroup.h"
 #include "core/base/log.h"
 
-// Smaller requests skip the look-up of what is available, which takes tens of microseconds.
+// Smaller requests skip the look-up of available memory, which takes tens of microseconds.
 #define SMALL_BYTES ((int64_t)1 << 20)
 
 #define LARGE_BYTES ((int64_t)1 << 26)

@@ -16,7 +16,7 @@
 #include "core/device/packing.h"
 #include "core/device/shared.h"
 
-// Asks a backend for its devices, and warns of a driver that fails beside others that work.
+// Asks a backend for its devices, and warns of a driver that fails while others work.
 static int list(const struct rg_backend *backend, struct rg_device_info *infos, int max,
                 char why[RG_LIST_WHY_SIZE])
 {
@@ -192,7 +192,7 @@ bool rg_device_time(struct rg_device *device, int64_t *time_ns)
 }
 
 // More memory than this is counted before it is taken: taking it costs seconds, and counting costs
-// little beside that.
+// little.
 #define MOST_UNCOUNTED_BYTES ((int64_t)1 << 30)
 
 static int64_t smaller(int64_t a, int64_t b)

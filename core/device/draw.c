@@ -45,7 +45,7 @@ static void fill_state(const struct rg_draw *draw, rg_draw_state *state)
     state->half_height = 0.5f * (float)state->height;
 }
 
-// Packing passes and what they write are not counted, because no caller asked for them and other
+// Packing passes and their writes are not counted, because no caller asked for them and other
 // devices do without.
 static void leave_out_packing(struct rg_work *work, const struct rg_work *asked)
 {

@@ -28,8 +28,8 @@ static void give(struct rg_device *device, int64_t bytes)
         rg_memory_give(bytes);
 }
 
-// Takes memory for an object, unless objects are only counted. False, and one logged line, where
-// too little is left.
+// Takes memory for an object, unless objects are only counted. False, and one logged line, if too
+// little is left.
 static bool make_room(struct rg_device *device, int64_t bytes, const char *noun, const char *name)
 {
     char begin[160];

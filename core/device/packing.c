@@ -120,7 +120,7 @@ int rg_packing_prepare(struct rg_pass *pass, int items, int whole, int *capacity
 
 // --- running ---
 
-// Finds where each query's primitives begin, as arguments of its draw.
+// Finds the beginning of each query's primitives, as arguments of its draw.
 static bool find_ranges(const struct rg_packing *packing, int chunks, int corners,
                         int chunks_a_query, int queries)
 {
@@ -133,7 +133,7 @@ static bool find_ranges(const struct rg_packing *packing, int chunks, int corner
                        });
 }
 
-// Draws what has been packed.
+// Draws the packed primitives.
 static bool draw_packed(struct rg_pass *pass, const struct rg_run *run, const rg_draw_state *state,
                         int chunks)
 {
@@ -155,7 +155,7 @@ static bool draw_packed(struct rg_pass *pass, const struct rg_run *run, const rg
     return rg_dispatch(pass, &packed);
 }
 
-// These runs skip the checks, which the caller has done and which would refuse the primitives'
+// These runs skip the checks, which the caller has done. The checks would refuse the primitives'
 // buffer: programs with primitives of different sizes share it, so that its size is not a multiple
 // of each. A batch has fewer chunks than any device has work groups.
 bool rg_packing_run(struct rg_pass *pass, const struct rg_run *run, const rg_draw_state *state)

@@ -25,7 +25,7 @@ enum {
 static const char *const kind_names[] = {
     [SCENERY_POINT] = "point", [SCENERY_SPOT] = "spot", [SCENERY_SUN] = "sun"};
 
-// The properties of a light, and which kinds of lights have them.
+// The properties of a light, and the kinds of lights that have them.
 static const struct property {
     const char *name;
     unsigned kinds;
@@ -75,7 +75,7 @@ static bool read_numbers(const json_t *object, const char *name, const struct pl
     return true;
 }
 
-// `missing` is the number where the property is missing.
+// `missing` is the number for a missing property.
 static bool read_number(const json_t *object, const char *name, const struct place *place,
                         double low, double high, double missing, double *number)
 {

@@ -29,7 +29,7 @@ struct rg_matrix rg_matrix_product(const struct rg_matrix *left, const struct rg
 }
 
 // One step of Gauss-Jordan elimination: turns column c of `rows` into that of the unit matrix.
-// False where the matrix is singular.
+// False if the matrix is singular.
 static bool eliminate(double rows[4][8], int c)
 {
     int pivot = c;

@@ -15,8 +15,8 @@ static bool all_finite(const double *values, int count)
     return true;
 }
 
-// x is the part of the world's x axis across the fall, or of its y axis where rain falls along the
-// x axis.
+// x is the part of the world's x axis across the fall, or of its y axis if rain falls along the x
+// axis.
 static void make_axes(struct rg_rain_space *space, const double fall[3])
 {
     memcpy(space->s, fall, sizeof(space->s));

@@ -17,8 +17,8 @@ struct rg_texture_rows {
     struct rg_texture_row items[RG_MAX_TEXTURE_ROWS];
 };
 
-// Makes and lists the textures of a technique that has some, and writes into `folder`, if given,
-// whose last part is made if missing:
+// Makes and lists the textures of a technique that has some. Writes into `folder`, if given; its
+// last part is made if missing:
 //   textures.csv          the list
 //   NAME.png              a texture as it looks, its colours not multiplied by alpha
 //   NAME-level-LEVEL.exr  its texels as kernels sample them: premultiplied linear light, or grey

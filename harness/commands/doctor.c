@@ -1,4 +1,4 @@
-// raingauge doctor: reports what this machine and its drivers can be trusted with.
+// raingauge doctor: reports how far this machine and its drivers can be trusted.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,8 +104,8 @@ static bool was_listed(const struct rg_device_list *list, const char *name)
     return found;
 }
 
-// Reports as failed a device that was listed but cannot be opened any more, because its driver is
-// being replaced or the GPU was reset; the others are examined all the same.
+// Reports a listed device that cannot be opened any more as failed: its driver is being replaced,
+// or the GPU was reset. The others are still examined.
 static void tell_gone(struct rg_examination *examination)
 {
     char why[sizeof(examination->why)];

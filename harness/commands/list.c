@@ -104,7 +104,7 @@ static json_t *list_figures(void)
     return rows;
 }
 
-// `exit` gets fail where a driver failed.
+// *exit becomes fail if a driver failed.
 static json_t *list_devices(int *exit)
 {
     json_t *rows = json_array();

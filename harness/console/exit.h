@@ -22,22 +22,23 @@ enum rg_exit {
 
 // The status of work with one outcome.
 int rg_exit_of(enum rg_outcome outcome);
-// Of work with so many of each outcome: a failure of any kind outweighs all, then a want of
-// raingauge's own, then what proves nothing; then it passes where something was ok, and is
-// unsupported where all was. Without any, nothing was measured.
+// The status of work with these counts of outcomes. Any failure gives fail, else a lack in
+// raingauge itself gives RG_EXIT_HARNESS, else an outcome of nothing gives RG_EXIT_NOTHING.
+// Otherwise the work passes if something was ok, and is unsupported if all was. Without any
+// outcome, nothing was measured.
 int rg_exit_of_all(const int counts[RG_OUTCOME_COUNT]);
 // The final status of a command that compares or measures `count` things: it passes only with at
 // least one.
 int rg_exit_with(int exit, int64_t count);
-// Of work that the failure that was just met ended (rg_failure_take): bad usage where that is the
-// user's.
+// The status of work that the last failure ended (rg_failure_take): bad usage if the user's input
+// is at fault.
 int rg_exit_of_error(void);
 
 // Logs that standard output cannot be written, and returns false, as rg_error does.
 bool rg_stdout_error(void);
 
-// Of two parts of a command. Bad usage outweighs a failure, a failure a want of raingauge's own,
-// that what proves nothing, and an interruption all.
+// The worse status of two parts of a command. From the worst: a signal, bad usage, a failure, a
+// lack in raingauge itself, inconclusive, nothing compared, unsupported.
 int rg_exit_worse(int a, int b);
 
 #endif

@@ -12,8 +12,8 @@
 
 // Holds signals back until rg_interrupt_heed, also in a program that replaces this one by exec.
 void rg_interrupt_hold(void);
-// From now on signals end the program, even if its parent had them ignored or blocked. Only SIGHUP
-// stays ignored where it was, as by nohup.
+// From now on signals end the program, even if its parent had them ignored or blocked. Only an
+// ignored SIGHUP stays ignored, as by nohup.
 void rg_interrupt_heed(void);
 
 // From now on the first signal is noted instead. Clears an earlier one.

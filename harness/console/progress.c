@@ -123,8 +123,8 @@ void rg_progress_told(void)
     is_told_otherwise = true;
 }
 
-// Logs the total time once, if it is long; then the time left with every tenth of the total, but
-// not more often than the time that counts as long.
+// Logs the total time once, if it is long. Then logs the time left after every tenth of the total,
+// but not within rg_long_s() of the last line.
 static void tell(struct rg_progress *p, double now_ms)
 {
     char text[RG_DURATION_TEXT];

@@ -1,7 +1,9 @@
 // A progress bar with the time left, on a terminal's stderr; in a pipe, a line now and then if the
-// work takes long. A time is shown only if it is probably right within a factor of three: it
-// follows from this run's units, once a tenth of the time has passed, if the latest units took
-// between half of and twice the average.
+// work takes long.
+//
+// A time is shown only if it is probably right within a factor of three. It follows from this run's
+// units, once a tenth of the time has passed, if the latest units took between half of and twice
+// the average.
 #ifndef RG_HARNESS_CONSOLE_PROGRESS_H
 #define RG_HARNESS_CONSOLE_PROGRESS_H
 

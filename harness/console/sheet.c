@@ -68,7 +68,7 @@ void rg_sheet_free(struct rg_sheet *sheet)
 // --- Markdown, aligned for readers of plain text ---
 
 // Column widths are multiples of this, so that a digit more or less in a new measurement does not
-// shift the columns beside it.
+// shift the other columns.
 enum { WIDTH_STEP = 8 };
 
 static int width_of(const struct rg_sheet *sheet, int column)

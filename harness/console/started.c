@@ -7,8 +7,8 @@
 
 #include "harness/console/clock.h"
 
-// The field of /proc/self/stat, counted behind the name, that tells it: in ticks, by a clock that
-// goes on while the machine sleeps.
+// The place of the start time in /proc/self/stat, counted from the process's name. It is in ticks
+// of a clock that goes on while the machine sleeps.
 enum { START_FIELD = 20 };
 
 static double start_ticks(void)

@@ -23,9 +23,9 @@ long rg_threads_most(void)
 
 static const char count_name[] = "OMP_NUM_THREADS", stderr_name[] = "RG_STDERR";
 
-// libgomp's threads spin for tens of milliseconds before they sleep, which on a busy machine blocks
-// the thread they wait for: frames can take ten times as long. Sets a millisecond, unless the user
-// has chosen. True if something changed.
+// libgomp's threads spin for tens of milliseconds before they sleep. On a busy machine this blocks
+// the thread that they wait for, and frames can take ten times as long. Sets a millisecond, unless
+// the user has chosen. True if something changed.
 static bool spin_briefly(void)
 {
     return !getenv("GOMP_SPINCOUNT") && !getenv("OMP_WAIT_POLICY") &&

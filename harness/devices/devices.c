@@ -90,7 +90,7 @@ void rg_devices_list(struct rg_device_list *list)
         rg_worker_destroy(workers[b]);
 }
 
-// Logs why there is no device, and returns false.
+// Logs why no device could be opened, and returns false.
 static bool tell_missing(enum rg_outcome outcome, const char *require, const char *why)
 {
     bool (*const tell)(const char *format, ...) = outcome == RG_LACKING ? rg_harness_error
@@ -125,7 +125,7 @@ static void leave_out(struct rg_devices *devices, const char *name, enum rg_outc
     snprintf(absent->why, sizeof(absent->why), "%.700s", why);
 }
 
-// For the failure that was just met.
+// Leaves out a device with the failure that was just met.
 static enum rg_outcome leave_out_failed(struct rg_devices *devices, const char *name)
 {
     const struct rg_failure failure = rg_failure_take();

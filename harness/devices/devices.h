@@ -5,20 +5,20 @@
 #include "core/device/device.h"
 
 // Lists the devices of every backend, each in a worker: a driver that crashes, hangs or prints does
-// no harm, and its backend is listed as missing with that outcome.
+// no harm. Its backend is then listed as missing, with that outcome.
 void rg_devices_list(struct rg_device_list *list);
-// Logs a line for each missing backend: a warning where it is unsupported, else an error. Returns
-// an enum rg_exit: fail where a driver failed.
+// Logs a line for each missing backend: a warning if it is unsupported, else an error. Returns an
+// enum rg_exit: fail if a driver failed.
 int rg_devices_complain(const struct rg_device_list *list);
 
 // Opens a device by name, in its own worker (harness/devices/workers/device.h). A name may include
 // an environment (harness/devices/names.h). NULL, and one logged line, on failure.
 struct rg_device *rg_devices_open_one(const char *name);
 
-// Opens the devices in `names`, in order: "all", or names separated by commas. An unknown name is
-// bad usage, an absent driver unsupported, a failing one a failure; if one is absent, the others
-// are opened and closed again. With "all", absent or failing ones are left out, with a line each.
-// Returns an enum rg_exit.
+// Opens the devices in `names`, in order: "all", or names separated by commas. Returns an enum
+// rg_exit. An unknown name is bad usage, an absent driver unsupported, a failing one a failure; if
+// one is absent, the others are opened and closed again. With "all", logs a line for each absent or
+// failing device and leaves it out.
 struct rg_devices {
     int count;
     struct rg_device *devices[RG_MAX_DEVICES];
@@ -44,10 +44,10 @@ int rg_devices_open_asked(const struct rg_devices_asked *asked, struct rg_device
 bool rg_devices_have(const struct rg_devices *devices, const char *require);
 // Whether a name in --require means this device: by its own name, or its backend's.
 bool rg_device_is_of(const char *device, const char *name);
-// The enum rg_exit for devices that were left out: fail where a driver failed.
+// The enum rg_exit for devices that were left out: fail if a driver failed.
 int rg_devices_exit(const struct rg_devices *devices);
 // Whether two devices may be compared (harness/devices/drivers/apart.h). False, and one logged
-// line, where both run one driver though their names choose two.
+// line, if both run one driver though their names choose two.
 bool rg_devices_are_apart(const struct rg_device_info *a, const struct rg_device_info *b);
 // Closes the devices; false on a leak, or if a driver crashes meanwhile.
 bool rg_devices_close(struct rg_devices *devices);

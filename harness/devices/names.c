@@ -38,7 +38,7 @@ static size_t short_length(const char *name)
     return name[length] == '=' ? length : 0;
 }
 
-// Splits off the short name, or replaces a short name by what it stands for.
+// Splits off the short name, or replaces a short name by the name that it stands for.
 static bool read_short(struct rg_device_name *name)
 {
     const size_t length = short_length(name->name);
@@ -95,7 +95,7 @@ static const char *copy_value(const char *from, char **to)
     return *from ? from + 1 : from;
 }
 
-// Copies a variable's name and its '='. NULL where there is none.
+// Copies a variable's name and its '='. NULL if there is none.
 static const char *copy_key(const char *from, char **to)
 {
     const size_t length = strcspn(from, "=");
@@ -110,7 +110,7 @@ static const char *copy_key(const char *from, char **to)
 }
 
 // Bad thread counts of the whole process are corrected (harness/console/threads.h). Those in a
-// device's name are in every record, so they must be what runs, and are refused.
+// device's name are refused: every record has the name, so it must be true.
 static bool has_sound_threads(const struct rg_device_name *name)
 {
     const char *given = rg_environment_find(name->environment, "OMP_NUM_THREADS");

@@ -28,15 +28,16 @@ bool rg_device_names_check(const char *given_to, const char *names);
 // logged line, if not.
 bool rg_device_names_one(const char *names, const char *command);
 
-// Reads the first of several names separated by commas, and moves `*names` behind it and its comma.
-// Remembers a short name. False, and one logged line, where the name is empty, too long or
-// malformed, or where the short name already means another device.
+// Reads the first of several names separated by commas, and moves `*names` past it and its comma.
+// Remembers a short name. False, and one logged line, if the name is empty, too long or malformed,
+// or if the short name already means another device.
 bool rg_device_name_read(const char **names, struct rg_device_name *name);
 
-// The name that a short name stands for, valid for the process's life; else `name` itself.
+// The name that a short name stands for, valid for the process's life; for any other name `name`
+// itself.
 const char *rg_device_name_full(const char *name);
 
-// A device's name with one more variable, quoted if necessary. False, and one logged line, where it
+// A device's name with one more variable, quoted if necessary. False, and one logged line, if it
 // gets too long.
 bool rg_device_name_with(const char *name, const char *key, const char *value,
                          char with[RG_DEVICE_NAME_SIZE]);

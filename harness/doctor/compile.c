@@ -11,13 +11,13 @@
 #include "harness/devices/workers/device.h"
 #include "harness/devices/frames/digests.h"
 
-// Slots hold zeros, more than one item without parameters reads.
+// Slots hold zeros, enough for all that one item without parameters reads.
 enum { BUFFER_ELEMENTS = 4096, IMAGE_PX = 16, IMAGE_LAYERS = 6 };
 
 struct pair {
     struct rg_device *device, *reference;
     int compiled, ran;
-    int exit;         // what the failures come to
+    int exit;         // enum rg_exit of the failures
     json_t *failures; // {kernel, status, why} each
 };
 
@@ -83,12 +83,13 @@ static bool is_harmless(const struct rg_kernel *kernel, struct rg_device *refere
 
 // --- compiling ---
 
-// What failed has been logged, and its device may have to be opened anew.
+// Notes a failure, which has been logged, and renews the worker: the device may have to be opened
+// anew.
 static void note(struct pair *p, const struct rg_kernel *kernel)
 {
     const struct rg_failure failure = rg_failure_take();
     if (failure.outcome == RG_UNSUPPORTED)
-        return; // it has no room for it, which is no fault
+        return; // the device lacks room for the kernel, which is no fault
     p->exit = rg_exit_worse(p->exit, rg_exit_of(failure.outcome));
     json_array_append_new(p->failures,
                           json_pack("{ss ss ss}", "kernel", kernel->name, "status",

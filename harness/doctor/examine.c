@@ -16,7 +16,7 @@ int rg_examination_failures(const struct rg_examination *examination)
     return failures;
 }
 
-// Ends it with the failure that was just met.
+// Ends the examination with the failure that was just met.
 static void fail(struct rg_examination *examination)
 {
     const struct rg_failure failure = rg_failure_take();

@@ -14,7 +14,7 @@ static void print_label(const char *label)
     printf("  %-*s", LABEL - 2, label);
 }
 
-// Prints text beside a label, broken at spaces.
+// Prints a label, and text next to it, broken at spaces.
 static void print_field(const char *label, const char *text)
 {
     const int room = WIDTH - LABEL;

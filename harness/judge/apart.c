@@ -4,8 +4,8 @@
 
 #include "harness/judge/inside.h"
 
-// The standard error of Hodges' and Lehmann's estimate is this factor above that of a difference of
-// means, for normal noise: the root of its efficiency, 3 / pi.
+// The factor from the standard error of a difference of means to that of Hodges and Lehmann's
+// estimate, for normal noise: the root of the estimate's efficiency, 3 / pi.
 #define OF_SHIFT 0.9772
 
 // A sample's launches, or means of groups of them, sorted.

@@ -37,7 +37,7 @@ enum rg_course_end {
     RG_END_LOOKS,       // no look is left
     RG_END_OVER,        // is_over
     RG_END_DISTURBED,   // three of four launches did not count
-    RG_END_BROKEN,      // the source supplied no more times of it
+    RG_END_BROKEN,      // the source had no more times for the row
     RG_END_UNCONFIRMED, // the second measurement gave another verdict
 };
 

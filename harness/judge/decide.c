@@ -7,8 +7,9 @@
 #include "harness/judge/inside.h"
 #include "harness/judge/stats.h"
 
-// Launches are averaged in pairs, and pairs in pairs again, if their lag-1 autocorrelation is above
-// this and above what independent launches exceed by chance in one of twenty cases.
+// Launches are averaged in pairs, and pairs in pairs again, if their lag-1 autocorrelation exceeds
+// two bounds: this one, and the one that independent launches exceed by chance in one of twenty
+// cases.
 #define CORRELATED 0.2
 #define NORMAL_95  1.645 // the normal distribution's quantile of 0.95
 // Fewer launches cannot show their autocorrelation.

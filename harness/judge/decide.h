@@ -1,14 +1,14 @@
 // Decides whether one of two sides takes longer than the other, from times that were taken in turn.
 //
 // The unit is a launch: both sides are started anew and timed in an ABBA block, four times in the
-// order ABBA or BAAB, which gives one number (rg_block_log_ratio). Launches differ more than the
-// times within one, for instance by where a process lies in memory, so launches are counted.
+// order ABBA or BAAB. The block gives one number (rg_block_log_ratio). Launches differ more than
+// the times within one, for instance by where a process lies in memory, so launches are counted.
 //
 // The interval is that of the sign test, which is exact for any distribution. A verdict needs both:
 // the interval excludes no change, and the change matters. Nothing here reads a clock.
 //
-// If A's times were taken earlier, there are no blocks: each launch of a side gives the logarithm
-// of a time, and the interval is Mann's and Whitney's (judge/shift.h).
+// If A's times were taken earlier, there are no blocks. Each launch of a side then gives the
+// logarithm of a time, and the interval is Mann's and Whitney's (judge/shift.h).
 #ifndef RG_HARNESS_JUDGE_DECIDE_H
 #define RG_HARNESS_JUDGE_DECIDE_H
 
@@ -52,7 +52,7 @@ double rg_block_log_ratio(const double a_ms[2], const double b_ms[2]);
 struct rg_gate_decision {
     enum rg_verdict_of_two verdict;
     double ratio, low, high; // the median, and the look's interval: 0 and INFINITY without one
-    double shift;            // Hodges' and Lehmann's estimate of the ratio, reported beside it
+    double shift;            // Hodges' and Lehmann's estimate of the ratio, for the report
     double smallest;         // smallest change that would have been noticed with 95 %: 0.02 is 2 %
     double spread;           // robust standard deviation of a launch's logarithm
     double error;            // standard deviation of the ratio's logarithm

@@ -19,8 +19,8 @@ double rg_gate_upper_quantile(double probability);
 // The error probability of each end of a look's interval.
 double rg_gate_tail(const struct rg_gate_rule *rule);
 
-// Fills in ratio, interval, smallest and verdict from the interval of a logarithm, whose ends are
-// NAN if there is none, and from the decision's error.
+// Fills in ratio, interval, smallest and verdict. They follow from the interval of a logarithm,
+// whose ends are NAN if there is none, and from the decision's error.
 void rg_gate_conclude(const struct rg_gate_rule *rule, const struct rg_interval *of,
                       struct rg_gate_decision *decision);
 

@@ -13,7 +13,7 @@ const struct rg_settle_rule rg_settle_rule = {
 
 // --- one part ---
 
-// How a part stands: the interval of its median, and what that says.
+// The state of a part: the interval of its median, and the verdict of that.
 struct standing {
     enum rg_settled settled;
     struct rg_interval of, strict; // strict: for a failure, which any of the parts may be
@@ -25,7 +25,7 @@ static double tail_of(const struct rg_settle_rule *rule)
     return rule->error / rule->look_count / 2;
 }
 
-// Whether an interval contains a bound and lies within `near` of it.
+// Whether an interval contains a bound and lies within `near` on both sides of it.
 static bool is_at(const struct rg_interval *of, double bound, double near)
 {
     return of->low <= bound && of->high >= bound && of->low >= bound - near &&
@@ -46,7 +46,7 @@ static enum rg_settled stands(const struct rg_settle_rule *rule, const struct rg
     return RG_SETTLED_OPEN;
 }
 
-// How a part stands by `count` of its launches, the first of which is `from`.
+// The state of a part by `count` of its launches, from number `from` on.
 static struct standing stand(const struct rg_settle_rule *rule, const struct rg_settle_part *part,
                              int part_count, int from, int count)
 {
@@ -82,7 +82,7 @@ static enum rg_settled look(const struct rg_settle_rule *rule, enum rg_settle_jo
                             const struct rg_settle_part *parts, int part_count, int from, int count,
                             struct rg_settling *s)
 {
-    // From the best to the worst of what parts may be.
+    // Ranks of verdicts, from the best to the worst.
     static const int ranks[] = {[RG_SETTLED_HOLDS] = 0,
                                 [RG_SETTLED_AT_BOUND] = 1,
                                 [RG_SETTLED_OPEN] = 2,
@@ -106,8 +106,8 @@ static enum rg_settled look(const struct rg_settle_rule *rule, enum rg_settle_jo
 
 // --- how many launches it would take ---
 
-// The launches after which a claim's open part would probably be settled: when its interval
-// excludes the bound that is nearest, or lies within `near` of it.
+// The launches after which a claim's open part would probably be settled: its interval then
+// excludes the nearest bound, or lies within `near` of it.
 static int needed_for(const struct rg_settle_rule *rule, const struct rg_settle_part *part,
                       struct rg_settling *s, int count)
 {

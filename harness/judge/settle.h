@@ -3,8 +3,8 @@
 // The unit is a launch: a new process, which gives one value for each part of the claim. A part
 // holds if its median lies between two bounds. The interval is that of the sign test, over groups
 // of launches if neighbours are correlated. A claim is looked at after 12, 24, 48 and 96 launches,
-// which share the error; if it holds or fails, as many launches again have to say the same.
-// Launches that others disturbed are left out before; nothing here knows of them.
+// which share the error. If it holds or fails, as many launches again have to confirm it. The
+// caller leaves out launches that others disturbed.
 #ifndef RG_HARNESS_JUDGE_SETTLE_H
 #define RG_HARNESS_JUDGE_SETTLE_H
 
@@ -23,7 +23,7 @@ struct rg_settle_rule {
 };
 extern const struct rg_settle_rule rg_settle_rule;
 
-// A part of a claim. It holds where the median of its values is between the bounds.
+// A part of a claim. It holds if the median of its values is between the bounds.
 struct rg_settle_part {
     const double *values; // logarithms of ratios, one a launch, in the order of launches
     double least, most;   // -INFINITY, INFINITY: no such bound
@@ -46,11 +46,11 @@ struct rg_settling {
     enum rg_settled settled;
     int launches;          // launches that were looked at
     int more;              // open: launches until the next look; 0: no look is left
-    int part;              // the part that decided, or keeps it open
+    int part;              // the part that decided, or that is still open
     struct rg_interval of; // its median and interval at the last look; ends NAN: too few launches
     double spread;         // robust standard deviation of a launch's value, of that part
     int needed;            // open: launches that would probably settle it, a look's number
-    bool is_unconfirmed;   // open: the second half contradicts the first, or leaves it open
+    bool is_unconfirmed;   // open: the second half contradicts the first, or does not settle
 };
 
 // Settles a claim by its parts (at least one), all of them with values of the same launches, of
@@ -58,8 +58,8 @@ struct rg_settling {
 struct rg_settling rg_settle(const struct rg_settle_rule *rule, enum rg_settle_join join,
                              const struct rg_settle_part *parts, int part_count, int launches);
 
-// The same of a single launch, or of medians: without interval, course and confirmation. HOLDS,
-// FAILS, or AT_BOUND where a part that decides is within `near` of its bound.
+// The same for a single launch, or for medians: without interval, course and confirmation. HOLDS,
+// FAILS, or AT_BOUND if a part that decides is within `near` of its bound.
 enum rg_settled rg_settle_once(const struct rg_settle_rule *rule, enum rg_settle_join join,
                                const struct rg_settle_part *parts, int part_count, int *part);
 

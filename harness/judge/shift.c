@@ -7,8 +7,8 @@
 enum { PAIRS = RG_SHIFT_SAMPLES * RG_SHIFT_SAMPLES, HALF = PAIRS / 2 + 1 };
 
 // The probabilities that, for two samples from one distribution, exactly u of all pairs have b
-// above a, for each u up to half of the pairs. The smallest value is either an a, with all b's
-// above it, or a b, which is above no a: this gives a recursion over the samples' sizes.
+// above a, for each u up to half of the pairs. A recursion over the samples' sizes gives them: the
+// smallest value is either an a, with all b's above it, or a b, which is above no a.
 static const double *distribution(int a_count, int b_count)
 {
     static double of[RG_SHIFT_SAMPLES + 1][HALF]; // by the number of b's

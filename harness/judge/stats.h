@@ -10,14 +10,14 @@ struct rg_interval {
 };
 
 // The median of `count` samples (at least 1; sorted in place), and an interval that contains the
-// true median with at least 95 % confidence, by order statistics (the sign test's interval): exact
-// for independent samples of any distribution. With fewer than RG_LEAST_SAMPLES there is none, and
-// its ends are NAN.
+// true median with at least 95 % confidence. The interval is that of the sign test, by order
+// statistics, and is exact for independent samples of any distribution. With fewer than
+// RG_LEAST_SAMPLES there is none, and its ends are NAN.
 struct rg_interval rg_median(double *samples, int count);
-// The same with an interval that the true median is below, and above, with a probability of at most
-// `tail` each; its ends are NAN where the samples are too few.
+// The same with another interval: the true median is below it, and above it, with a probability of
+// at most `tail` each. Its ends are NAN if the samples are too few.
 struct rg_interval rg_median_at(double *samples, int count, double tail);
-// The same of samples that are sorted already.
+// The same for samples that are sorted already.
 struct rg_interval rg_median_sorted(const double *sorted, int count, double tail);
 
 #endif

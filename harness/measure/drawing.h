@@ -18,11 +18,11 @@ struct rg_drawing {
 };
 
 // Draws panes that hide and show through each other, with depth and blending, to each format, and
-// compares colour and depth. False, and one logged line, where the device failed.
+// compares colour and depth. False, and one logged line, if the device failed.
 bool rg_drawing_check(struct rg_device *device, struct rg_drawing *drawing);
 
-// Whether the number of differing pixels is acceptable: 0 on devices of T0; on others one in 1,000,
-// where a pixel counts if a colour is off by more than two codes.
+// Whether the number of differing pixels is acceptable: 0 on devices of T0, one in 1,000 on others.
+// A pixel counts if a colour is off by more than two codes.
 bool rg_drawn_is_well(const struct rg_drawn *drawn, enum rg_tier tier);
 
 #endif

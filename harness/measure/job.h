@@ -14,7 +14,7 @@ struct rg_job {
     struct rg_device *device;
     int check_frames; // simulated before the image is compared, at least 1
     // Frames after the check frames that are timed, repeatedly from sessions opened anew; 0: any
-    // later frames. A technique whose frames change over time, as water gathers, is so timed at one
+    // later frames. So a technique whose frames change over time, as water gathers, is timed at one
     // age.
     int window_frames;
     const char *const *counted; // counters whose growth in a frame is recorded; NULL: none
@@ -34,9 +34,9 @@ struct rg_measure_options {
     // Takes samples up to this share of all, so that the job can be visited again; 0: all.
     double share;
     void (*load)(void); // timed between rounds, to show drift of the machine; NULL: none
-    // Reads what others take of the machine (harness/measure/others.h); NULL: that is not known.
+    // Reads how much others take of the machine (harness/measure/others.h); NULL: unknown.
     rg_watch *watch;
-    double end_ms; // by rg_now_ms, by when disturbed samples may be taken again; 0: no limit
+    double end_ms; // deadline by rg_now_ms for taking disturbed samples again; 0: no limit
     // Called with the share of the expected time of a call that has passed; NULL: not called.
     void (*progress)(double share, void *user);
     void *user;
@@ -54,9 +54,9 @@ bool rg_job_check(struct rg_job *job, const struct rg_expected *expected);
 bool rg_job_count(struct rg_job *job);
 bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options);
 
-// Reopens a job's session up to its check frames if it is closed, if its worker has crashed in
-// another job's call, or if this many more frames would leave the window. Ends the record on
-// failure.
+// Reopens a job's session up to its check frames in three cases: it is closed, its worker has
+// crashed in another job's call, or this many more frames would exceed the window. Ends the record
+// on failure.
 bool rg_job_be_ready(struct rg_job *job, int frames);
 // The wall time of each of some frames, between full syncs. Ends the record on failure.
 double rg_job_time(struct rg_job *job, int frames);

@@ -88,14 +88,14 @@ struct rounds {
     bool *is_begun;    // by job: it has samples from an earlier visit
     int all;           // total number of rounds, which is the longest job's number of samples
     struct rg_calibration calibration;
-    // A batch: samples between two readings of what others take of the machine.
+    // A batch: samples between two readings of how much others take of the machine.
     rg_watch *watch;
     struct rg_processors before; // when it began
     int *first, *last;           // by job: its samples in the batch
     pid_t ours[RG_MAX_DEVICES];  // processes of the jobs' devices
     int our_count;
     double end_ms; // as in struct rg_measure_options
-    int patience;  // batches that may still stay disturbed before none is taken again
+    int patience;  // disturbed batches left until none is taken again
 };
 
 // Decides how the measurable jobs are sampled.
@@ -118,9 +118,9 @@ static void begin(struct rounds *r, struct rg_job *jobs, int count,
 
 // --- what others take ---
 
-// Linux tells idle time to 10 ms, so a batch takes this much of the processors' time, or it ends
-// with the last round. A disturbed batch is taken again so many times. A machine that stays busy
-// over some batches is not waited for.
+// Linux tells idle time to 10 ms, so a batch takes this much of the processors' time, or ends with
+// the last round. A disturbed batch is taken again up to this many times. If the machine stays busy
+// over some batches, none is taken again until one is undisturbed.
 enum { BATCH_MS = 500, RETAKES = 2, PATIENCE = 3 };
 
 static void find_ours(struct rounds *r)
@@ -147,7 +147,7 @@ static void begin_batch(struct rounds *r)
     r->before = r->watch(r->ours, r->our_count);
 }
 
-// Notes what others took since the batch began in each of its samples. Returns whether that was too
+// Notes in each sample of the batch how much others took during it. Returns whether that was too
 // much.
 static bool is_disturbed(struct rounds *r)
 {
@@ -189,7 +189,7 @@ static void take_again(struct rounds *r)
         r->jobs[r->order[i]].record->sample_count = r->last[r->order[i]];
 }
 
-// Whether the time has room for the batch once more.
+// Whether there is time to take the batch once more.
 static bool has_time(const struct rounds *r)
 {
     const double now_ms = rg_now_ms();
@@ -215,7 +215,7 @@ static bool is_long(const struct rounds *r)
     return (rg_now_ms() - r->before.at_ms) * r->before.count >= BATCH_MS;
 }
 
-// False where no job took a sample.
+// False if no job took a sample.
 static bool do_round(struct rounds *r, int round)
 {
     bool any = false;

@@ -10,12 +10,12 @@
 // Times all prepared jobs whose records are ok. An interruption (harness/console/interrupt.h) ends
 // it between two samples, with incomplete records.
 //
-// With options->share, or after an interruption, a record keeps its samples and how many are
-// wanted; another call takes the rest, even for jobs whose sessions were closed, and for records
-// read from a file.
+// With options->share, or after an interruption, a record keeps its samples and the number wanted.
+// Another call takes the rest, even for jobs whose sessions were closed, and for records read from
+// a file.
 void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_options *options);
-// The expected duration of that call in milliseconds, from the last frame of each warm-up, with the
-// sessions that are opened anew for windows of frames; without reopening what was closed.
+// The expected duration of that call in milliseconds, from the last frame of each warm-up. It
+// includes sessions that are opened anew for windows of frames, but not reopening closed ones.
 double rg_jobs_expected_ms(const struct rg_job *jobs, int count,
                            const struct rg_measure_options *options);
 

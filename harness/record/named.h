@@ -27,8 +27,8 @@ struct rg_count {
 // Copies text so that JSON and terminals accept it: whole UTF-8 characters, as many as fit,
 // question marks for invalid bytes, control characters replaced (core/base/text/plain.h).
 void rg_text_copy(char *to, size_t size, const char *from);
-// A number as it is after writing and reading a document: rounded to RG_NUMBER_DIGITS; NAN where
-// JSON has no such number.
+// A number as it is after writing and reading a document: rounded to RG_NUMBER_DIGITS; NAN if JSON
+// has no such number.
 double rg_number_kept(double number);
 
 void rg_named_set_text(struct rg_named *named, const char *name, const char *text);
@@ -39,7 +39,7 @@ void rg_facts_copy(struct rg_named *named, const struct rg_fact *facts, int coun
 void rg_counters_copy(struct rg_count *counts, const struct rg_counter *counters, int count);
 
 // Prints "model bunny.obj, faces 69666": the values whose names are not in `except`
-// (NULL-terminated; NULL: all). "" where there is none.
+// (NULL-terminated; NULL: all). "" if there is none.
 void rg_named_text(const struct rg_named *named, int count, const char *const *except, char *text,
                    size_t size);
 
@@ -50,10 +50,10 @@ const double *rg_named_number(const struct rg_named *named, int count, const cha
 json_t *rg_named_json(const struct rg_named *named, int count);
 json_t *rg_counts_json(const struct rg_count *counts, int count);
 
-// A JSON number, without a point where it is whole; null for infinity and NaN, which JSON lacks.
+// A JSON number, without a point if it is whole; null for infinity and NaN, which JSON lacks.
 json_t *rg_number_json(double number);
-// Sets "status" to an outcome's word. A want of raingauge's own is an "error", as older readers
-// know it, with its "fault" beside it.
+// Sets "status" to an outcome's word. RG_LACKING and RG_SETUP have the word "error", which older
+// readers know, and a "fault" that tells which.
 void rg_outcome_set(json_t *json, enum rg_outcome outcome);
 
 // A JSON string of text from outside, as rg_text_copy copies it, of any length.

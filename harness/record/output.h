@@ -15,19 +15,19 @@ enum {
     RG_OUTPUT_TABLE_BYTES = 1 << 13, // least bytes of a table's files
 };
 
-// Writes files that belong together: either all are replaced or none. They are first written under
-// other names, which is where failures occur, and then renamed. The folder is made as below.
+// Writes files that belong together: either all are replaced or none. First writes them under other
+// names, when failures occur, and then renames them. The folder is made as below.
 bool rg_output_write_set(const char *folder, const struct rg_output_file *files, int count);
 
 // Writes `text` to FOLDER/NAME by a temporary file that is renamed. The last part of the folder's
-// path is made if missing. False, with one logged line and nothing left behind, on failure.
+// path is made if missing. False, with one logged line and no partial file, on failure.
 bool rg_output_write(const char *folder, const char *name, const char *text);
 
 // The same for a path.
 bool rg_output_write_file(const char *path, const char *text);
 
-// Whether files of this many bytes can be written into a folder, to be asked before any work. A
-// missing last part counts as writable, and is not made yet. False, and one logged line.
+// Checks before any work that files of this many bytes can be written into a folder. A missing last
+// part counts as writable, and is not made yet. False, and one logged line, if not.
 bool rg_output_can_be_written(const char *folder, int64_t bytes);
 
 // The same for a file of this many bytes, whose folder must exist.
@@ -36,8 +36,9 @@ bool rg_output_file_can_be_written(const char *path, int64_t bytes);
 // Whether a file of this name in a folder can be replaced (false if read-only), or does not exist.
 bool rg_output_can_be_replaced(const char *folder, const char *name);
 
-// A name as a part of a file's: what may steer a shell or name a folder becomes '_', and what would
-// make two names one, or one too long, is told apart by a hash of the whole.
+// Makes a name part of a file's name. Characters that could steer a shell or name a folder become
+// '_'. If that could make two names equal, or if the name is too long, a hash of the whole name is
+// added.
 enum { RG_OUTPUT_PART = 120 };
 void rg_output_part(const char *name, char part[RG_OUTPUT_PART]);
 

@@ -1,6 +1,5 @@
-// A record: the plain data that one cell of a table leaves behind. Without pointers or open
-// devices, it outlives the job that made it (harness/measure/job.h), and may come from a file or
-// another process.
+// A record: the plain data of one cell of a table. Without pointers or open devices, it outlives
+// the job that made it (harness/measure/job.h), and may come from a file or another process.
 #ifndef RG_HARNESS_RECORD_RECORD_H
 #define RG_HARNESS_RECORD_RECORD_H
 
@@ -23,7 +22,7 @@ enum {
 
 // The largest share of the processors that others may take from an undisturbed sample.
 #define RG_MOST_TAKEN 0.05
-// An interval's high end by its low one, from which on a number is marked.
+// Ratio of an interval's ends from which on a number is marked.
 #define RG_WIDE_INTERVAL 1.1
 
 struct rg_pass_time {
@@ -66,14 +65,14 @@ struct rg_record {
     // Outcome
     enum rg_outcome outcome;
     char detail[RG_DETAIL_SIZE];       // why the outcome is not OK
-    struct rg_truth_error truth_error; // where the table has a truth; the same on every device
+    struct rg_truth_error truth_error; // if the table has a truth; the same on every device
     // Measurements
     double create_ms;      // opening: buffers, inputs, and compiling done then
     double first_frame_ms; // first step and drawing, including compiling done then
     int frames_a_sample, sample_count;
     int wanted_samples;                // target number; with fewer the cell is incomplete
     double samples_ms[RG_MAX_SAMPLES]; // time of a frame, in the order of sampling
-    bool is_watched;                   // what others took is known
+    bool is_watched;                   // the share that others took is known
     double taken[RG_MAX_SAMPLES];      // share of the processors that others took in each sample
     int retaken;                       // samples that were taken again because others took more
     struct rg_interval frame_ms;       // from the samples
@@ -114,18 +113,18 @@ bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char
 // The same with the failure that was just met (rg_failure_take).
 bool rg_record_end_by_error(struct rg_record *record);
 
-// Rounds the record's numbers to the digits of documents, and computes frame_ms from its samples,
-// so that a record prints the same before writing and after reading.
+// Rounds the record's numbers to the digits of documents, and computes frame_ms from its samples.
+// So a record prints the same before writing and after reading.
 void rg_record_settle(struct rg_record *record);
 
 // Whether the record is complete: it ended, or all samples were taken and the passes timed.
 bool rg_record_is_whole(const struct rg_record *record);
 // The number of samples in which others took more than RG_MOST_TAKEN.
 int rg_record_disturbed(const struct rg_record *record);
-// By how much its frame rate is uncertain, as a share of it: half the width of the 95 % interval,
-// by its logarithm. 0 if the interval is no wider than RG_WIDE_INTERVAL times.
+// The relative uncertainty of its frame rate: half the width of the 95 % interval, by its
+// logarithm. 0 if the interval is no wider than RG_WIDE_INTERVAL times.
 double rg_record_noise(const struct rg_record *record);
-// How its number is marked: "+-22%", "+-22% busy", "busy"; "": not at all.
+// The mark of its number: "+-22%", "+-22% busy", "busy"; "": none.
 enum { RG_MARK_SIZE = 24 };
 void rg_record_mark(const struct rg_record *record, char mark[RG_MARK_SIZE]);
 // Frames a second: 1000 over the median of frame_ms.
@@ -139,11 +138,11 @@ double rg_record_drift(const struct rg_record *a, const struct rg_record *b);
 double rg_record_passes_ms(const struct rg_record *record);
 // The printed frame rate; NAN if there is none.
 double rg_record_published_fps(const struct rg_record *record);
-// The lowest and highest printed frame rate, where times from `ms_per_frame_min` to
-// `ms_per_frame_max` are printed; else both are the one above.
+// The lowest and highest printed frame rate, if times from `ms_per_frame_min` to `ms_per_frame_max`
+// are printed; else both are the one above.
 void rg_record_published_range(const struct rg_record *record, double *low, double *high);
-// Whether it drew more or fewer particles than printed by more than a factor of 1.2, so that it is
-// no measure of the printed work; `*apart` (may be NULL) gets the ratio, at least 1.
+// Whether its number of particles differs from the printed one by more than a factor of 1.2, so
+// that it does not measure the printed work; `*apart` (may be NULL) gets the ratio, at least 1.
 bool rg_record_is_other_work(const struct rg_record *record, double *apart);
 // The name of its row: "glass with bunny", "texture_px 128", "local_height_m 5, camera 1", "all,
 // merge on". A name comes first, without its column's name.

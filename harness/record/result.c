@@ -180,7 +180,7 @@ bool rg_result_next(const struct rg_result *result, struct rg_place *at)
     return false;
 }
 
-// Where a cell of one result stands in another; false where that has it not.
+// Finds a record's cell in another result; false if that lacks it.
 static bool find_place(const struct rg_result *in, const struct rg_record *record, int row,
                        struct rg_place *at)
 {

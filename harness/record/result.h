@@ -1,5 +1,5 @@
 // A result: a measured table, as plain data. Code that prints or compares tables works on results:
-// it opens no device, and does not depend on where a result came from.
+// it opens no device, and does not depend on a result's origin.
 #ifndef RG_HARNESS_RECORD_RESULT_H
 #define RG_HARNESS_RECORD_RESULT_H
 
@@ -21,32 +21,33 @@ enum {
 struct rg_result_work {
     char name[RG_NAME_SIZE];     // "paper": all printed work; "reading"; "ours"; "queries"
     char saves[RG_TITLE_SIZE];   // one line about what saves work; "": nothing
-    char reading[RG_TITLE_SIZE]; // one line about how the paper is read; "": unambiguous
+    char reading[RG_TITLE_SIZE]; // one line about the reading of the paper; "": unambiguous
 };
 
 struct rg_result {
     char table[RG_NAME_SIZE]; // "creus-5.4"
     char technique[RG_NAME_SIZE];
     char hardware[RG_TITLE_SIZE]; // the paper's hardware; "": nothing is published
-    // Settings, over a row's own, of the true image for a row's error; "": rows have no error.
+    // Settings, over a row's own, for the true image in a row's error; "": rows have no error.
     char truth[RG_TITLE_SIZE];
     char quick[RG_TITLE_SIZE]; // settings of quick mode; "": none
     // The user's settings over all others; "": none. With any, no cell does the printed work.
     char changed[RG_SET_SIZE];
-    char note[RG_NOTE_SIZE]; // what a reader of the table must know
+    char note[RG_NOTE_SIZE]; // note that readers of the table need
     bool full;               // else quick
     bool is_of_textures;     // nothing is timed
-    bool is_part;      // of what is stored, for printing: claims are not judged by it. Not stored
+    bool is_part;      // for printing only a part of a stored result: claims are not judged by it.
+                       // Not stored
     int width, height; // of the image, in pixels
     int check_frames;  // simulated and drawn before images are compared
     int first_row, last_row; // of the table, from 0
-    // What a budget of seconds chose (harness/tables/runs/budget.h); 0: there was none.
+    // The choices of a time budget (harness/tables/runs/budget.h), its seconds; 0: there was none.
     double budget_s;
-    int size_divisor;              // width and height are those of the table by this; 0: as 1
+    int size_divisor;              // width and height are the table's divided by this; 0: as 1
     bool few_samples;              // the fewest
-    bool left_out[RG_RESULT_ROWS]; // of first_row and those behind it: not to be measured
-    int resumed_rows;              // not measured now but by an earlier run that was interrupted
-    int work_count;                // 0: the table does not tell works apart
+    bool left_out[RG_RESULT_ROWS]; // from first_row on: rows that are not measured
+    int resumed_rows;              // taken from an interrupted run, not measured now
+    int work_count;                // 0: the table has no works
     struct rg_result_work works[RG_RESULT_WORKS];
     int variant_count;
     char variants[RG_RESULT_VARIANTS][RG_NAME_SIZE];
@@ -90,17 +91,17 @@ int rg_result_first_missing(const struct rg_result *result);
 // Adds zeroed records for a row. False, with one logged line, when memory runs out.
 bool rg_result_add_row(struct rg_result *result, int row);
 void rg_result_drop_row(struct rg_result *result, int row);
-// Copies into rows that are there the cells that another result has of the same row, work, variant
-// and device.
+// Copies the cells of another result into existing rows, for the same row, work, variant and
+// device.
 void rg_result_take(struct rg_result *into, const struct rg_result *from);
-// Leaves out the rows before `first` and behind `last`, or the cells of other works, or of other
-// variants. A table that does not tell works apart stays as it is. False where nothing is left.
+// Drops the rows before `first` and after `last`, or the cells of other works, or of other
+// variants. A table without works stays as it is. False if nothing is left.
 bool rg_result_keep_rows(struct rg_result *result, int first, int last);
 bool rg_result_keep_work(struct rg_result *result, const char *work);
 bool rg_result_keep_variant(struct rg_result *result, const char *variant);
 // Whether a work's cells do the printed work, and may be compared with print.
 bool rg_result_is_of_print(const struct rg_result *result, int work);
-// The printed work, in the first of its readings; -1 where the result lacks it.
+// The printed work, in the first of its readings; -1 if the result lacks it.
 int rg_result_printed_work(const struct rg_result *result);
 
 // The least and most samples of its measured cells; 0 if there are none.

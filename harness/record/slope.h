@@ -16,14 +16,14 @@ struct rg_slope_point {
 enum { RG_SLOPE_POINTS = 256, RG_SLOPE_SAMPLES = 256 };
 
 // The weight of each y in the slope of the least-squares lines through (x, y): the slope is the sum
-// of weight * y. All are NAN where no group has two different x.
+// of weight * y. All are NAN if no group has two different x.
 void rg_slope_weights(const struct rg_slope_point *points, int count, double *weights);
 
-// The slope of the logarithm of the samples' medians, with its 95 % interval by bootstrap: each
-// point's samples are drawn with replacement, 2000 times, and the middle 95 % of the resulting
-// slopes are the interval (Efron's percentiles). Draws are always the same. If the load's times
-// also have a slope, the interval is widened by it on either side. No interval where a point has
-// fewer than RG_LEAST_SAMPLES; all NAN without weights.
+// The slope of the logarithm of the samples' medians, with its 95 % interval by bootstrap. Each
+// point's samples are drawn with replacement, 2000 times, always in the same way. The interval is
+// the middle 95 % of the resulting slopes (Efron's percentiles). If the load's times also have a
+// slope, it widens the interval on either side. No interval if a point has fewer than
+// RG_LEAST_SAMPLES; all NAN without weights.
 struct rg_interval rg_slope_resampled(const struct rg_slope_point *points, int count);
 
 #endif

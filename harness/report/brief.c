@@ -10,7 +10,7 @@
 
 enum { ROOM_FOR_END = 500, MOST_TEXT = 300, WORST = 3 };
 
-// Text that is being written, of which parts that find no room are counted.
+// A text that is written, with the number of parts that had no room.
 struct brief {
     FILE *out;
     size_t size;
@@ -34,8 +34,8 @@ static void __attribute__((format(printf, 2, 3))) put(struct brief *brief, const
     fwrite(line, 1, (size_t)length, brief->out);
 }
 
-// A field's text without what Markdown or HTML would take for a mark, in one line. An `@` would
-// call the user of that name.
+// A field's text in one line, with the marks of Markdown and HTML escaped. An `@` is replaced,
+// because it would call the user of that name.
 static const char *text_of(const json_t *object, const char *field, char text[4 * MOST_TEXT])
 {
     const char *from = json_string_value(json_object_get(object, field));
@@ -63,7 +63,7 @@ static bool is(const json_t *object, const char *field, const char *value)
     return text && !strcmp(text, value);
 }
 
-// The index of the last record of a kind; the number of records where there is none.
+// The index of the last record of a kind; the number of records if there is none.
 static size_t last_of(const struct rg_page *page, const char *kind)
 {
     size_t i, last = json_array_size(page->records);
@@ -75,8 +75,8 @@ static size_t last_of(const struct rg_page *page, const char *kind)
     return last;
 }
 
-// Calls `tell` for each element of an array of the records of a kind. Of gates only the last is
-// told: those before it are the history that the page shows.
+// Calls `tell` for each element of an array in the records of a kind. Earlier gates than the last
+// are left out: they are the history that the page shows.
 static void each(const struct rg_page *page, const char *kind, const char *array,
                  void (*tell)(const json_t *element, void *user), void *user)
 {
@@ -97,7 +97,7 @@ static void each(const struct rg_page *page, const char *kind, const char *array
 
 struct finding {
     struct brief *brief;
-    const char *wanted; // the ending that is told now
+    const char *wanted; // the ending that is printed now
     int count, most;
 };
 
@@ -125,7 +125,7 @@ static void tell_check(const json_t *element, void *user)
         text_of(element, "device", device), text_of(element, "detail", detail));
 }
 
-// The worst of what gates and verify found, no more than `most`; how many.
+// Prints the worst findings of gates and verify, at most `most`; returns their number.
 static int tell_findings(const struct rg_page *page, struct brief *brief, int most)
 {
     static const char *const statuses[] = {"crash", "timeout", "error", "fail"};
@@ -286,7 +286,7 @@ char *rg_page_markdown(const struct rg_page *page)
 
 // --- the badge ---
 
-// The key of the paper that all claims are of; "raingauge" where they are of several.
+// The key of the paper that all claims are about; "raingauge" if there are several papers.
 static void title_of(const json_t *claims, char title[48])
 {
     size_t i;
@@ -303,7 +303,7 @@ static void title_of(const json_t *claims, char title[48])
     }
 }
 
-// XML's marks cannot stand in either text: one is made here, the other is a key of this program.
+// The texts need no escaping for XML: this program makes one, and the other is a key of its own.
 static char *draw(const char *left, const char *right, const char *colour)
 {
     enum { CHARACTER_PX = 7, EDGE_PX = 12 };

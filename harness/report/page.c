@@ -29,7 +29,7 @@ static json_t *before_json(const struct rg_page *before)
                   : json_null();
 }
 
-// How a gate's cases may end, the worst first.
+// The endings of a gate's cases, worst first.
 static json_t *endings_json(void)
 {
     json_t *endings = json_array();
@@ -39,7 +39,7 @@ static json_t *endings_json(void)
     return endings;
 }
 
-// All that the page shows. NULL without memory.
+// All data of the page. NULL without memory.
 static json_t *data_json(const struct rg_page *page, const struct rg_page *before)
 {
     return json_pack("{si ss ss si si so so so so so so so}", "format", RG_FORMAT_VERSION,
@@ -52,7 +52,7 @@ static json_t *data_json(const struct rg_page *page, const struct rg_page *befor
                      or_empty(page->gallery, json_array));
 }
 
-// Writes JSON so that no text in it can end the element that holds it.
+// Writes JSON with escaped `<`, so that no text in it can end the element around it.
 static int put(const char *buffer, size_t size, void *user)
 {
     FILE *out = user;

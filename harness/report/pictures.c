@@ -1,4 +1,4 @@
-// Pictures in a page: each once, by its content, as the data of a URL.
+// Pictures in a page. Each is stored once, by its content, as data in a URL.
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ enum { MOST_BYTES = 16 << 20 }; // of one picture
 static const char png_begins[8] = "\x89PNG\r\n\x1a\n";
 static const char data_begins[] = "data:image/png;base64,";
 
-// Writes `size` bytes as base64, with a zero behind it.
+// Writes `size` bytes as base64, followed by a zero.
 static void encode(const unsigned char *bytes, size_t size, char *text)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -42,8 +42,8 @@ static bool is_below(const char *path, const char *folder)
     return !strncmp(path, whole, length) && (path[length] == '/' || whole[length - 1] == '/');
 }
 
-// The file that a record in `folder` names: as it stands there, from the current folder, or beside
-// the record. False where there is none that may be taken.
+// Finds a file that a record in `folder` names: by its path from the current folder, by its path
+// from `folder`, or by its name in `folder`. False if none of these exists and may be taken.
 static bool find(const char *folder, const char *name, char found[PATH_MAX])
 {
     const char *slash = strrchr(name, '/');
@@ -58,7 +58,7 @@ static bool find(const char *folder, const char *name, char found[PATH_MAX])
     return false;
 }
 
-// The bytes of a PNG, which the caller frees; NULL where it is none or too large.
+// The bytes of a PNG, which the caller frees; NULL if it is none or too large.
 static unsigned char *load(const char *path, size_t *size)
 {
     const char *why;
@@ -77,7 +77,7 @@ static unsigned char *load(const char *path, size_t *size)
 
 // --- taking them ---
 
-// The URL's data of a picture; the caller owns it. NULL without memory.
+// A picture as data in a URL; the caller owns it. NULL without memory.
 static json_t *data_json(const unsigned char *bytes, size_t size)
 {
     char *text = malloc(sizeof(data_begins) + (size + 2) / 3 * 4);
@@ -108,7 +108,7 @@ static bool keep(struct rg_page *page, const char *name, const unsigned char *by
            !json_object_set_new(page->files, name, json_string(digest));
 }
 
-// Takes a picture, if there is such a one that may be taken; the page says where one is missing.
+// Takes a picture, if it exists and may be taken; the page shows which are missing.
 static bool take(struct rg_page *page, const char *folder, const char *name)
 {
     char path[PATH_MAX];
@@ -138,8 +138,8 @@ bool rg_page_add_pictures(struct rg_page *page, const char *folder, const json_t
 
 // --- a text of Markdown ---
 
-// The paragraph at `at`, if it begins with `*`, as a caption does: without marks, on one line.
-// Else the picture's own text.
+// The caption of a picture: the paragraph at `at` without marks, on one line, if it begins with
+// `*`. Otherwise the picture's own text.
 static json_t *caption_json(const char *at, const char *own, size_t own_length)
 {
     char caption[1024];
@@ -171,7 +171,7 @@ bool rg_page_add_gallery(struct rg_page *page, const char *folder, const char *m
         json_t *caption = caption_json(end + 1, text, (size_t)(middle - text));
         json_t *shown = caption
                             ? json_pack("{so so}", "file", rg_json_text(name), "caption", caption)
-                            : NULL; // texts that are no UTF-8 have no picture
+                            : NULL; // a text that is not UTF-8 gets no picture
         ok = !shown || (take(page, folder, name) && !json_array_append_new(page->gallery, shown));
     }
     return ok || rg_harness_error("a text's pictures: no memory for them; name fewer records");

@@ -1,5 +1,5 @@
-// Records from files: which kind each is, whether this program knows its format, and what of it
-// the page needs.
+// Reads records from files: the kind of each, whether this program knows its format, and the parts
+// that the page needs.
 #include <dirent.h>
 #include <errno.h>
 #include <limits.h>
@@ -15,7 +15,7 @@
 
 static const char mend[] = "name what a command wrote with --json or -o (docs/records.md)";
 
-// Kinds of records, each with a field that no other kind has. The first that fits holds.
+// Kinds of records, each with a field that no other kind has. The first match counts.
 static const struct kind {
     const char *name, *field;
     json_type type;
@@ -42,7 +42,7 @@ bool rg_page_lacks_memory(const char *path)
     return rg_harness_error("%s: no memory for its page; name fewer records", path);
 }
 
-// Drops the first gate where there are too many.
+// Drops the first gate if there are too many.
 static void drop_gate(struct rg_page *page)
 {
     size_t i;
@@ -73,7 +73,7 @@ static bool append(struct rg_page *page, const char *kind, const char *path, jso
 
 // --- tables ---
 
-// Leaves out what the page does not show: it shows medians with their intervals, not each sample.
+// Drops parts that the page does not show: it shows medians with their intervals, not each sample.
 static void trim(json_t *document)
 {
     size_t i;
@@ -87,7 +87,7 @@ static void trim(json_t *document)
     }
 }
 
-// Two measurements of a table would be two verdicts on a claim.
+// Refuses a second measurement of a table, which would give a second verdict on each claim.
 static bool is_first(const struct rg_page *page, const char *path, const char *table)
 {
     size_t i;
@@ -128,7 +128,7 @@ static void folder_of(const char *path, char folder[PATH_MAX])
     snprintf(folder, PATH_MAX, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
 }
 
-// A record's kind, if this program knows it and its format. NULL, with one logged line, else.
+// A record's kind. NULL, with one logged line, if this program does not know it or its format.
 static const char *admit(const char *path, const json_t *document)
 {
     const json_t *format = json_object_get(document, "format");
@@ -205,7 +205,8 @@ static bool add_file(struct rg_page *page, const char *path)
     return ends_in(path, ".md") ? add_markdown(page, path) : add_records(page, path);
 }
 
-// Records, and the text that `figures -o` writes beside its pictures. Other texts may be tables.
+// Selects records, and the text that `figures -o` writes with its pictures. Other texts may be
+// tables.
 static int is_shown(const struct dirent *entry)
 {
     return ends_in(entry->d_name, ".json") || !strcmp(entry->d_name, "figures.md");

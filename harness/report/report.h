@@ -1,21 +1,21 @@
-// One page of all records: what was found, for people to look at (docs/page.md).
+// One page of all records, for people to look at (docs/page.md).
 //
-// Records are the JSON that commands write (docs/records.md). They are read here, checked, and put
-// into the page as they are, with the papers' printed rows and the pictures that they name. What
-// the page shows of them is the work of the files in `page/`, which the build embeds.
+// Records are the JSON that commands write (docs/records.md). This code reads and checks them, and
+// puts them into the page as they are, with the papers' printed rows and the pictures that they
+// name. The files in `page/`, which the build embeds, show them.
 #ifndef RG_HARNESS_REPORT_REPORT_H
 #define RG_HARNESS_REPORT_REPORT_H
 
 #include "harness/tables/claims/text.h"
 
-// What a page holds. Zero it before; rg_page_free in any case.
+// The content of a page. Zero it before; rg_page_free in any case.
 struct rg_page {
     json_t *records;  // array of {kind, file, document}; tables have `printed` too
     json_t *pictures; // object: data of each picture by its digest
     json_t *files;    // object: digests of pictures by the path that a record names
-    json_t *gallery;  // array of {file, caption}: pictures that a text of Markdown shows
+    json_t *gallery;  // array of {file, caption}: pictures in a text of Markdown
     int64_t picture_bytes;
-    int left_out; // pictures for which there was no room
+    int left_out; // pictures that had no room
     int gates, gates_left_out;
     // Launches that give the verdicts on tables without any; NULL: none. Not owned.
     const struct rg_stored *kept;
@@ -24,24 +24,24 @@ struct rg_page {
 
 enum {
     RG_PAGE_PICTURES = 32 << 20, // bytes of all pictures together
-    RG_PAGE_GATES = 30,          // the last gates, of which the page shows how they went
+    RG_PAGE_GATES = 30,          // most gates; the page shows their history
 };
 
 // Adds a file of records, a text of Markdown with pictures, or all such files of a folder. False,
-// with one logged line that names the file, the place and the mend, where one is neither.
+// with one logged line that names the file, the place and the mend, if a file is neither.
 bool rg_page_add(struct rg_page *page, const char *path);
-// Adds the JSON of a record that is in memory; its pictures lie beside `path`.
+// Adds the JSON of a record in memory; its pictures lie in the folder of `path`.
 bool rg_page_add_text(struct rg_page *page, const char *path, const char *text);
-// Logs that there is no memory for a page, and returns false.
+// Logs a lack of memory for a page, and returns false.
 bool rg_page_lacks_memory(const char *path);
 void rg_page_free(struct rg_page *page);
 
 // Writes the page: one file, which needs no other and no network. With records from `before` (NULL:
-// none) it shows what changed since. False, with one logged line.
+// none) it shows what changed since. False, with one logged line, on failure.
 bool rg_page_write(const struct rg_page *page, const struct rg_page *before, const char *path);
 
-// The same in short, as text that the caller frees: Markdown for a merge request, below
-// RG_PAGE_BRIEF bytes and without pictures, and a badge as SVG. NULL, with one logged line, without
+// The page in short, as text that the caller frees: Markdown for a merge request, below
+// RG_PAGE_BRIEF bytes and without pictures; and a badge as SVG. NULL, with one logged line, without
 // memory.
 enum { RG_PAGE_BRIEF = 60000 };
 char *rg_page_markdown(const struct rg_page *page);
@@ -49,30 +49,30 @@ char *rg_page_badge(const struct rg_page *page);
 
 // --- the parts ---
 
-// What claims come to on all devices together.
+// The state of a claim on all devices together.
 enum rg_page_stand {
     RG_STAND_HOLDS, // reproduced on a device, refuted on none
     RG_STAND_MIXED, // either on some
     RG_STAND_FAILS,
-    RG_STAND_FITS,   // no device settles it, and it holds by figures of one launch
-    RG_STAND_MISSES, // likewise, but it does not on some device
+    RG_STAND_FITS,   // undecided, and fits by figures of one launch
+    RG_STAND_MISSES, // undecided, and misses by such figures on some device
     RG_STAND_OPEN,
     RG_STANDS
 };
-// Counts claims by how they stand; `claims` may be NULL. Returns their number.
+// Counts claims by their state; `claims` may be NULL. Returns their number.
 int rg_page_stands(const json_t *claims, int counts[RG_STANDS]);
-// The claims that were judged from the page's tables, and else those of its records; the caller
-// owns the array. NULL where there are none.
+// The claims that were judged from the page's tables, or else those of its records; the caller owns
+// the array. NULL if there are none.
 json_t *rg_page_claims(const struct rg_page *page);
 
-// What a table's paper prints, as {about, technique, paper, names, keys, columns, rows, variants};
-// NULL where no such table is known here. The caller owns it.
+// The printed rows of a table's paper, as {about, technique, paper, names, keys, columns, rows,
+// variants}, which the caller owns. NULL if no such table is known.
 json_t *rg_page_printed(const char *table);
 
-// Embeds pictures: those that the document of a record in `folder` names, or that a text of
-// Markdown shows, with the captions that stand below them. Only PNG is taken, and only from the
-// record's folder, the current one, and those below, so that a foreign record cannot have a private
-// picture published. False, with one logged line, without memory.
+// Embed pictures: those that the document of a record in `folder` names, or those in a text of
+// Markdown, with the captions below them. Only PNG from the record's folder, the current one, and
+// those below is taken, so that a foreign record cannot have a private picture published. False,
+// with one logged line, without memory.
 bool rg_page_add_pictures(struct rg_page *page, const char *folder, const json_t *document);
 bool rg_page_add_gallery(struct rg_page *page, const char *folder, const char *markdown);
 

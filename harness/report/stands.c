@@ -9,7 +9,8 @@ static bool is(const json_t *object, const char *field, const char *value)
     return text && !strcmp(text, value);
 }
 
-// Figures of one launch are no verdict, so that they count where there is none.
+// The state of a claim. Figures of one launch are no verdict, so they count only if there is no
+// verdict.
 static enum rg_page_stand stand_of(const json_t *claim)
 {
     bool holds = false, fails = false, fits = false, misses = false;

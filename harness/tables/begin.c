@@ -131,7 +131,7 @@ void *rg_table_settings(const struct rg_result *result, const struct rg_table *t
     return settings;
 }
 
-// Fills in what distinguishes the row: its name, and the settings that are the table's keys.
+// Fills in the row's name, and the settings that are the table's keys.
 static void name_row(struct rg_record *record, const struct rg_table *table, int row)
 {
     if (table->names)

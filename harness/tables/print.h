@@ -27,8 +27,8 @@ int rg_result_exit(const struct rg_result *result);
 // one logged line, if not.
 bool rg_results_can_be_written(const struct rg_table *const tables[], int count,
                                const char *folder);
-// Whether a table's files in a folder, its journals included, would leave the file `read` intact.
-// False, and one logged line, if one would replace it.
+// Whether no file of a table in a folder, its journals included, would replace the file `read`.
+// False, and one logged line, if one would.
 bool rg_result_spares(const struct rg_table *table, const char *folder, const char *read);
 // Writes a result into a folder in every format, as TABLE.FORMAT. If it has no number, existing
 // files stay, and one line says so. False, and one logged line, on failure.

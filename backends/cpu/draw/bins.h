@@ -10,7 +10,7 @@ enum { CPU_MOST_CHUNKS = 256 };
 // A primitive in a tile.
 enum { CPU_PLAIN = 1 << 30 };
 struct cpu_ref {
-    int prim;      // its number, and CPU_PLAIN where its record is plain
+    int prim;      // its number, and CPU_PLAIN if its record is plain
     int place;     // of its mask: y << 16 | x; -1: no mask, the corners decide
     uint64_t mask; // pixels within the tile only
 };
@@ -41,7 +41,7 @@ struct cpu_sorter {
 // The data of a round, in memory that grows on demand and stays with the device.
 struct cpu_bins {
     struct cpu_tiling tiling;
-    // Primitives by number: records, items, and corners where there is no mask.
+    // Primitives by number: records, items, and corners if there is no mask.
     int prim_room, prim_limit, prim_count;
     size_t record_room; // in bytes
     struct cpu_records records;

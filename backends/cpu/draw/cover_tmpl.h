@@ -1,6 +1,6 @@
 // Finds the pixels that small shapes cover, CPU_LANES shapes at a time, in 32 bits.
 //
-// Edge functions are those of kernels/dialect/draw/coverage.h, divided by 256: its at(px, py) > 0
+// Edge functions are those of kernels/dialect/draw/coverage.h, divided by 256. Its at(px, py) > 0
 // has the terms 256 dx px and 256 dy py, so that it is equivalent to
 //   floor((origin - 1) / 256) - dx px + dy py >= 0.
 //
@@ -9,7 +9,7 @@
 // consecutive corners turn the other way; corners may coincide or lie on one line.
 //
 // Bounds: a small shape's corners lie within 2^14 of each other (64 pixels), and of a pixel of its
-// box, so that products are below 2^28, and sums of four of them below 2^30.
+// box. So products are below 2^28, and sums of four of them below 2^30.
 #ifndef RG_BACKENDS_CPU_DRAW_COVER_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_COVER_TMPL_H
 

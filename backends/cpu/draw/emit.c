@@ -201,7 +201,7 @@ static bool take_clipped(const struct cpu_emitter *e, struct cpu_chunk *chunk)
     return take_shapes(e, chunk);
 }
 
-// Takes a batch of the items before `end`; false, with none taken, where room or memory is lacking.
+// Takes a batch of the items before `end`; false, with none taken, if room or memory is lacking.
 static bool take_batch(const struct cpu_emitter *e, struct cpu_chunk *chunk, int end)
 {
     struct cpu_items *items = &e->sorter->items;

@@ -1,5 +1,5 @@
 // Gathers pixels of small primitives and short spans in a list that many primitives share, until a
-// pixel repeats; then their fragments are computed, tested and blended together.
+// pixel repeats. Then computes, tests and blends their fragments together.
 #ifndef RG_BACKENDS_CPU_DRAW_LIST_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_LIST_TMPL_H
 
@@ -8,7 +8,7 @@
 
 enum {
     LISTED_PX = 128,   // side of the square of pixels that a list distinguishes
-    FETCHED_PX = 16384 // after so many listed pixels a tile's texels are taken to be in cache
+    FETCHED_PX = 16384 // after so many listed pixels a tile's texels are presumed to be in cache
 };
 
 // State of shading a tile.
@@ -33,7 +33,7 @@ struct shader {
     uint16_t listed[LISTED_PX][LISTED_PX];
 };
 
-// Tests and blends the fragments, whose pixels have been gathered.
+// Tests and blends the fragments with the gathered pixels.
 static void meet(struct shader *s)
 {
     test_fragments(&s->fragments, &s->pixels, s->draw.depth_mode);
@@ -75,7 +75,7 @@ static void gather_texels(struct shader *s, const size_t *texel, int count)
         gather(s->pixels.depth, s->target.depth, texel, count, 1);
 }
 
-// Prefetches what gather_texels will read: it comes while the fragments are computed.
+// Prefetches the texels for gather_texels while the fragments are computed.
 static void fetch_texels(const struct shader *s, const size_t *texel, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -129,8 +129,8 @@ static void drop_hidden(struct shader *s, struct cpu_list *list)
     list->count = seen;
 }
 
-// Spreads a record's words over the columns from `column` on, for pixels from `begin` to `end`, and
-// some beyond, which the next record overwrites.
+// Spreads a record's words over the columns from `column` on, for pixels from `begin` to `end`. It
+// also writes some beyond, which the next record overwrites.
 static inline __attribute__((always_inline)) void stage_words(struct cpu_columns *columns,
                                                               int column, const char *record,
                                                               size_t size, int begin, int end,
@@ -158,7 +158,8 @@ static inline __attribute__((always_inline)) void stage_record(struct cpu_column
         stage_words(columns, column, record, size, begin, end, CPU_LANES);
 }
 
-// Stages the records of a padded list. Each is read once, for all of its pixels in a row.
+// Writes the records of a padded list into columns. Each is read once for all of its successive
+// pixels.
 static void stage_list(struct shader *s, const struct cpu_list *list)
 {
     const size_t size = s->program->record_size;
@@ -215,7 +216,7 @@ static void flush_list(struct shader *s, struct cpu_list *list)
     list->count = 0;
 }
 
-// Lists are of different pixels, so that either may be drawn first.
+// The two lists have different pixels, so that either may be drawn first.
 static void flush(struct shader *s)
 {
     flush_list(s, &s->lists[0]);

@@ -66,8 +66,8 @@ struct cpu_program {
     size_t light_size;  // of the record of an item and a light; 0: none
     bool has_columns;   // `list` and `plain_list` need them
 
-    // Computes fate and corners of a batch of the items from `begin` on, without those that say
-    // that they are unseen. Returns the first item behind the batch, at most `end`.
+    // Computes fate and corners of a batch of the items from `begin` on, without those that report
+    // that they are unseen. Returns the first item after the batch, at most `end`.
     int (*items)(const struct cpu_call *call, int begin, int end, struct cpu_items *items);
     // Clips an item into parts; returns their number.
     int (*clip)(const struct cpu_call *call, int item, rg_snapped parts[CPU_MOST_PARTS]);
@@ -75,8 +75,8 @@ struct cpu_program {
     // or 1.
     void (*records)(const struct cpu_call *call, const int *items, int count,
                     struct cpu_records records, int first, uint8_t *plain);
-    // Compute the fragments of a list, which is padded to a multiple of CPU_LANES, of a list of
-    // plain records alone, and of `count` pixels from (x, y) on.
+    // Compute fragments: of a list, which is padded to a multiple of CPU_LANES; of a list that has
+    // only plain records; and of `count` pixels from (x, y) on.
     void (*list)(const struct cpu_call *call, struct cpu_records records,
                  const struct cpu_list *list, const struct cpu_columns *columns,
                  struct cpu_fragments *fragments);

@@ -1,7 +1,7 @@
 // Finds the span of pixels that a triangle covers in each row of a block, several rows at a time.
 //
 // Edge functions are divided by 256 as in cover_tmpl.h. Bounds: corners lie within 16380 pixels of
-// each other (kernels/dialect/draw/clip.h), so |dx| and |dy| are below 2^22, and a function varies
+// each other (kernels/dialect/draw/clip.h), so |dx| and |dy| are below 2^22. A function then varies
 // by less than 2^29 within a block of 64 pixels a side. A function clamped to 2^30 keeps its sign
 // there, and its quotients stay beyond the block, so 32 bits are enough.
 #ifndef RG_BACKENDS_CPU_DRAW_SPAN_TMPL_H
@@ -57,7 +57,7 @@ struct convex {
     rg_edge fourth;
 };
 
-// Positive where three corners turn in the same direction as a triangle's edges.
+// Positive if three corners turn in the same direction as a triangle's edges.
 static inline int64_t turn_of(int x0, int y0, int x1, int y1, int x2, int y2)
 {
     return (int64_t)(x0 - x1) * (y2 - y0) - (int64_t)(x2 - x0) * (y0 - y1);

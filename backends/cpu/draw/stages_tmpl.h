@@ -8,9 +8,9 @@
 
 #if defined(RG_GROUP_ITEMS)
 
-// Lists items that may be seen; returns the first behind those that were asked. Groups begin at
-// multiples of RG_GROUP_ITEMS, and each is asked as a whole. What is beyond the items repeats the
-// nearest one, and is not listed.
+// Lists items that may be seen; returns the first item after the groups that were asked. Groups
+// begin at multiples of RG_GROUP_ITEMS, and each is asked as a whole. A place outside the range
+// repeats the nearest item, and is not listed.
 static int list_items(const struct cpu_call *call, int begin, int end, struct cpu_items *items)
 {
     const rg_ctx rg = bind_context(call);
@@ -20,7 +20,8 @@ static int list_items(const struct cpu_call *call, int begin, int end, struct cp
     RG_GROUP next = rg_program_group(rg, p, begin / RG_GROUP_ITEMS);
     while (from < end && items->count <= CPU_BATCH - RG_GROUP_ITEMS) {
         const int first = from & -RG_GROUP_ITEMS, last = rg_imin(first + RG_GROUP_ITEMS, end) - 1;
-        const RG_GROUP group = next; // asked one turn ahead, so that what it fetches is there
+        const RG_GROUP group = next; // asked one turn ahead, so that the data that it fetches has
+                                     // arrived
         next = rg_program_group(rg, p, rg_imin(last + 1, end - 1) / RG_GROUP_ITEMS);
         int unseen[RG_GROUP_ITEMS];
 #pragma omp simd
@@ -97,8 +98,8 @@ light_records(struct cpu_records records, int light)
     return first + (size_t)light * (size_t)records.room;
 }
 
-// The records' indices come from an array, because gcc gathers from unknown addresses, but reads
-// one item at a time if it knows that they are a whole record apart.
+// The records' indices come from an array, because gcc gathers from unknown addresses. If it knew
+// that the records are a fixed distance apart, it would read one item at a time.
 static void make_light_records(rg_ctx rg, RG_PARAMS p, const RG_RECORD *of, const int *begin,
                                int count, int light, RG_LIGHT_RECORD *made)
 {
@@ -259,11 +260,11 @@ record_of(struct cpu_records records, const struct cpu_list *list, int i)
     return (const RG_RECORD *)(records.of_items + begin);
 }
 
-// The record of a listed fragment, and that of its item and the first light: gathered word by word,
-// or, of programs that say that this is worth it, taken from columns.
+// The record of a listed fragment, and that of its item and the first light. They are gathered word
+// by word, or taken from columns for programs that say that this is worth it.
 #if defined(RG_COLUMNS)
 
-// A loop without turns left is what lets gcc keep the words in registers.
+// Unrolling the loop fully lets gcc keep the words in registers.
 #define RG_COLUMN_WORDS(record, columns, first, i)                                                 \
     uint words[sizeof(record) / sizeof(uint)];                                                     \
     _Pragma("GCC unroll 64") for (int k = 0; k < (int)(sizeof(record) / sizeof(uint)); k++)        \

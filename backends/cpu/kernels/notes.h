@@ -25,7 +25,7 @@ static inline __attribute__((unused)) int rg_checked_index(struct rg_notes *note
     return 0;
 }
 
-// The same for an image's word, where `texels` texels are fetched.
+// The same for an image's word, for a fetch of `texels` texels.
 static inline __attribute__((unused)) int rg_checked_texels(struct rg_notes *notes, int index,
                                                             int count, const char *slot, int texels)
 {

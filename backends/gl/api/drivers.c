@@ -53,8 +53,8 @@ bool gl_is_driver_asked(const struct gl_egl *egl, char *why, size_t why_size)
     return true;
 }
 
-// The folder of the drivers that Mesa's EGL loads: LIBGL_DRIVERS_PATH, or the one beside the
-// library.
+// The folder of the drivers that Mesa's EGL loads: LIBGL_DRIVERS_PATH, or the one in the library's
+// folder.
 static bool find_drivers(char folder[PATH_MAX])
 {
     const char *named = getenv("LIBGL_DRIVERS_PATH");
@@ -72,7 +72,8 @@ static bool find_drivers(char folder[PATH_MAX])
     return true;
 }
 
-// Mesa does not report why it cannot load a driver, so the linker is asked. Whether that is so.
+// Mesa does not report why it cannot load a driver, so the linker is asked. Returns whether it gave
+// a reason.
 static bool add_linker_error(char *why, size_t why_size)
 {
     char folder[PATH_MAX], path[PATH_MAX + 16], error[320];

@@ -252,7 +252,7 @@ bool gl_search_next(struct gl_search *search, struct gl_egl *egl)
 {
     while (search->next < search->count) {
         const struct gl_target *target = &search->targets[search->next++];
-        // The surfaceless platform duplicates one of the devices, so it is used only where none
+        // The surfaceless platform duplicates one of the devices, so it is used only if none
         // opened.
         if (target->platform == EGL_PLATFORM_SURFACELESS_MESA && search->found)
             continue;

@@ -1,9 +1,9 @@
 // Finds the file of the driver's code that serves a context.
 //
-// EGL and OpenGL are called through libglvnd, and Mesa's functions through a table of its own, so
-// that no address from them lies in the driver. It is found among the loaded objects instead: first
-// the vendor's EGL library, by its exports, then the library behind it that draws, by Mesa's and
-// NVIDIA's file names.
+// Programs call EGL and OpenGL through libglvnd, and Mesa's functions through a table of its own,
+// so that no address from them lies in the driver. So the driver is found among the loaded objects:
+// first the vendor's EGL library, by its exports; then the library below it that draws, by Mesa's
+// and NVIDIA's file names.
 #include "backends/gl/gl.h"
 
 #include <stdio.h>

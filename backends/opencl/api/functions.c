@@ -1,9 +1,9 @@
 // Finds the driver's code that serves a device.
 #include "backends/opencl/opencl.h"
 
-// Each object of a driver behind the ICD loader begins with a pointer to the driver's own function
-// table (the extension cl_khr_icd), whereas the loader exports only its own functions. In version 2
-// of that extension, the table's first entry may be a mark instead.
+// The ICD loader exports only its own functions. But each object of a driver begins with a pointer
+// to the driver's function table (the extension cl_khr_icd). In version 2 of that extension, the
+// table's first entry may be a mark instead.
 int opencl_functions(struct rg_device *device, const void **functions, int max)
 {
     const cl_device_id id = ((struct opencl_device *)device)->id;

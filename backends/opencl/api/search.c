@@ -1,4 +1,4 @@
-// Finds the devices behind the ICD loader, and their properties.
+// Finds the devices that the ICD loader gives, and their properties.
 #define _GNU_SOURCE // ST_NOEXEC
 #include "backends/opencl/opencl.h"
 
@@ -71,8 +71,8 @@ note(struct opencl_search *search, enum rg_manifest_state state, const char *for
     search->state = state;
 }
 
-// PoCL has a device on every machine, unless POCL_DEVICES is empty. It silently reports none where
-// it cannot write to its cache, or does not know any device in POCL_DEVICES.
+// PoCL has a device on every machine, unless POCL_DEVICES is empty. It silently reports none if it
+// cannot write to its cache, or does not know any device in POCL_DEVICES.
 static void blame_pocl(struct opencl_search *search)
 {
     const char *devices = getenv("POCL_DEVICES"), *cache = getenv("POCL_CACHE_DIR");
@@ -121,7 +121,7 @@ static void blame_platform(struct opencl_search *search, const char *name, cl_in
 }
 
 // Whether PoCL's cache folder, or its nearest existing parent, forbids execution: PoCL loads
-// compiled programs from it, and aborts where that is forbidden.
+// compiled programs from there, and aborts if it may not.
 static bool cache_is_noexec(char folder[PATH_MAX])
 {
     const char *own = getenv("POCL_CACHE_DIR"), *user = getenv("XDG_CACHE_HOME");

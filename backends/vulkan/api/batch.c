@@ -16,7 +16,7 @@ static bool create_descriptor_pool(struct vk_device *device, struct vk_batch *ba
     };
     const VkDescriptorPoolCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = 2 * VK_BATCH_RUNS, // of a pass's slots, and of what its target holds
+        .maxSets = 2 * VK_BATCH_RUNS, // one for a pass's slots, one for the colour of its target
         .poolSizeCount = sizeof(sizes) / sizeof(sizes[0]),
         .pPoolSizes = sizes,
     };

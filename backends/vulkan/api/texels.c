@@ -135,8 +135,8 @@ static rgba unpack(enum rg_format format, const void *texel)
     }
 }
 
-// Whether any driver packs the number to the bits it was unpacked from: false for subnormals,
-// infinities and NaN of the small formats, and for -0.
+// Whether any driver packs the number to the bits that it was unpacked from. False for -0, and for
+// subnormals, infinities and NaN of the small formats.
 static bool is_plain(float v)
 {
     const float smallest_normal_half = 6.103515625e-5f, above_largest_half = 65536.0f;

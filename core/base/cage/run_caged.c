@@ -15,8 +15,8 @@
 #include "core/base/program.h"
 #include "core/base/text/limits.h"
 
-// Where caged programs lie, relative to the running program's folder: beside it, installed, or in
-// the build, whose programs and tests lie at several depths.
+// The folders of caged programs, relative to the running program's: its own, the installed one, or
+// the build's, whose programs and tests lie at several depths.
 static const char *const places[] = {
     "",
     "../lib/raingauge/",
@@ -117,7 +117,7 @@ int rg_caged_run(const char *const args[], int file, int timeout_s, int64_t most
     return error;
 }
 
-// How it ended where the machine kept it from its work. RG_CAGED_FILE: it did not.
+// How it ended if the machine kept it from its work. RG_CAGED_FILE: the machine did not.
 static enum rg_caged_end refused(const struct rg_caged *caged, const char *library, char *why,
                                  size_t size)
 {

@@ -70,8 +70,8 @@ static bool drop_capabilities(void)
 
 // --- system calls ---
 
-// Memory, the open descriptors, the time, locks, the process's own signal handlers, what a thread
-// does when it begins, and the end.
+// Calls for memory, open descriptors, time, locks, the process's own signal handlers, a thread's
+// start, and the end.
 static const unsigned int allowed[] = {
     SYS_read,         SYS_readv,
     SYS_pread64,      SYS_pwrite64,
@@ -110,8 +110,9 @@ enum {
 #define RETURN(value) (struct sock_filter) BPF_STMT(BPF_RET | BPF_K, (value))
 
 #ifdef ARCHITECTURE
-// Allows a call with the given values of one argument only, comparing its lower half, which is all
-// that the kernel reads. Returns the instruction count; another call's number stays loaded.
+// Allows a call with the given values of one argument only. Compares the argument's lower half,
+// which is all that the kernel reads. Returns the instruction count; another call's number stays
+// loaded.
 static int allow_with(struct sock_filter *program, unsigned int call, unsigned int argument_at,
                       const unsigned int *values, int count)
 {

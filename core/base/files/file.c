@@ -77,7 +77,7 @@ FILE *rg_file_open_small(const char *path, const char **why)
 
 // --- shared folders ---
 
-// Splits a path: fills `folder` and returns the name in it. NULL where the path is too long.
+// Splits a path: fills `folder` and returns the name in it. NULL if the path is too long.
 static const char *split(const char *path, char folder[PATH_MAX])
 {
     const char *slash = strrchr(path, '/');
@@ -85,9 +85,9 @@ static const char *split(const char *path, char folder[PATH_MAX])
     return snprintf(folder, PATH_MAX, "%.*s.", length, path) < PATH_MAX ? path + length : NULL;
 }
 
-// Whether nobody else can have put this file in the user's way: the user or the folder's owner owns
-// it, or the folder is not shared (sticky and writable by all). The kernel has the same rule
-// (fs.protected_symlinks and others), where it is switched on.
+// Whether nobody else can have put this file in the user's way. Either the user or the folder's
+// owner owns it, or the folder is not shared (sticky and writable by all). The kernel has the same
+// rule (fs.protected_symlinks and others), if it is switched on.
 static bool is_trusted(const char *path, const struct stat *st)
 {
     char folder[PATH_MAX];

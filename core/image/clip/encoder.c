@@ -19,9 +19,9 @@ enum { FRAMES_FD, CODED_FD, MESSAGES_FD, FDS };
 enum { WAIT_MS = 100 };
 
 // One pass, because frames come once. Constant quality at level 16 of 63: the eye hardly tells a
-// frame from its picture, and rain, which is all edges, takes as many bytes as it needs. -D leaves
-// out the date and the random number that would make two files differ. Threads code columns of
-// tiles, whose number follows from the width, so that the number of cores changes no byte.
+// frame from its picture. Rain, which is all edges, takes as many bytes as it needs. -D leaves out
+// the date and the random number that would make two files differ. Threads code columns of tiles,
+// whose number follows from the width, so that the number of cores changes no byte.
 static const char *const arguments[] = {
     "vpxenc",
     "--codec=vp9",

@@ -4,8 +4,8 @@
 
 // The weights of red, green and blue in luma, in ten-thousandths.
 enum { RED = 2126, GREEN = 7152, BLUE = 722, ALL = RED + GREEN + BLUE };
-// How many codes luma spans from black to white and chroma from end to end, and the codes of black
-// and of no chroma.
+// The codes that luma spans from black to white, and chroma from end to end; the codes of black and
+// of no chroma.
 enum { LIGHT_CODES = 219, DIFFERENCE_CODES = 224, BLACK = 16, GREY = 128, RGB_CODES = 255 };
 
 struct rgb {

@@ -1,10 +1,10 @@
-// Metrics of codes, as programs compute them that compare integer pictures without decoding them.
+// Metrics of codes, as computed by programs that compare integer pictures without decoding them.
 #include <math.h>
 
 #include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
 
-// Encodes a row back to what it was decoded from: code / largest code, alpha unchanged.
+// Encodes a row back to the values that it was decoded from: code / largest code, alpha unchanged.
 static void encode_back(const struct rg_picture *from, int y, float *row)
 {
     const struct rg_srgb *srgb = rg_srgb();

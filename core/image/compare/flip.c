@@ -346,14 +346,14 @@ static inline int clamp_index(int i, int count)
 struct job {
     const uint8_t *codes[2]; // NULL: pictures
     const struct rg_picture *pictures[2];
-    rg_tone *tone; // of what pictures hold
-    float scale;   // likewise
+    rg_tone *tone; // for texels of `pictures`
+    float scale;   // for texels of `pictures`
     int width, height;
     struct filters filters;
     float cmax;
     const float *linear;
     float *map;
-    bool keeps_larger; // what the map has stays where it is larger
+    bool keeps_larger; // larger values in the map stay
 };
 
 // A row of a tile and its border, linear and shown: the picture's edge pixels go on for ever.
@@ -371,7 +371,7 @@ static void read_codes(const struct job *job, const uint8_t *codes, int x0, int 
     }
 }
 
-// A loop over a fixed number of channels is vectors.
+// Loops over a fixed number of channels become vectors.
 RG_MULTIVERSION static void take_colour(const float *texels, int channels, int count,
                                         float *restrict values)
 {

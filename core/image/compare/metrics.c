@@ -99,7 +99,7 @@ static inline int differs(float a, float b)
     return bits_a != bits_b;
 }
 
-enum { BLOCK = 256 }; // pixels of which differences are kept, so that both loops are vectors
+enum { BLOCK = 256 }; // pixels whose differences are kept, so that both loops become vectors
 
 struct block {
     float d[BLOCK * 4];
@@ -144,7 +144,7 @@ count_block(const float *a, const float *b, int pixels, int channels, struct row
     count_pixels(&block, pixels, channels, row);
 }
 
-// Counts of a row in which something differs. Loops over a fixed number of channels are vectors.
+// Counts of a row that has a difference. Loops over a fixed number of channels become vectors.
 RG_MULTIVERSION static void count_row(const float *a, const float *b, int width, int channels,
                                       struct row_metrics *row)
 {

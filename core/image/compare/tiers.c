@@ -61,8 +61,8 @@ static void mask_row(const struct pictures *p, int y, uint8_t *mask)
 
 // --- light that the encoding clamps away ---
 
-// Whether a value is outside 0..1 once it is scaled, or NaN. Alpha is not scaled: where the scale
-// is below 1, it is as if it were 1.
+// Whether a value, once it is scaled, is outside 0..1 or NaN. Alpha is not scaled, so a scale below
+// 1 counts as 1.
 RG_MULTIVERSION static bool has_beyond(const float *values, int64_t count, float scale)
 {
     int beyond = 0;
@@ -77,14 +77,14 @@ static bool row_has_beyond(const struct pictures *p, const struct rg_picture *of
     return has_beyond(of->texels + y * values, values, fmaxf(p->exposure, 1));
 }
 
-// The part of a value that no code holds.
+// The part of a value beyond 0..1, which codes cannot express.
 static double clamped(double value)
 {
     return value > 1 ? value - 1 : value < 0 ? value : 0;
 }
 
-// By how many codes b's channel exceeds a's beyond black and white. Values that are not finite fail
-// the tiers elsewhere.
+// The difference of b's channel and a's beyond black and white, in codes. Values that are not
+// finite fail the tiers elsewhere.
 static double clamped_codes(const struct pictures *p, const float *a, const float *b, int channel)
 {
     const bool is_colour = channel < rg_picture_colours(p->linear_a);
@@ -98,7 +98,7 @@ static double clamped_codes(const struct pictures *p, const float *a, const floa
                : 0;
 }
 
-// The largest of a pixel's channels, either way.
+// The largest such difference among a pixel's channels, either way.
 static double clamped_distance(const struct pictures *p, int y, const float *a, const float *b)
 {
     double worst = 0;
@@ -163,7 +163,7 @@ static int energy(const uint8_t *codes, const uint8_t *background)
            abs(codes[2] - background[2]);
 }
 
-// The energies of a row without a background, and its mask, which is all of it.
+// The energies of a row without a background, whose mask is the whole row.
 RG_MULTIVERSION static void add_energies(const uint8_t *a, const uint8_t *b, int width,
                                          struct row_sums *s)
 {
@@ -177,7 +177,7 @@ RG_MULTIVERSION static void add_energies(const uint8_t *a, const uint8_t *b, int
     s->mask_pixels += width;
 }
 
-// Whether a pixel's codes differ, or what the encoding may have clamped away.
+// Whether a pixel's codes differ, or the values that the encoding may have clamped away.
 static bool differs(const struct pictures *p, int64_t pixel, int y)
 {
     uint32_t a, b;
@@ -227,7 +227,7 @@ static void add_row(const struct row_sums *row, struct row_sums *total)
     total->max_codes = row->max_codes > total->max_codes ? row->max_codes : total->max_codes;
 }
 
-// Adds what some pixels of row y differ by beyond black and white, by channel.
+// Adds the differences of some pixels of row y beyond black and white, by channel.
 static void add_clamped(const struct pictures *p, int y, int64_t pixel, int count, double codes[4])
 {
     if (!p->beyond[y])
@@ -241,7 +241,7 @@ static void add_clamped(const struct pictures *p, int y, int64_t pixel, int coun
             clamped_codes(p, a + i - i % channels, b + i - i % channels, i % channels);
 }
 
-// Adds how far b's codes are above a's, by channel and column.
+// Adds the differences of b's codes and a's, by channel and column.
 RG_MULTIVERSION static void add_codes(const uint8_t *a, const uint8_t *b, int codes,
                                       int sums[TILE * 4])
 {
@@ -302,7 +302,7 @@ static void relative_row(const struct pictures *p, int y, double sums[2], double
 struct clamped_sums {
     double max_codes;        // anywhere
     double bias[4];          // over the mask, by channel
-    double light_a, light_b; // over the mask's values of which one is beyond black or white
+    double light_a, light_b; // over the mask's values that are beyond black or white in A or B
 };
 
 static void clamped_row(const struct pictures *p, int y, struct clamped_sums *s)
@@ -457,7 +457,7 @@ static void conclude(const struct row_sums *sums, struct rg_tiers *t)
                                        : 1;
 }
 
-// By row, whether it or one beside it has something to be clamped; the caller frees it.
+// By row, whether it or a row next to it has values to be clamped; the caller frees it.
 static bool *find_beyond(const struct pictures *p)
 {
     bool *of_rows = calloc((size_t)p->height, 2 * sizeof(*of_rows));

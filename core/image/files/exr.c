@@ -89,7 +89,7 @@ static bool find_chunks(struct exr_job *job, int64_t width, int64_t height)
     return true;
 }
 
-// Refuses, by its name, anything that no reader here can read, in whichever part it stands.
+// Refuses, by its name, anything in any part that no reader here can read.
 static bool is_readable(const struct exr_job *job, int part)
 {
     const exr_attr_chlist_t *list;
@@ -126,8 +126,8 @@ static bool is_rec709(const exr_attr_chromaticities_t *c)
            c->white_y == 0.329f;
 }
 
-// Whether the file holds nothing but the picture, in a compression that the library (3.1.5) decodes
-// correctly: its routine for B44 is wrong for floats, and it has none for DWAA and DWAB.
+// Whether the file has only the picture, in a compression that the library (3.1.5) decodes
+// correctly. Its routine for B44 is wrong for floats, and it has none for DWAA and DWAB.
 static bool is_plain(const struct exr_job *job, const exr_attr_chlist_t *list, int channels)
 {
     exr_attr_box2i_t display;
@@ -153,7 +153,7 @@ static bool is_plain(const struct exr_job *job, const exr_attr_chlist_t *list, i
             (colours->type == EXR_ATTR_CHROMATICITIES && is_rec709(colours->chromaticities)));
 }
 
-// Which reader takes the texels.
+// The reader that takes the texels.
 enum reader { NOBODY, THIS, OPENIMAGEIO };
 
 static enum reader choose_reader(struct exr_job *job, int *channels)
@@ -187,7 +187,7 @@ static bool prepare(struct exr_job *job, int64_t file_bytes, int channels)
     return rg_why_allocate(job->picture, width, height, channels, job->why);
 }
 
-// Tells the pipeline where to put each channel of the chunk whose corner is x, y.
+// Gives the pipeline the destination of each channel of the chunk whose corner is x, y.
 static void aim(const struct exr_job *job, exr_decode_pipeline_t *decode, int64_t x, int64_t y)
 {
     const struct rg_picture *picture = job->picture;

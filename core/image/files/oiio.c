@@ -22,7 +22,7 @@ static char load_error[300];
 
 static void load(void)
 {
-    // Found by the executable's run path: beside the build's or the installation's files.
+    // Found by the executable's run path: next to the build's or the installation's files.
     void *module = dlopen("raingauge_oiio.so", RTLD_LAZY | RTLD_LOCAL);
     const struct rg_oiio_functions *(*entry)(void) = NULL;
     if (module) {
@@ -61,7 +61,7 @@ static bool take_extras(const char *extras, uint32_t bytes, struct rg_picture *p
     return true;
 }
 
-// Takes what follows the header into the picture, whose memory is allocated.
+// Takes the texels and extras after the header into the picture, whose memory is allocated.
 static bool take_rest(const char *rest, size_t bytes, const struct rg_picture_reply *header,
                       struct rg_picture *picture, struct rg_why *why)
 {
@@ -104,8 +104,8 @@ bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes, int
                      why);
 }
 
-// Bytes of texels that there is memory for, which are held twice for a while: as the reply, and as
-// the picture. Few are nobody's matter.
+// The most bytes of texels for which there is memory. They exist twice for a while: as the reply,
+// and as the picture. A few are always allowed.
 static int64_t most_texels(void)
 {
     const int64_t few = (int64_t)32 << 20, left = rg_memory_left() / 2;

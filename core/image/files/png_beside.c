@@ -95,8 +95,8 @@ static bool take_cicp(const uint8_t *c, struct rg_picture *picture)
     return is;
 }
 
-// The standard has sRGB files say 1/2.2 to readers without sRGB, and many programs write it instead
-// of sRGB; so 1/2.2, however rounded, means sRGB.
+// The standard tells writers of sRGB to give readers without sRGB 1/2.2, and many programs write
+// this instead of sRGB. So 1/2.2, however rounded, means sRGB.
 static bool tell_gamma(uint32_t gamma, struct rg_picture *picture)
 {
     if (gamma == 0)
@@ -127,8 +127,8 @@ static bool tell_primaries(const uint8_t *bytes, struct rg_picture *picture)
                          p[2] / 1e5, p[3] / 1e5, p[4] / 1e5, p[5] / 1e5, p[6] / 1e5, p[7] / 1e5);
 }
 
-// If several chunks describe the colours, the standard lets the first count that a reader can
-// apply.
+// If several chunks describe the colours, the first that a reader can apply counts, by the
+// standard.
 static bool tell_colours(const struct rg_png_beside *beside, struct rg_picture *picture)
 {
     const uint8_t *cicp = beside->chunks[RG_PNG_CICP].bytes;

@@ -147,12 +147,12 @@ bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct 
 
 static bool give_mode(const struct rg_temporary *t)
 {
-    if (t->mode) // fails where a file system has no modes, which does no harm
+    if (t->mode) // fails if a file system has no modes, which does no harm
         fchmod(t->fd, t->mode & 0777);
     return true;
 }
 
-// Copies a nameless file to a named one where the system cannot name it (linkat); the copy then
+// Copies a nameless file to a named one if the system cannot name it (linkat); the copy then
 // becomes `t`.
 static bool copy_to_name(struct rg_temporary *t)
 {

@@ -97,8 +97,8 @@ static const struct material materials[RG_ATLAS_MATERIALS] = {
 
 // --- the model ---
 
-// The radius is Yarin and Weiss's (1995), R = D (2 / (3 h))^(1/4) sqrt(v t / D), slowed where the
-// water runs out; the edge of the sheet rises and falls back.
+// The radius is Yarin and Weiss's (1995), R = D (2 / (3 h))^(1/4) sqrt(v t / D), slowed when water
+// runs out. The edge of the sheet rises and falls back.
 struct rg_splash_crown rg_splash_crown(int material, double time_s)
 {
     const struct material *m = &materials[material];

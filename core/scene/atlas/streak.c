@@ -74,8 +74,8 @@ static void add_row(const struct tracing *t, const float *light, const float *we
 }
 
 // The share of the exposure that a point spends in each row of the picture while moment k fades in
-// and out; at the moment itself it is at row `at`. Fills weights from the first row on, and returns
-// the number of rows. Only the exposure counts, not the time before and after it.
+// and out. At the moment itself the point is at row `at`. Fills weights from the first row on, and
+// returns the number of rows. Only the exposure counts, not the time before and after it.
 static int find_weights(const struct tracing *t, int k, double at, float weights[MAX_BLUR],
                         int *first)
 {

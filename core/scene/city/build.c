@@ -83,7 +83,7 @@ static uint32_t *words_of(struct city_builder *b, int surface)
     return b->city->faces.surfaces + (size_t)surface * SCENERY_SURFACE_WORDS;
 }
 
-// The hash table's entry of a surface, or the free one where it belongs.
+// The hash table's entry of a surface, or the free entry for it.
 static int place_of(struct city_builder *b, const uint32_t *words)
 {
     const size_t size = SCENERY_SURFACE_WORDS * sizeof(*words);

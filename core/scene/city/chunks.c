@@ -7,7 +7,7 @@
 #include "core/scene/city/city.h"
 #include "kernels/dialect/mesh/normal.h"
 
-// No chunk spans two cells: there are 16 x 16 x 16, or fewer where there are few faces.
+// No chunk spans two cells: there are 16 x 16 x 16, or 4 x 4 x 4 for few faces.
 enum { MANY_FACES = 100000, MANY_BITS = 4, FEW_BITS = 2 };
 // Within a cell, faces are sorted by a finer grid.
 enum { FINE_BITS = 10, PLACE_BITS = 3 * FINE_BITS };
@@ -129,7 +129,7 @@ static struct city_chunk *begin_chunk(struct city_faces *f, int i, uint64_t cell
     return chunk;
 }
 
-// Ends a chunk where the cell or direction changes, or where it is full.
+// Ends a chunk when the cell or direction changes, or when it is full.
 static void cut(struct city_faces *f, const struct key *keys)
 {
     struct city_chunk *chunk = NULL;

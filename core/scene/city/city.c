@@ -39,7 +39,7 @@ static uint64_t hash_of(const struct city *city)
         f->surfaces, (size_t)f->surface_count * SCENERY_SURFACE_WORDS * sizeof(uint32_t), hash);
 }
 
-// Turns the builder's faces into a city; NULL where that failed.
+// Turns the builder's faces into a city; NULL on failure.
 static struct city *finish(struct city_builder *b)
 {
     struct city *city = b->city;

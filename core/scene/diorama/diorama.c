@@ -12,7 +12,7 @@ const struct diorama_size diorama_sizes[DIORAMAS] = {
     [DIORAMA_GROUND] = {"ground", 4601, 8180},
 };
 
-// A scene's builder, what fills it up, its camera and its sky.
+// A scene: its builder, the pebbles and blades that fill it up, its camera and its sky.
 static const struct scene {
     void (*build)(struct builder *b);
     struct leftover leftover;

@@ -107,7 +107,7 @@ struct rg_environment *rg_environment_halve(const struct rg_environment *environ
 }
 
 // Packs an unsigned float with 5 bits of exponent: drops `dropped` bits of the mantissa, and rounds
-// up where `noise`, of as many bits, decides so. Subnormal results become 0.
+// up as `noise`, of as many bits, decides. Subnormal results become 0.
 static uint32_t pack_unsigned_float(float value, int dropped, uint32_t noise)
 {
     const float smallest = 6.103515625e-5f, largest = 64512.0f;

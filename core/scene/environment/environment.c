@@ -11,7 +11,8 @@
 #include "core/scene/environment/cube.h"
 #include "core/scene/environment/ktx.h"
 
-// Where Debian's open3d-gui-data installs its maps; RG_ENVIRONMENT_DIR may name another folder.
+// The folder in which Debian's open3d-gui-data installs its maps; RG_ENVIRONMENT_DIR may name
+// another.
 #define PACKAGE_DIR "/usr/share/open3d-gui/resources"
 
 enum { SKY_SIZE = 256, MIN_SIZE = 16, MAX_SIZE = 1024 };

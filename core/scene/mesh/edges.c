@@ -71,7 +71,7 @@ static bool is_same(const struct side *p, const struct side *q)
 }
 
 // The index of the side to pair with the first one, among the sides at the same place: preferably
-// one of opposite direction. `count` where there is none.
+// one of opposite direction. `count` if there is none.
 static int partner(const struct side *sides, int count)
 {
     for (int i = 1; i < count; i++)

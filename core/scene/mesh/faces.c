@@ -36,7 +36,7 @@ static int simplify(const struct rg_mesh *mesh, int faces, uint32_t *indices)
     const size_t wanted = 3 * (size_t)faces;
     size_t count = meshopt_simplify(indices, mesh->indices, 3 * (size_t)mesh->face_count,
                                     mesh->positions, vertices, stride, wanted, ANY_ERROR, 0, NULL);
-    // Where the topology forbids so few faces, the sloppy mode reaches them.
+    // If the topology forbids so few faces, the sloppy mode reaches them.
     if (count > wanted)
         count = meshopt_simplifySloppy(indices, mesh->indices, 3 * (size_t)mesh->face_count,
                                        mesh->positions, vertices, stride, wanted, ANY_ERROR, NULL);

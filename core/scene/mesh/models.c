@@ -7,7 +7,8 @@
 
 #include "core/base/log.h"
 
-// Where Debian's glmark2-data and libcgal-demo install their models. RG_MODEL_DIR has priority.
+// The folders in which Debian's glmark2-data and libcgal-demo install their models. RG_MODEL_DIR
+// has priority.
 #define GLMARK2_DIR  "/usr/share/glmark2/models"
 #define CGAL_ARCHIVE "/usr/share/doc/libcgal-dev/data.tar.gz"
 #define CGAL_FOLDER  "data/meshes/"

@@ -17,7 +17,7 @@
 
 // --- the reply ---
 
-// What the importer says. Under low limits it has less memory than it thinks.
+// Logs the importer's error. Under low limits the importer has less memory than it thinks.
 static void *refused(const char *name, const char *error)
 {
     char limits[RG_LIMITS_TEXT];

@@ -82,8 +82,8 @@ static bool put_at_rest(struct drops *d)
            run(d, DROPS_RUN_OWN, slots, DROPS_ROWS_A_DROP);
 }
 
-// How often water flattens and thins in a step: once by the paper's rules; by physical rules as
-// often a second as with the paper's steps.
+// The number of times that water flattens and thins in a step. By the paper's rules it is once; by
+// physical rules it is as often a second as with the paper's steps.
 static int passes_in(const struct drops_settings *s, int64_t step)
 {
     const double rate = s->rules == DROPS_PHYSICAL ? s->step_s / DROPS_PAPER_STEP_S : 1;

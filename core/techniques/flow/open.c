@@ -195,7 +195,7 @@ static void add_map(struct flow *flow, const char *name, float *values, int64_t 
     free(values);
 }
 
-// Adds maps of the lattice over all panes, and other properties of texels beside water.
+// Adds maps of the lattice over all panes, and the texels' other properties than water.
 static void add_sliding(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;

@@ -46,7 +46,7 @@ static bool droplets_are_whole(const struct reading *r, char *detail, size_t siz
     return true;
 }
 
-// The water on a pane equals what came less what left.
+// The water on a pane equals the water that came less the water that left.
 static bool ledger_balances(const struct reading *r, char *detail, size_t size)
 {
     uint32_t sum = 0;

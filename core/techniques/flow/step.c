@@ -113,7 +113,7 @@ static bool slide_panes(struct flow *flow)
     bool ok = true;
     for (int first = 0; ok && first < panes; first += at_once) {
         if (first > 0 && is_odd)
-            swap(flow); // restores what the first group saw
+            swap(flow); // restores the maps that the first group saw
         ok = slide_group(&(struct group){flow, first, at_once});
     }
     return ok;

@@ -1,4 +1,4 @@
-// Tells facts about flow's panes: the wet share, where the water is, and drops by size.
+// Tells facts about flow's panes: the wet share, the place of the water, and drops by size.
 #include <math.h>
 #include <stdlib.h>
 

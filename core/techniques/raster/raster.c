@@ -34,7 +34,7 @@ struct raster {
     int item_count, drawn_items; // items of the scene, and those drawn after applying the share
     struct raster_mesh mesh;     // only its bounds; the arrays are on the device
     struct rg_image *colour;     // the image drawn to: the target, or one of another format
-    uint32_t *counts;            // samples of each item, where they are counted
+    uint32_t *counts;            // samples of each item, if they are counted
     // The stages' parameters at the current frame.
     raster_drops_params drops;
     raster_show_params show;

@@ -24,7 +24,7 @@ static void find_eye(const m4 *m, double eye[4])
         eye[i] = -eye[i];
 }
 
-// Whether all faces of a chunk are back faces: the eye is behind all their planes.
+// Whether all faces of a chunk are back faces: the eye is on the back of all their planes.
 static bool turns_away(const struct city_chunk *chunk, const double eye[4])
 {
     double towards = 0; // for the bounds' corner whose plane is farthest back
@@ -88,7 +88,7 @@ static void clip_face(const struct corner corners[4], struct polygon *g)
     }
 }
 
-// Twice the area; positive where corners turn clockwise on the screen.
+// Twice the area; positive if corners turn clockwise on the screen.
 static float area_of(const struct polygon *g)
 {
     float area = 0;
@@ -115,7 +115,7 @@ static bool cross(const struct polygon *g, float y, float *left, float *right)
 }
 
 // In each cell that is wholly inside the polygon, hides everything beyond the polygon's farthest
-// point there.
+// point in that cell.
 static void hide(struct scenery_cull *cull, const struct polygon *g, float slack)
 {
     float low = INFINITY, high = -INFINITY, farthest = 0;
@@ -158,7 +158,7 @@ static void hide(struct scenery_cull *cull, const struct polygon *g, float slack
     }
 }
 
-// Hides what is behind the faces of a box that face the viewer.
+// Hides everything beyond the faces of a box that face the viewer.
 static void hide_box(struct scenery_cull *cull, const struct city_box *box, const m4 *m)
 {
     static const int faces[6][4] = {{0, 4, 6, 2}, {5, 1, 3, 7}, {0, 1, 5, 4},

@@ -7,7 +7,7 @@
 
 #define SHOWN_M 10.0f
 
-// The world positions of clip space's corners between two depths; false where there are none.
+// The world positions of clip space's corners between two depths; false if there are none.
 static bool find_corners(const float to_clip[16], float near_depth, float far_depth,
                          float corners[8][3])
 {

@@ -170,7 +170,7 @@ static void *make_paint(struct rg_device *device, const void *arg)
     return NULL;
 }
 
-// Gets what `made` or its light needs, by the scene's name.
+// Gets a part of `made`, or of its light, by the scene's name.
 static void *get(struct rg_device *device, const struct scenery_settings *settings,
                  const struct rg_shared_kind *kind, const void *arg)
 {

@@ -86,7 +86,7 @@ static struct outlook outlook_of(const struct shower_settings *set, int width, i
 }
 
 // The fraction of the particles leaving through one side that the wind brings in through the other,
-// by their speeds across the sides; 0 where they leave through both.
+// by their speeds across the sides. 0 if they leave through both.
 static float share_of(double in_m_s, double out_m_s)
 {
     return out_m_s > 0 ? (float)fmax(fmin(in_m_s / out_m_s, 1), 0) : 0;

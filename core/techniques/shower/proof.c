@@ -41,8 +41,8 @@ static double lean_m(const shower_params *p)
     return (double)p->height_m * (1 + 3 * wind_m_s / (double)p->fall_m_s);
 }
 
-// A particle falls, and is in the visible body except perhaps for the drop's other end; where all
-// are promoted, it is also above the ground.
+// A particle falls, and is in the visible body except perhaps for the drop's other end. If all are
+// promoted, it is also above the ground.
 static const char *fault_of(const shower_params *p, const float at[3], float fall)
 {
     const double x = (double)at[0] - (double)p->eye_x, y = (double)at[1] - (double)p->eye_y;

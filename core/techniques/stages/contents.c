@@ -153,7 +153,7 @@ static double value_of(uint32_t word, enum rg_number number, int at)
     }
 }
 
-// A word in text, as its numbers and as bits. A float has nine digits, which tell it from all
+// A word in text, as its numbers and as bits. A float gets nine digits, which tell it from all
 // others.
 static void word_text(uint32_t word, enum rg_number number, char *text, size_t size)
 {
@@ -170,7 +170,7 @@ static void word_text(uint32_t word, enum rg_number number, char *text, size_t s
         snprintf(text + used, size - used, "%s (0x%08x)", has_several ? ")" : "", word);
 }
 
-// How far two words are from each other: the most that one of their numbers is.
+// The distance between two words: the largest distance between two of their numbers.
 static double distance(uint32_t a, uint32_t b, enum rg_number number)
 {
     double most = 0;

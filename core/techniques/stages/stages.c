@@ -15,7 +15,7 @@ struct opening {
     const char *scope;
 };
 
-// Finds an asset by name, in the scope first. NULL where there is none, with one logged line that
+// Finds an asset by name, in the scope first. NULL if there is none, with one logged line that
 // names `what` asked for it.
 static struct rg_asset *find(const struct opening *o, const char *name, const char *what)
 {

@@ -10,17 +10,17 @@
 
 #define SMALL                                                                                      \
     "atlas=small city=small depth_map_px=1024 shadow_map_px=256 far_layers=0 splash_fade=0 "
-// A sixteenth of the rain space around the city's middle, where the camera then stands: opening
-// makes every particle, and most of them are never near enough to be seen. Its rain is a fifth as
-// dense.
+// A sixteenth of the rain space, around the city's middle, with the camera in it: opening makes
+// every particle, and most of the whole space's are never near enough to be seen. Its rain is a
+// fifth as dense.
 #define AROUND "camera=free rain_width_m=100 rain_depth_m=100 drops_m2_s=100 "
 #define NEAR   SMALL AROUND
-// Poses are compared by their states too. Pictures are all that is asked of mutants, and keeping
+// Poses are compared by their states too. Mutants are compared by pictures only, and keeping the
 // states of each step would take half of their time.
 #define POSE SMALL "state=on "
 
-// A visible particle is in the local space: a drop's streak at least partly above what it hits, a
-// splash below it by no more than it falls during its life.
+// A visible particle is in the local space. A drop's streak is at least partly above the surface
+// that it hits, and a splash lasts no longer than set.
 static const char *fault_of(const struct streaks *s, const float *place)
 {
     const streaks_params *p = &s->params;

@@ -23,8 +23,8 @@ struct rg_command {
 };
 
 // Parses a command's options and arguments and runs it, or prints its help; argv[0] is the
-// command's name. Returns an enum rg_exit: where the table refuses something, or memory for it is
-// lacking, that of the line that was logged.
+// command's name. Returns an enum rg_exit. If the table refuses something, or memory for it is
+// lacking, the status is that of the logged line.
 int rg_command_run(const struct rg_command *command, int argc, const char **argv);
 
 // Prints a command's usage, its description, and its options by group.

@@ -110,8 +110,8 @@ const char *rg_option_about(const struct rg_option *row, char text[RG_ABOUT_SIZE
 // Sets a row's value, in a zeroed struct, to that of an option that was not given and has no
 // default.
 void rg_option_clear(const struct rg_option *row, void *values);
-// Parses `text`, as the user or a default writes it. False, and one logged line, which refers to
-// the command's help where useful, when it is refused.
+// Parses `text`, as the user or a default writes it. False when it is refused, and one logged line,
+// which refers to the command's help if useful.
 bool rg_option_set(const struct rg_option *row, void *values, const char *text,
                    const char *command);
 // Frees what the value owns.

@@ -124,7 +124,7 @@ static int print_failures(const struct rg_baseline *made)
     return rg_exit_of_all(counts);
 }
 
-// What raingauge could not do here must not be expected of a device.
+// Whether raingauge itself lacked something: such a row must not be expected of a device.
 static bool has_lacking(const struct rg_baseline *made)
 {
     bool any = false;

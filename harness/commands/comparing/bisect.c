@@ -119,7 +119,8 @@ static bool check(const struct bisect_options *o, const struct rg_words *argumen
                     o->good ? "bad" : "good");
 }
 
-// What stood for the variables once, in places where a shell would have read a name as code.
+// Refuses {budget}, {} and {good}, which stand for nothing: a shell would read a name put in their
+// place as code.
 static bool has_no_blank(const char *line, bool is_git)
 {
     static const char *const blanks[][2] = {{"{budget}", RG_VARIABLE_BUDGET},

@@ -75,7 +75,7 @@ static int diff_devices(const struct diff_options *o, const struct rg_words *arg
     return exit;
 }
 
-// A technique has its name even where a folder is called so.
+// A technique's name means the technique, even if a folder has that name.
 static bool are_no_folders(const struct rg_words *arguments)
 {
     struct stat status;

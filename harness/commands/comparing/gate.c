@@ -31,7 +31,7 @@ struct gate_options {
     char *budget;                    // "2m"; NULL: none
     struct rg_words known[RG_FORMS]; // files of expectations, of Mesa's fails, flakes and skips
     struct rg_reports_asked reports;
-    char *pictures; // a folder for those that differ; NULL: beside the file of JUnit
+    char *pictures; // a folder for those that differ; NULL: next to JUnit's file
     struct rg_gtest_asked gtest;
     int64_t memory_bytes;
     bool pictures_only, fresh, update;
@@ -162,7 +162,7 @@ static bool spares_inputs(const struct gate_options *o, const struct rg_gate_out
     return ok;
 }
 
-// Whether the files of expectations can be written anew, as is found out before any work.
+// Checks before any work that the files of expectations can be written anew.
 static bool can_update(const struct gate_options *o, const struct rg_gate_request *request)
 {
     enum { KNOWN_BYTES = 1 << 16 };
@@ -200,7 +200,7 @@ static int run_held(const struct gate_options *o, struct rg_gate_request *reques
     return exit;
 }
 
-// The devices that this gate leaves out, whose expectations may remain unused.
+// The devices that this gate leaves out: their expectations may remain unused.
 static struct rg_gate_left left_of(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate_left left = {0};
@@ -303,7 +303,7 @@ static void pair_devices(const struct gate_options *o, const struct rg_baseline 
     }
 }
 
-// A baseline keeps the short name of a device alone, and what it stands for is said by --device.
+// A baseline keeps only the short name of a device; --device has to say what the name stands for.
 static bool knows_devices(const char *path, const struct rg_gate_pairs *pairs)
 {
     for (int i = 0; i < pairs->count; i++) {

@@ -15,7 +15,7 @@
 #define AT_FILE(id) offsetof(struct rg_reports_asked, files[RG_AS_##id])
 #define AT_FLAG(id) offsetof(struct rg_reports_asked, flags[RG_AS_##id])
 
-// The option of a form, by where it goes.
+// The option of a form, by its destination.
 #define OPTION(id, where, ...) OPTION_##where(id, __VA_ARGS__)
 #define OPTION_FILE(id, text, says, without, write)                                                \
     {RG_OPTION_TEXT,        text,                                                                  \
@@ -30,7 +30,7 @@
 
 const struct rg_option rg_report_options[] = {RG_REPORT_FORMS(OPTION){RG_OPTION_END}};
 
-// Which forms are written, and where.
+// Chooses the forms to write, and their destinations.
 static void choose(const struct rg_reports_asked *asked, bool prints_gtest,
                    struct rg_gate_outputs *outputs)
 {
@@ -97,7 +97,7 @@ static bool spares_kept(const char *folder, const char *file)
     return ok;
 }
 
-// One that is appended to is harmed as much.
+// A form that is appended to the file would damage it as well.
 bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *file)
 {
     bool ok = spares_kept(outputs->pictures, file);
@@ -153,7 +153,8 @@ static bool mend_file(const struct rg_gate_outputs *outputs, const char *text,
     return true;
 }
 
-// What would make the files of expected failures true; the first gets failures that are new.
+// Writes the files of expected failures anew so that they are true, or tells how; the first file
+// gets new failures.
 static bool mend_files(const struct rg_gate_outputs *outputs, const struct rg_known *known,
                        const struct rg_gate *gate)
 {
@@ -181,8 +182,8 @@ static bool put(const struct rg_gate *gate, int number, const char *file)
     return form->write(&gate->report, stdout);
 }
 
-// Whether the folder gets a page: it is there, for pictures or launches, or it was asked for and
-// something failed.
+// Whether the folder gets a page: if it exists, because it has pictures or launches, or if it was
+// asked for and something failed.
 static bool has_page(const struct rg_gate_outputs *outputs, const struct rg_report *report)
 {
     struct stat found;
@@ -194,7 +195,7 @@ static bool has_page(const struct rg_gate_outputs *outputs, const struct rg_repo
            (!stat(outputs->pictures, &found) || (outputs->is_folder_asked && failures));
 }
 
-// Writes the page into the folder of pictures and launches, beside what it shows.
+// Writes the page next to the pictures and launches that it shows, into their folder.
 static bool write_page(const struct rg_gate_outputs *outputs, const struct rg_gate *gate)
 {
     char path[PATH_MAX + 32], *text = NULL;

@@ -6,7 +6,7 @@
 #include "harness/compare/gate/report/forms.h"
 #include "harness/compare/gate/run/gate.h"
 
-// What of the forms is asked for, by their options.
+// The reports that are asked for, by the options of the forms.
 struct rg_reports_asked {
     char *files[RG_REPORT_FORM_COUNT];
     bool flags[RG_REPORT_FORM_COUNT];
@@ -14,33 +14,34 @@ struct rg_reports_asked {
 extern const struct rg_option rg_report_options[]; // struct rg_reports_asked
 
 struct rg_gate_outputs {
-    bool are_written[RG_REPORT_FORM_COUNT];  // forms
-    const char *files[RG_REPORT_FORM_COUNT]; // that they go to; NULL: none
-    char junit[PATH_MAX];                    // of the two that name one
-    char pictures[PATH_MAX];                 // a folder; "": none
-    bool is_folder_asked;                    // and not only beside the file of JUnit
+    bool are_written[RG_REPORT_FORM_COUNT];  // by form
+    const char *files[RG_REPORT_FORM_COUNT]; // destination of each form; NULL: no file
+    char junit[PATH_MAX];                    // JUnit's file, which two options can name
+    char pictures[PATH_MAX];                 // folder of pictures; "": none
+    bool is_folder_asked;                    // an option asks for the folder, not only JUnit's file
     bool updates;                            // files of expectations are written anew
     int today;                               // harness/compare/gate/text/date.h
 };
 
-// By the options of reports, --output, which may be NULL, and googletest's flags. Results are in
-// googletest's words where its flags or its shards ask for them. Pictures go where they are asked
-// for, or beside the file of JUnit: FILE.xml has the folder FILE-pictures. False, and one logged
-// line, where a path is too long or a form is not had.
+// Settles the outputs from the options of reports, --output, which may be NULL, and googletest's
+// flags. Results are in googletest's words if its flags or shards ask for them. Pictures go to the
+// requested folder, or next to JUnit's file: FILE.xml has the folder FILE-pictures. False, and one
+// logged line, if a path is too long or a form does not exist.
 bool rg_gate_outputs_settle(const struct rg_reports_asked *asked, const char *pictures,
                             const struct rg_gtest_asked *gtest, bool is_sharded,
                             struct rg_gate_outputs *outputs);
 
-// Whether no report would replace the file, which is an input; NULL: none. False, and one logged
-// line, if one would.
+// Whether no report would replace the input `file`; NULL: none. False, and one logged line, if one
+// would.
 bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *file);
 
-// Whether all reports can be written, each into its own file, to be asked before any work. False,
-// and one logged line, if not.
+// Checks before any work that all reports can be written, each into its own file. False, and one
+// logged line, if not.
 bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs);
 
-// Writes and prints what a gate found, and writes files of `known` anew that are not true of it, or
-// tells people which these are. False, and one logged line, where something cannot be written.
+// Writes and prints a gate's findings. If files of `known` do not agree with them, writes these
+// files anew, or tells people which they are. False, and one logged line, if something cannot be
+// written.
 bool rg_gate_outputs_print(const struct rg_gate_outputs *outputs, const struct rg_known *known,
                            const struct rg_gate *gate);
 

@@ -172,7 +172,7 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
     return exit;
 }
 
-// Stages run in frames: with none, nothing would be compared, which would pass.
+// Stages run only in frames: without frames nothing would be compared, which would pass.
 static bool check_frames(const struct verify_options *o)
 {
     return !o->stages || o->steps != 0 ||

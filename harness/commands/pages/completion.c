@@ -3,9 +3,9 @@
 //     commands, @techniques, @tables, @figures
 //     render options      the options of a command
 //     render --set        what an option's value can be; an option that takes none has no key
-//     list 1, verify +    what an argument of a command can be at its place, or at any without a
-//     key flow parameters     the parameters of a technique flow view           what a parameter's
-//     value can be
+//     list 1, verify +    what an argument can be at its place, or at any without a key
+//     flow parameters     the parameters of a technique
+//     flow view           what a parameter's value can be
 //
 // and its values are words, or lists of words, whose names begin with "@" (completion.bash).
 #include <stdio.h>

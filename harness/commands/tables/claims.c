@@ -1,4 +1,4 @@
-// raingauge claims: decides what papers claim of their tables, by launches.
+// raingauge claims: decides by launches whether papers' claims about their tables hold.
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/commands/cli/command.h"
@@ -62,8 +62,7 @@ static const struct rg_option options[] = {
 
 static const struct rg_claims_shown all = {.first_row = 0};
 
-// Judges a measured table, and writes it when no launch is due any more; until then it is in its
-// journal.
+// Judges a measured table, and writes it once no launch is due; until then its journal has it.
 static int add(const struct rg_result *result, const void *user)
 {
     const struct claims_options *o = user;
@@ -84,8 +83,8 @@ static int print(const void *user)
                                                     : o->format);
 }
 
-// The tables that are named, or all that have claims. False, and one logged line, where one is
-// unknown or has none.
+// The named tables, or all that have claims. False, and one logged line, if one is unknown or has
+// none.
 static bool choose(const struct rg_words *ids, const struct rg_table *chosen[], int *count)
 {
     *count = 0;

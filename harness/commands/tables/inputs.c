@@ -17,7 +17,7 @@ static bool spares(const struct rg_table *table, const void *settings, const cha
 }
 
 // The settings of a row with assignments applied, which the caller frees. NULL, and one logged
-// line, where one is refused.
+// line, if one is refused.
 static void *settings_of(const struct rg_technique *technique, const char *row, const char *set)
 {
     void *defaults = rg_settings_create(technique);

@@ -4,9 +4,9 @@
 
 #include "harness/tables/table.h"
 
-// Whether neither results nor journals of these tables in `folder` (NULL: none) replace a file
-// named by a row's settings with `set`, "key=value key=value" (NULL: nothing), applied. False, and
-// one logged line, if one would.
+// Whether no result or journal of these tables in `folder` (NULL: none) replaces a file that a
+// row's settings name. Settings have `set`, "key=value key=value" (NULL: nothing), applied. False,
+// and one logged line, if one would.
 bool rg_inputs_are_spared(const struct rg_table *const tables[], int count, const char *set,
                           const char *folder);
 

@@ -13,7 +13,7 @@
 struct report_options {
     char *against; // NULL: nothing is compared
     char *kept;    // a folder of launches; NULL: none
-    char *output;  // NULL: report.html, or standard output for what is short
+    char *output;  // NULL: report.html, or standard output for the short forms
     int format;    // index into `formats`
     int64_t memory_bytes;
 };
@@ -54,7 +54,7 @@ static bool write_page(const struct rg_page *page, const struct rg_page *before,
                                                        path, count, count == 1 ? "" : "s") > 0;
 }
 
-// What is short is written or printed.
+// Writes or prints a short form.
 static bool write_brief(const struct rg_page *page, const struct report_options *o)
 {
     char *text = o->format == FORMAT_MD ? rg_page_markdown(page) : rg_page_badge(page);

@@ -21,7 +21,7 @@ bool rg_sets_join(const struct rg_words *words, char **text)
         fprintf(out, "%s%s", i ? " " : "", words->items[i]);
     if (!out || fclose(out) != 0)
         return rg_harness_error("--set: no memory");
-    // A record holds no more, and one that was cut would name other settings.
+    // A record holds no more, and a cut text would name other settings.
     if (size < RG_SET_SIZE)
         return true;
     free(*text);

@@ -5,7 +5,7 @@
 #include "harness/commands/cli/option.h"
 
 // Joins words with spaces, which the caller frees; NULL if there are none. False, and one logged
-// line, where one contains a space, the text exceeds a record, or memory runs out.
+// line, if one contains a space, the text exceeds a record, or memory runs out.
 bool rg_sets_join(const struct rg_words *words, char **text);
 
 #endif

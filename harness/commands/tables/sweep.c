@@ -78,7 +78,7 @@ static int print(const struct rg_result *result, const void *user)
 #define DEVICE_AXIS "device="
 
 // Reads the axes. The axis of devices is not part of the grid; *devices gets its names, which the
-// caller frees. False, and one logged line, where one is refused.
+// caller frees. False, and one logged line, if one is refused.
 static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char **devices)
 {
     for (int i = 0; i < words->count; i++) {
@@ -101,7 +101,7 @@ static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char *
            rg_error("--axis: none is of a parameter; name one, as in --axis seed=1,2..5");
 }
 
-// Tells what measuring the table would take.
+// Prints the time and memory that measuring the table would take.
 static int plan(const struct rg_grid *grid, const struct rg_devices *devices,
                 const struct sweep_options *o, const char *set)
 {

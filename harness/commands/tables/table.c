@@ -164,8 +164,8 @@ static bool has_work(const struct rg_table *table, const char *wanted)
     return has;
 }
 
-// Whether each table's technique accepts the assignments. False, and one logged line, where one
-// does not.
+// Whether each table's technique accepts the assignments. False, and one logged line, if one does
+// not.
 static bool take_sets(const struct rg_words *sets, const struct rg_table *const chosen[], int count)
 {
     bool ok = true;
@@ -187,8 +187,8 @@ static bool refuse_table(const char *id)
                     id, nearest.name);
 }
 
-// The tables that are named, or all that have the work and the variant. False, and one logged line,
-// where one is unknown, or has them not.
+// The named tables, or all that have the work and the variant. False, and one logged line, if one
+// is unknown or lacks them.
 static bool choose(const struct rg_words *ids, const struct table_options *o,
                    const struct rg_table *chosen[], int *count)
 {
@@ -291,8 +291,8 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
 
 // --- results that lie on disk ---
 
-// Whether -o does not overwrite the input of --from, of which only a part would be left. False, and
-// one logged line, if it would.
+// Whether -o does not overwrite the input of --from, since only a part of that would be left.
+// False, and one logged line, if it would.
 static bool spares_stored(const struct table_options *o)
 {
     return !o->output || !rg_file_is_in(o->from, o->output) ||
@@ -301,8 +301,8 @@ static bool spares_stored(const struct table_options *o)
                     o->output);
 }
 
-// Drops the parts of a result that were not requested. False where nothing is left. Claims are
-// judged by all that is stored, and then shown in part, so that no filter changes a verdict.
+// Drops the parts of a result that were not requested. False if nothing is left. Claims are judged
+// by all that is stored and only then shown in part, so that no filter changes a verdict.
 static bool keep(struct rg_result *result, const struct table_options *o)
 {
     result->is_part = o->rows.first || chosen_work(o) || o->variant;
@@ -313,8 +313,7 @@ static bool keep(struct rg_result *result, const struct table_options *o)
            (!o->variant || rg_result_keep_variant(result, o->variant));
 }
 
-// Verdicts on a table must be from one measurement. False, and one logged line, where there are
-// two.
+// Verdicts on a table must come from one measurement. False, and one logged line, if there are two.
 static bool have_one_length(const struct rg_stored *stored, const struct table_options *o,
                             const struct rg_words *ids)
 {

@@ -20,10 +20,10 @@ struct rg_candidates {
 // any function here the caller calls rg_candidates_free.
 bool rg_candidates_add(const char *name, struct rg_candidates *candidates);
 bool rg_candidates_read(const char *path, struct rg_candidates *candidates);
-// The first name added is the good end, and the last the bad one. If those between have both, only
-// the part from one to the other stays; such a list may have the newest first. False, and one
-// logged line, if they have one alone, if both ends are the same, or if a candidate is listed
-// twice.
+// The first name added is the good end, and the last the bad one. If both ends are among the names
+// between, only the part from one to the other stays; such a list may have the newest first. False,
+// and one logged line, if only one end is among them, if both ends are the same, or if a candidate
+// is listed twice.
 bool rg_candidates_between(struct rg_candidates *candidates);
 void rg_candidates_free(struct rg_candidates *candidates);
 
@@ -32,13 +32,13 @@ void rg_candidates_free(struct rg_candidates *candidates);
 struct rg_search {
     int64_t good; // last candidate that is good
     int64_t bad;  // first bad candidate after it
-    int64_t left; // number of candidates between the two that are not judged
-    int64_t next; // to be judged; -1: all are
-    int steps;    // so many more are judged at most if none is skipped
+    int64_t left; // number of unjudged candidates between the two
+    int64_t next; // to be judged next; -1: all are judged
+    int steps;    // at most so many more are judged if none is skipped
 };
 // `verdicts` has one per candidate; the first is good and the last bad. The next is the middle of
 // the longest unjudged stretch between `good` and `bad`; of equal ones, the one nearest to the
-// centre. So a stretch that cannot be judged is left in leaps.
+// centre. So the search soon leaves a stretch that cannot be judged.
 struct rg_search rg_search_of(const enum rg_judgement *verdicts, int64_t count);
 
 // --- the bisect ---
@@ -51,13 +51,13 @@ struct rg_bisect {
     enum rg_judgement *verdicts; // one per candidate
     struct rg_judged *judged;    // in the order in which they were judged
     int64_t count;               // of these
-    const char *end;             // as "end" of docs/records.schema.json has it
+    const char *end;             // "end" in docs/records.schema.json
     struct rg_search found;      // the change lies between its good and its bad one
 };
 
 // Runs the bisect. Returns an enum rg_exit: pass if one candidate is found, inconclusive for
-// several, fail if an end is not as expected, nothing measured if an end cannot be judged, usage if
-// the command is wrong. The caller calls rg_bisect_free in any case.
+// several, fail if an end has the wrong verdict, nothing measured if an end cannot be judged, usage
+// if the command is wrong. The caller calls rg_bisect_free in any case.
 int rg_bisect_run(struct rg_bisect *bisect);
 void rg_bisect_free(struct rg_bisect *bisect);
 // Prints "bisect" of docs/records.schema.json.

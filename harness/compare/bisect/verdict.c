@@ -93,7 +93,7 @@ static int run_line(const char *line, bool prints_here)
     return -1;
 }
 
-// Sets a variable of the command's environment; NULL: leaves it.
+// Sets a variable of the command's environment; NULL changes nothing.
 static bool hand_over(const char *variable, const char *value)
 {
     return !value || !setenv(variable, value, 1) ||

@@ -41,18 +41,17 @@ struct rg_judged {
 
 // Judges a candidate by the command's exit status: 0 good, 1 bad, 3 again, 4, 77 and 125 skip. A
 // process that a signal ended, or a status above 128, which shells report for one, is skip or, with
-// `crash_is_bad`, bad. All others are stop. The command gets it as RG_CANDIDATE, and the good end
-// as RG_GOOD; NULL: not set. The verdict is stop, with one logged line, also if the shell cannot be
-// started. A signal to raingauge (harness/console/interrupt.h) ends the command first.
+// `crash_is_bad`, bad. All others are stop, and so, with one logged line, is a shell that cannot be
+// started. The command gets the candidate as RG_CANDIDATE, and the good end as RG_GOOD; NULL: not
+// set. A signal to raingauge (harness/console/interrupt.h) ends the command first.
 struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidate,
                           const char *good);
 
-// The exit status of a verdict inside `git bisect run`, where 1 to 127 mean bad, except 125, which
-// means skip; higher ones end the bisect (git-bisect(1)).
+// The exit status of a verdict inside `git bisect run`. git reads 125 as skip and other values from
+// 1 to 127 as bad; higher ones end the bisect (git-bisect(1)).
 int rg_judgement_git(enum rg_judgement verdict);
-// The exit status for an error that was logged. While git bisects the repository of the current
-// folder it is that of stop; otherwise git would take a misspelt option for a bad commit at every
-// step.
+// The exit status for a logged error. While git bisects the repository of the current folder it is
+// that of stop; otherwise git would take a misspelt option for a bad commit at every step.
 int rg_bisect_status_of_error(void);
 
 #endif

@@ -1,5 +1,5 @@
-// Finds where two devices part: the first stage that leaves other bits in an asset than on the
-// other device, which counts as the truth; the place in it, and the kind of difference.
+// Finds the first stage after which an asset's bits differ between two devices, one of which counts
+// as the truth; and the place and the kind of the difference.
 #ifndef RG_HARNESS_COMPARE_BLAME_BLAME_H
 #define RG_HARNESS_COMPARE_BLAME_BLAME_H
 
@@ -26,7 +26,7 @@ struct rg_blame {
 // The first row in which the digests of two runs differ; -1: none.
 int rg_blame_first(const struct rg_digests *digests, const struct rg_digests *expected);
 
-// Describes the difference in a row, from further runs of both. False, with one logged line, where
+// Describes the difference in a row, from further runs of both. False, with one logged line, if
 // these fail; the text then has what is known.
 bool rg_blame_row(const struct rg_digest_run *run, struct rg_device *device,
                   struct rg_device *truth, const struct rg_digests *digests,

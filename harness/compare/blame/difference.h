@@ -4,7 +4,7 @@
 
 #include "core/techniques/stages/contents.h"
 
-// In the order of the tests; the first that fits counts.
+// In the order of the tests; the first match counts.
 enum rg_difference {
     RG_DIFFERENCE_NONE,
     RG_DIFFERENCE_SIZE,      // their sizes differ
@@ -22,7 +22,7 @@ enum rg_difference {
 const char *rg_difference_name(enum rg_difference difference);
 // "in the last bits": words for a sentence.
 const char *rg_difference_words(enum rg_difference difference);
-// The difference of this name; RG_DIFFERENCE_NONE where there is none.
+// The difference of this name; RG_DIFFERENCE_NONE if there is none.
 enum rg_difference rg_difference_find(const char *name);
 
 // The first differing word, and the number of differing words, within the shorter of the two.
@@ -30,8 +30,8 @@ struct rg_differing {
     int64_t first, count;
 };
 
-// What kind it is. `before` is what both had before the stage, or zeroed where that is not known;
-// `state` tells of a buffer what its words are.
+// The kind of a difference. `before` is what both had before the stage, or zeroed if unknown;
+// `state` describes the words of a buffer.
 enum rg_difference rg_difference_of(const struct rg_contents *contents,
                                     const struct rg_contents *expected,
                                     const struct rg_contents *before, const struct rg_state *state,

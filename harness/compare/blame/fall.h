@@ -16,7 +16,7 @@ struct rg_fall {
 };
 
 // Describes the failure of a device's last call, and renews its process, so that the next call
-// starts afresh. RG_OK where it was not the driver's.
+// starts afresh. RG_OK if the failure was not the driver's.
 struct rg_fall rg_fall_now(struct rg_device *device);
 bool rg_fall_is_same(const struct rg_fall *a, const struct rg_fall *b);
 

@@ -8,7 +8,7 @@
 #include "core/image/compare/compare.h"
 
 struct rg_difference {
-    char what[200], a[250], b[250]; // "channel Z", and each file's value of it or "none"
+    char what[200], a[250], b[250]; // "channel Z", and its value in each file or "none"
 };
 
 // Zeroed: nothing differs. The caller frees `items`.

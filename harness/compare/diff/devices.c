@@ -70,7 +70,7 @@ static void note_failure(struct session *s, const char *device, enum rg_outcome 
     json_array_append_new(s->failures, row);
 }
 
-// Draws on a device. False where the first device refuses the user's input, as every other would.
+// Draws on a device. False if the first device refuses the user's input, as every other would.
 static bool take_picture(struct session *s, struct rg_device *device)
 {
     const struct rg_diff_devices_request *r = s->asked;
@@ -169,9 +169,9 @@ static bool is_truer(const struct rg_device_info *a, const struct rg_device_info
     return !strncmp(a->full, "cpu", 3) && strcmp(b->full, "cpu:reference") != 0;
 }
 
-// Finds where two devices part, for a pair that fails its tier; the device nearer to cpu:reference
-// counts as the truth. NULL where nothing is found, or on a failure, which has been logged: the
-// pair's own failure is known already.
+// Finds the first difference of a pair that fails its tier; the device nearer to cpu:reference
+// counts as the truth. NULL if nothing is found, or on a failure, which has been logged: the pair's
+// own failure is known already.
 static json_t *blame_pair(struct session *s, const struct shot *a, const struct shot *b)
 {
     const struct rg_diff_devices_request *r = s->asked;

@@ -17,13 +17,13 @@ json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c
 // ownership of the arrays. `devices` is NULL for files. False, and one logged line, on failure.
 bool rg_pairs_print_json(json_t *devices, json_t *pairs, json_t *failures);
 
-// Whether heat maps of this many pixels together can be written there, to be asked before any work;
-// a NULL prefix means none. False, and one logged line.
+// Checks before any work that heat maps of this many pixels together can be written there; a NULL
+// prefix means none. False, and one logged line, if not.
 bool rg_pair_heatmaps_can_be_written(const char *prefix, int64_t pixels);
 // Whether no heat map would replace the file `read`, which may be NULL. False, and one logged line,
 // if one would.
 bool rg_pair_heatmaps_spare(const char *prefix, const char *read);
-// Whether names that begin so lie in a folder, and need nothing between: it ends with a slash.
+// Whether a prefix is a folder, so that file names follow it without a dash: it ends with a slash.
 bool rg_is_folder_prefix(const char *prefix);
 // Writes PREFIX-flip.png and PREFIX-difference.png, or FOLDER/flip.png and FOLDER/difference.png.
 // False, and one logged line, on failure.

@@ -17,9 +17,9 @@ struct rg_case {
     char device[RG_CASE_NAME], truth[RG_CASE_NAME]; // the devices with which it was found
 };
 
-// Writes a case with every parameter that is not at its default, and `note`, one line. The user's
-// own files that settings name are copied beside it (files.h). False, and one logged line, on
-// failure; no partial file is left.
+// Writes a case with every parameter that is not at its default, and `note`, one line. Copies the
+// user's own files that settings name into a folder next to it (files.h). False, and one logged
+// line, on failure; no partial file remains.
 bool rg_case_write(const struct rg_case *found, const char *note, const char *path);
 
 // Reads a case. False, and one logged line with the file and the line, if it is not valid;
@@ -27,8 +27,8 @@ bool rg_case_write(const struct rg_case *found, const char *note, const char *pa
 bool rg_case_read(const char *path, struct rg_case *found);
 void rg_case_free(struct rg_case *found);
 
-// Replays a case on a device, prints the digest that it left or how it failed, and returns an enum
-// rg_exit: pass if it left the expected digest.
+// Replays a case on a device, and prints the digest of the asset or how the device failed. Returns
+// an enum rg_exit: pass if the digest is the expected one.
 int rg_case_replay(const struct rg_case *found, struct rg_device *device);
 
 #endif

@@ -17,7 +17,7 @@ struct pair {
     bool has_failed;
 };
 
-// Whether two dispatches leave the same bytes in each slot that is written.
+// Whether two dispatches have the same bytes in each written slot.
 static bool leaves_same(const struct rg_dispatched *a, const struct rg_dispatched *b)
 {
     for (int i = 0; i < a->kernel->slot_count; i++) {
@@ -121,7 +121,7 @@ static void shrink_inputs(struct pair *p)
     p->has_failed = false; // it failed only on these inputs
 }
 
-// Reduces the items and inputs, then leaves the truth's results for them in p->due.
+// Reduces the items and inputs, then writes the truth's results for them to p->due.
 static void shrink_items(struct pair *p, struct rg_culprit *culprit)
 {
     struct rg_extent *origin = &p->due->origin, *extent = &p->due->extent;

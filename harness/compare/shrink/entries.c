@@ -38,7 +38,7 @@ static bool write_entries(const struct entries *e, const char *path)
     return (!out || fclose(out) == 0) && ok;
 }
 
-// Tries the best run with only the entries that are kept; whether it has the difference still.
+// Tries the best run with only the kept entries; true if it still has the difference.
 static bool try_without(struct rg_search *s, const struct rg_param *param, const struct entries *e,
                         const char *ending)
 {

@@ -1,4 +1,4 @@
-// The user's own files that settings name: reading them, and copying them beside a case.
+// The user's own files that settings name: reads them, and copies them for a case.
 #ifndef RG_HARNESS_COMPARE_SHRINK_FILES_H
 #define RG_HARNESS_COMPARE_SHRINK_FILES_H
 
@@ -15,7 +15,7 @@ char *rg_file_load(const char *path, size_t *size);
 bool rg_files_spared_by_case(const struct rg_subject *subject, const char *path);
 
 enum { RG_FILE_NAME = 96 };
-// The name that a parameter's file has beside a case: "lights_file.json".
+// The name of a parameter's file in a case's folder: "lights_file.json".
 void rg_file_sent_name(const struct rg_param *param, const char *path, char name[RG_FILE_NAME]);
 
 // Copies the user's own files that settings name into the folder CASE.files. False, and one logged

@@ -1,5 +1,5 @@
-// The kernel folder beside a case: one run of a compute shader, for a driver's developer who does
-// not have raingauge.
+// The kernel folder of a case: one run of a compute shader, for a driver's developer who does not
+// have raingauge.
 #ifndef RG_HARNESS_COMPARE_SHRINK_FOLDER_H
 #define RG_HARNESS_COMPARE_SHRINK_FOLDER_H
 
@@ -7,8 +7,8 @@
 
 // Writes the folder CASE.kernel: the kernel as SPIR-V, GLSL and, for an OpenCL device, OpenCL C;
 // each slot's inputs and expected results; kernel.txt, which describes them; a program that runs
-// and compares the kernel; and a README with `note`, one line. Writes all files, and removes those
-// of an earlier case, or leaves none. False, and one logged line, on failure.
+// and compares the kernel; and a README with `note`, one line. Either writes all files and removes
+// others of an earlier case, or writes none. False, and one logged line, on failure.
 bool rg_kernel_folder_write(const char *path, const struct rg_culprit *culprit, const char *note,
                             struct rg_device *device, const struct rg_device *truth);
 

@@ -33,8 +33,8 @@ bool rg_search_try(struct rg_search *search, struct rg_digest_run run, int64_t m
 bool rg_search_value(struct rg_search *search, const struct rg_param *param, const char *value,
                      int64_t most_weight);
 
-// Reduces the user's own file that a parameter names, as long as the difference remains: elements
-// of arrays of a JSON file, lines of another text.
+// Reduces the user's own file that a parameter names, as long as the difference remains: an array's
+// elements in a JSON file, lines of another text.
 void rg_search_entries(struct rg_search *search, const struct rg_param *param);
 
 #endif

@@ -140,7 +140,7 @@ static void shrink_file(struct rg_search *s, const struct rg_param *param)
 
 // --- all parameters ---
 
-// Sets parameters back to their defaults where the difference remains; numbers as far as possible.
+// Sets parameters back to their defaults if the difference remains; numbers as far as possible.
 static void restore_defaults(struct rg_search *s)
 {
     const struct rg_param_table *table = s->best.subject.technique->params;

@@ -1,11 +1,11 @@
 // Mutants: a comparison that accepts a slightly wrong model proves nothing. Each mutant is drawn on
-// one device and compared with the true model's image, at T1, the loosest tier that verify accepts,
-// or at a requested tier.
+// one device and compared with the true model's image. The tier is T1, the loosest that verify
+// accepts, or a requested one.
 //
-// They have a scene of their own, the proof's over the technique's defaults, regardless of the
-// user's settings, since on a pane without drops a mutant would survive. And their pictures are
-// early ones: by step 1,000 a drop missing at the start would have run off the pane. Contrasts are
-// mutants with their own scenes.
+// Mutants have a scene of their own, the proof's over the technique's defaults, regardless of the
+// user's settings: on a pane without drops a mutant would survive. Their pictures are early ones:
+// by step 1,000 a drop missing at the start would have run off the pane. Contrasts are mutants with
+// their own scenes.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,7 @@ struct verdicts {
     struct rg_mutants_told told;
     bool error;
     struct rg_failure failure; // the first
-    char fault[400];           // of the list, the first; "": none
+    char fault[400];           // the first fault of the list; "": none
 };
 
 static void note_error(struct verdicts *verdicts)
@@ -41,8 +41,8 @@ static void note_error(struct verdicts *verdicts)
     verdicts->error = true;
 }
 
-// The parameter's value as the mutant has it. False where that is out of its range, or the model's
-// own value: 1 % less of nothing is no mutant, and the list that has it is wrong.
+// The parameter's value in the mutant. False if it is out of range or the model's own value: 1 %
+// less of nothing is no mutant, so the technique's list is wrong.
 static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, char *text,
                    size_t size, struct verdicts *verdicts)
 {

@@ -1,8 +1,8 @@
 // Decides which poses of a technique run, and for how long.
 #include "harness/compare/verify/verify.h"
 
-// QUICK_STEPS and FULL_STEPS are the defaults of poses. One in USUAL_PART of the full steps is
-// enough for drops to run down a pane and for storms to fill a scene; later steps repeat that.
+// QUICK_STEPS and FULL_STEPS are the defaults of poses. In one of USUAL_PART of the full steps
+// drops run down a pane and storms fill a scene; later steps repeat that.
 enum { QUICK_STEPS = 100, FULL_STEPS = 1000, USUAL_PART = 5 };
 
 static int usual_steps(int quick, int full)

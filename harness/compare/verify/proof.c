@@ -30,7 +30,7 @@ enum { MAX_LAWS = 8, STATE = 0, IMAGE = 1, LAWS = 2 };
 // One device's results: state, image, and each law.
 struct row {
     struct rg_device *device;
-    enum rg_tier tier; // required of it
+    enum rg_tier tier; // the tier required of it
     struct tally tallies[LAWS + MAX_LAWS];
     struct rg_session *last; // kept open until the next one is, so that shared data is made once
 };

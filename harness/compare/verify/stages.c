@@ -1,5 +1,5 @@
-// Finds the first stage that leaves other bits in an asset than on cpu:reference, where, and by how
-// much. Runs a few frames of each pose, since every asset is read after every stage.
+// Finds the first stage after which an asset's bits differ from cpu:reference's, where, and by how
+// much. Runs a few frames of each pose, since it reads every asset after every stage.
 #include <stdio.h>
 #include <stdlib.h>
 

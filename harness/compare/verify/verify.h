@@ -31,9 +31,9 @@ struct rg_verify {
 
 // A pose's number of steps before drawing; RG_POSE_LEFT_OUT if it is not run.
 int rg_verify_steps(const struct rg_verify *verify, const struct rg_pose *pose);
-// Whether a pose runs with a seed of RG_VERIFY_SEEDS. Except in RG_VERIFY_FULL, the first pose runs
-// with all seeds and each other pose with one, in turn: a faulty device fails in some pose, and
-// three seeds for each would cost three times as much.
+// Whether a pose runs with a seed of RG_VERIFY_SEEDS. The first pose, and every pose in
+// RG_VERIFY_FULL, runs with all seeds. Each other pose runs with one, in turn: a faulty device
+// fails in some pose, and three seeds for each would cost three times as much.
 bool rg_verify_has_seed(const struct rg_verify *verify, const struct rg_pose *pose, int seed);
 // The number of poses that run.
 int rg_verify_poses(const struct rg_verify *verify);
@@ -61,7 +61,7 @@ bool rg_verify_mutants_at(const struct rg_verify *verify, enum rg_tier tier,
 // Lists the accepted mutants, separated by commas; "" if there are none.
 void rg_mutants_text(const struct rg_mutants_told *told, char *text, size_t size);
 
-// Finds the stage that first leaves other bits in an asset than on the reference, over poses, with
+// Finds the first stage after which an asset's bits differ from the reference's, over poses, with
 // one seed.
 void rg_verify_stages(struct rg_verify *verify);
 

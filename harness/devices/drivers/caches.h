@@ -1,10 +1,10 @@
 // Folders for sides: a device with settings of its own, or a side of a gate, has its own folder for
 // compiled code, by its settings and its driver.
 //
-// Drivers cache compiled code, and not all key it by everything it depends on. Mesa 22.3 caches
-// code compiled under LP_PERF=no_tex, or for another LP_NATIVE_VECTOR_WIDTH, as if compiled
-// without: the next plain run draws with it, and vice versa. So two sides with one cache would run
-// the same code, and would spoil the user's cache.
+// Drivers cache compiled code, and some omit from the key a thing on which the code depends. Mesa
+// 22.3 caches code compiled under LP_PERF=no_tex, or for another LP_NATIVE_VECTOR_WIDTH, as if
+// compiled without: the next plain run draws with it, and vice versa. So two sides with one cache
+// would run the same code, and would spoil the user's cache.
 #ifndef RG_HARNESS_DEVICES_DRIVERS_CACHES_H
 #define RG_HARNESS_DEVICES_DRIVERS_CACHES_H
 
@@ -14,7 +14,7 @@
 
 #include "harness/devices/drivers/variables.h"
 
-// The numbers of settings' folders, and of drivers' folders in each, that are kept: the last used.
+// The numbers of folders that are kept: of settings, and of drivers in each. The last used remain.
 enum { RG_SIDES_KEPT = 32, RG_SIDE_DRIVERS_KEPT = 4 };
 
 struct rg_side_folder {
@@ -24,8 +24,8 @@ struct rg_side_folder {
 };
 
 // Finds or makes the folder of a device's settings and of the driver that it had when last opened.
-// It stays while this process lives; the least recently used others are removed. Settings are the
-// API's name, the device's own variables (harness/devices/workers/environment.h), and this
+// It stays while this process lives; of the others the least recently used are removed. Settings
+// are the API's name, the device's own variables (harness/devices/workers/environment.h), and this
 // process's variables that a driver reads. False, and one logged line, on failure.
 bool rg_side_folder_find(const char *api, const char *environment, struct rg_side_folder *folder);
 

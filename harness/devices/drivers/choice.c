@@ -197,8 +197,8 @@ static bool is_in_prefix(const struct rg_choice *c, const struct rg_device_info 
                     c->name, driver->path, c->driver);
 }
 
-// Whether the driver that was named runs. A manifest in one tree may lead to a library of another:
-// a bare name is found in the system's folders, or a path leads there.
+// Whether the named driver runs. A manifest in one tree may lead to a library of another: by a bare
+// name, which is found in the system's folders, or by a path.
 bool rg_choice_is_met(const struct rg_choice *c, const struct rg_device_info *info)
 {
     const struct rg_library *driver = &info->libraries[0];

@@ -1,8 +1,8 @@
 // Checks that the driver chosen by a device's name is the driver that runs.
 //
-// Names choose drivers in many ways, and where one leads nowhere, the loaders of Vulkan, EGL and
-// OpenCL silently use the system's driver. So the named files are examined before a device is
-// opened, and compared with the files mapped by its worker after that.
+// Names choose drivers in many ways. If a name leads nowhere, the loaders of Vulkan, EGL and OpenCL
+// silently use the system's driver. So the named files are examined before a device is opened, and
+// compared with the files mapped by its worker after that.
 #ifndef RG_HARNESS_DEVICES_DRIVERS_CHOICE_H
 #define RG_HARNESS_DEVICES_DRIVERS_CHOICE_H
 
@@ -34,7 +34,7 @@ struct rg_choice {
 };
 
 // Reads the choice in a name, whose texts must outlive it; rg_choice_free frees it. NULL, and one
-// logged line, where the name has missing or unsuitable files or folders.
+// logged line, if the name has missing or unsuitable files or folders.
 struct rg_choice *rg_choice_read(const struct rg_asked *asked);
 void rg_choice_free(struct rg_choice *choice);
 
@@ -48,7 +48,7 @@ int rg_choice_libraries(const struct rg_choice *choice, const char **libraries, 
 // Logs that none of them can be loaded, with the dynamic linker's reason. Returns false.
 bool rg_choice_refuse(const struct rg_choice *choice, const char *why);
 
-// Whether the opened device runs one of them. False, and one logged line, where its driver is
+// Whether the opened device runs one of them. False, and one logged line, if its driver is
 // elsewhere.
 bool rg_choice_is_met(const struct rg_choice *choice, const struct rg_device_info *info);
 

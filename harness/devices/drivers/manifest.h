@@ -32,8 +32,8 @@ void rg_manifest_read(const char *path, struct rg_manifest *manifest);
 bool rg_manifest_write(const struct rg_manifest *manifest, const char *library, const char *path);
 
 // The prefix under which a manifest is installed, "/opt/mesa" for
-// "/opt/mesa/usr/share/vulkan/icd.d/lvp.json"; "": it is not in a folder for manifests, or it is in
-// the system's.
+// "/opt/mesa/usr/share/vulkan/icd.d/lvp.json"; "": the manifest is not in a folder for manifests,
+// or is in the system's.
 void rg_manifest_tree(const char *path, char tree[PATH_MAX]);
 
 // Whether a path is below a folder, after following links.

@@ -1,5 +1,6 @@
-// A folder with a driver, DRIVER=PREFIX: as packages unpack (usr/lib, usr/share, etc), as `meson
-// install` fills a prefix (lib, share), or a build folder as used by `meson devenv`.
+// A folder with a driver, DRIVER=PREFIX, in one of three forms: as packages unpack (usr/lib,
+// usr/share, etc), as `meson install` fills a prefix (lib, share), or a build folder as used by
+// `meson devenv`.
 #ifndef RG_HARNESS_DEVICES_DRIVERS_PREFIX_H
 #define RG_HARNESS_DEVICES_DRIVERS_PREFIX_H
 
@@ -23,8 +24,8 @@ struct rg_prefix {
 };
 
 // Finds the drivers in a prefix, at least one of this API. `device` is for messages. False, and one
-// logged line, on failure: an input error where the folder is missing or its libraries are for
-// another processor, unsupported where it has no driver of that API.
+// logged line, on failure: an input error if the folder is missing or its libraries are for another
+// processor, unsupported if it has no driver of that API.
 bool rg_prefix_read(const char *device, const char *api, const char *path,
                     struct rg_prefix *prefix);
 

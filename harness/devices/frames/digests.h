@@ -35,26 +35,26 @@ bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
                      struct rg_digests *digests);
 void rg_digests_free(struct rg_digests *digests);
 
-// Runs once more, and brings what the asset of a row held then, with what is known of it as a state
-// (`state`: its name is NULL where it is none) and of a buffer's words. False, and one logged line,
-// on failure; the contents are to be freed in either case.
+// Runs once more, and returns what the asset of a row held then. `state` describes a buffer's
+// words; its name is NULL unless the asset is a state. False, and one logged line, on failure; the
+// caller frees the contents in either case.
 bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
                          struct rg_contents *contents, struct rg_state *state);
 
-// Runs again, up to the stage with this number of stages run, and records each dispatch between the
-// end of the stage before and its own end. False, and one logged line, on failure; free them in
-// either case.
+// Runs again, up to the stage after which `stages_run` stages have run, and records each dispatch
+// of it: all after the end of the stage before. False, and one logged line, on failure; the caller
+// frees the dispatches in either case.
 bool rg_digests_dispatches(const struct rg_digest_run *run, struct rg_device *device,
                            int stages_run, struct rg_dispatches *dispatches);
 // Replays one dispatch on a device (rg_dispatched_run).
 bool rg_digests_dispatch(struct rg_dispatched *dispatched, struct rg_device *device);
 
-// The code of a kernel that a device gives to its driver, or would give if its API took this kind:
-// bytes that the caller frees. NULL, and one logged line, on failure.
+// The code of a kernel that a device gives to its driver, or would give if its API took this kind
+// of code: bytes that the caller frees. NULL, and one logged line, on failure.
 void *rg_digests_code(struct rg_device *device, const struct rg_kernel *kernel,
                       enum rg_code_kind kind, size_t *size);
 
-// Has a device compile a kernel, and drops it. False, and one logged line, on failure.
+// Makes a device compile a kernel, which is dropped. False, and one logged line, on failure.
 bool rg_digests_compile(struct rg_device *device, const struct rg_kernel *kernel);
 
 #endif

@@ -14,14 +14,14 @@ bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subjec
                        struct rg_picture *picture);
 
 enum { RG_FRAME_DRY = 160 };
-// Writes a line saying that a subject shows no rain after this many frames, and a frame that does,
-// if one is found; `option` is the option with the frame, as "--frame".
+// Writes a line saying that a subject shows no rain after this many frames, and which frame does,
+// if one is found. `option` is the option that sets the frame, such as "--frame".
 void rg_frame_tell_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
                        float exposure, const char *option, char text[RG_FRAME_DRY]);
 
 // Opens a subject on a device, simulates this many frames and draws the last, with a progress bar.
-// For a very large picture, an estimate from one of an eighth of its width and height is told
-// first. NULL, and one logged line, on failure.
+// For a very large picture, first logs an estimate of the time, from a picture of an eighth of the
+// width and height. NULL, and one logged line, on failure.
 struct rg_session *rg_frame_run(struct rg_device *device, const struct rg_subject *subject,
                                 int frames);
 

@@ -1,4 +1,4 @@
-// Calls about sessions and runs, as this process does them: the one table of them.
+// The one table of the calls about sessions and runs, as this process does them.
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
@@ -196,7 +196,7 @@ static bool texture(struct rg_session *session, const void *request, void *reply
     return true;
 }
 
-// --- runs whose stages are looked at, and kernels alone ---
+// --- runs whose stages are examined, and kernels alone ---
 
 static bool digests(struct rg_device *device, const void *request, void *reply)
 {
@@ -217,7 +217,7 @@ static bool dispatches(struct rg_device *device, const void *request, void *repl
     return rg_recorder_dispatches(&asked->run, device, asked->row, reply);
 }
 
-// A worker replies with another struct than it was asked with, which lends it what lay before.
+// A worker's reply is another struct than the request, which lends it the contents before the run.
 static bool dispatch(struct rg_device *device, const void *request, void *reply)
 {
     struct rg_dispatched *told = reply;

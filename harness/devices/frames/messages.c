@@ -6,7 +6,7 @@
 
 #include "core/base/log.h"
 
-// --- settings, by name: another build may have them elsewhere, and others beside them ---
+// --- settings, by name: another build may have more, and at other offsets ---
 
 enum { VALUE_SIZE = RG_PATH_SIZE + 1 };
 
@@ -139,7 +139,7 @@ const struct rg_field rg_asked_fields[] = {
     RG_FIELDS_END,
 };
 
-// A subject goes before what is asked of it.
+// The subject comes first in the message.
 const struct rg_field rg_asked_run_fields[] = {
     RG_FIELD_OWN(struct rg_subject, &subject_way),
     RG_FIELD_INTEGER(struct rg_asked_run, run.frames, 0, INT32_MAX - 1),

@@ -6,15 +6,15 @@
 #include "harness/devices/workers/fields.h"
 #include "harness/devices/frames/digests.h"
 
-// What calls are asked with: a name, a number, or both; which, each call says.
+// The request of a call: a name, a number, or both, as the call needs.
 struct rg_asked {
     const char *name; // NULL: none
     int number;
 };
 
-// A run whose stages are looked at, and which row of it.
+// A run whose stages are examined, and a row of it.
 struct rg_asked_run {
-    struct rg_digest_run run; // its settings are the message's own where it was taken
+    struct rg_digest_run run; // the message owns its settings if it was received
     int row;
 };
 
@@ -62,11 +62,11 @@ struct rg_told_bytes {
 // The contents of an asset in a run.
 struct rg_told_contents {
     struct rg_contents contents;
-    struct rg_state state; // its layout, as above
+    struct rg_state state; // its layout, as in struct rg_told_bytes
 };
 
-// Of struct rg_account, rg_tally, rg_session_code, rg_digests and rg_dispatches, of those above,
-// and of one double and one int64_t.
+// Fields of the structs above, of struct rg_account, rg_tally, rg_session_code, rg_digests and
+// rg_dispatches, of one double, and of one int64_t.
 extern const struct rg_field rg_asked_fields[], rg_asked_run_fields[];
 extern const struct rg_field rg_told_account_fields[], rg_told_tally_fields[],
     rg_told_code_fields[], rg_told_digests_fields[], rg_told_dispatches_fields[];
@@ -75,8 +75,8 @@ extern const struct rg_field rg_told_session_fields[], rg_told_stages_fields[],
     rg_told_contents_fields[];
 extern const struct rg_field rg_ms_fields[], rg_time_fields[];
 
-// Of struct rg_dispatched: with what lay in its slots before, and what lies there after, which is
-// taken into the one that was asked about.
+// Fields of struct rg_dispatched: its slots' contents before the run, and those after it, which are
+// received into the struct of the request.
 extern const struct rg_field rg_asked_dispatched_fields[], rg_told_dispatched_fields[];
 
 #endif

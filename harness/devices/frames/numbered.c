@@ -5,7 +5,8 @@
 
 #include "core/base/log.h"
 
-// The length of a place at `at`, 0 where there is none; *digits: its least number of digits.
+// The length of a place for a number at `at`, 0 if there is none; *digits: its least number of
+// digits.
 static int place_at(const char *at, int *digits)
 {
     *digits = 0;

@@ -57,7 +57,7 @@ static void keep_state(struct recorder *r, const struct rg_opened_stage *stage,
     r->state->words = rg_asset_words(r->instance, stage, asset);
 }
 
-// A lent asset that no stage writes is read only once, because it cannot change.
+// Records an asset. A lent one that no stage writes is read only once, because it cannot change.
 static void record(struct recorder *r, const struct rg_opened_stage *stage, int at)
 {
     const struct rg_asset *asset = &r->instance->assets[at];

@@ -55,7 +55,7 @@ bool rg_remote_session_open(struct rg_session *session, const struct rg_subject 
     return ok;
 }
 
-// What is gone with its worker needs no closing, and no line.
+// A session that ended with its worker needs no closing, and no line.
 void rg_remote_session_close(struct rg_session *session)
 {
     struct rg_worker *worker = rg_remote_worker(session->device);

@@ -122,7 +122,7 @@ bool rg_session_code(struct rg_session *session, struct rg_session_code *code)
 
 // --- its picture ---
 
-// The bytes of what was told; NULL, and freed, where that failed.
+// The bytes of a reply; frees them and returns NULL if the call failed.
 static void *bytes_of(struct rg_told_bytes *told, bool ok, size_t *size)
 {
     *size = told->size;
@@ -207,7 +207,7 @@ bool rg_session_texture(const struct rg_session *session, const char *name,
     return true;
 }
 
-// --- runs whose stages are looked at, and kernels alone ---
+// --- runs whose stages are examined, and kernels alone ---
 
 bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
                      struct rg_digests *digests)

@@ -66,8 +66,8 @@ bool rg_session_read_picture(struct rg_session *session, struct rg_picture *pict
 
 // --- state and account ---
 
-// Gets an account of the session. False, with one logged line and no account, where it has ended
-// with its worker.
+// Gets an account of the session. False, with one logged line and no account, if the session has
+// ended with its worker.
 bool rg_session_tell(const struct rg_session *session, struct rg_account *account);
 
 // The number of the state's buffers; and the words of one, which the caller frees. `layout` gets
@@ -77,12 +77,12 @@ void *rg_session_read_state(struct rg_session *session, int index, struct rg_sta
                             size_t *size);
 // A law of its technique's proof by number; NULL: there is none.
 const struct rg_law *rg_session_law(const struct rg_session *session, int number);
-// Whether a law of the technique's proof holds now; else `detail` says what is wrong, or is empty
-// where it could not be found out, which has been logged.
+// Whether a law of the technique's proof holds now. If not, `detail` says what is wrong; it is
+// empty if the law could not be checked, which has been logged.
 bool rg_session_obeys(const struct rg_session *session, const struct rg_law *law, char *detail,
                       size_t size);
 // The size of an input texture of the technique, and the level of the whole texture that is its
-// level 0. False, without a message, where there is none of this name.
+// level 0. False, without a message, if there is none of this name.
 bool rg_session_texture(const struct rg_session *session, const char *name,
                         struct rg_image_desc *desc, int *first_level);
 

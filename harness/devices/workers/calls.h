@@ -5,7 +5,7 @@
 #ifndef RG_HARNESS_DEVICES_WORKERS_CALLS_H
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 
-// Of a session that is open (harness/devices/frames/local.c).
+// Calls about an open session (harness/devices/frames/local.c does them).
 #define RG_SESSION_CALLS(CALL)                                                                     \
     CALL(STEP, step, "simulating a frame")                                                         \
     CALL(DRAW, draw, "drawing a frame")                                                            \
@@ -20,7 +20,7 @@
     CALL(READ_STATE, read_state, "reading the state")                                              \
     CALL(OBEYS, obeys, "checking a law")                                                           \
     CALL(TEXTURE, texture, "telling of a texture")
-// Of runs of a device and of its kernels, without a session (likewise).
+// Calls about runs on a device, and about kernels, without a session (likewise).
 #define RG_RUN_CALLS(CALL)                                                                         \
     CALL(DIGESTS, digests, "digesting stages")                                                     \
     CALL(CONTENTS, contents, "reading an asset")                                                   \
@@ -29,10 +29,10 @@
     CALL(KERNEL_CODE, kernel_code, "reading a kernel's code")                                      \
     CALL(COMPILE, compile, "compiling a kernel")
 
-// The first asks whether both speak of the same things (harness/measure/serving/hello.c), and stays
-// the first for ever, in all builds. LIST is of a backend's devices, LOAD of libraries that a
-// device's name names, those down to CEILINGS of the one device of this worker, which ends behind
-// CLOSE, and the rest of sessions and runs.
+// HELLO asks whether both processes use the same messages (harness/measure/serving/hello.c); it
+// stays first for ever, in all builds. LIST is about a backend's devices, LOAD about libraries that
+// a device's name names. OPEN to CEILINGS are about this worker's one device; the worker ends after
+// CLOSE. The rest are about sessions and runs.
 #define RG_CALLS(CALL)                                                                             \
     CALL(HELLO, hello, "greeting")                                                                 \
     CALL(LIST, list, "listing devices")                                                            \

@@ -13,8 +13,8 @@
 
 // --- the page ---
 
-// Maps the page from a file, or as private memory where there is none. Private, it shows nobody
-// what the worker does, and the time without progress counts from its last message.
+// Maps the page from a file, or as private memory if there is none. A private page shows nobody
+// what the worker does; the time without progress then counts from its last message.
 static struct rg_doing *map(int page)
 {
     const int shared = page < 0 ? MAP_PRIVATE | MAP_ANONYMOUS : MAP_SHARED;
@@ -22,8 +22,8 @@ static struct rg_doing *map(int page)
     return bytes != MAP_FAILED ? bytes : page < 0 ? NULL : map(-1);
 }
 
-// Makes the page's file; -1 where that fails, as with ulimit -f 0. Writes zeros up to the page's
-// size, because no filter of system calls refuses a write.
+// Makes the page's file; -1 on failure, as with ulimit -f 0. Writes zeros up to the page's size,
+// because no filter of system calls refuses a write.
 static int make_page(void)
 {
     static const char zeros[sizeof(struct rg_doing)];
@@ -100,7 +100,7 @@ bool rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
 
 // --- receiving ---
 
-// Grows a message's memory, at most to twice of what has arrived, because the announced size may be
+// Grows a message's memory, at most to twice the received size, because the announced size may be
 // false.
 static bool make_room(struct rg_channel *channel)
 {

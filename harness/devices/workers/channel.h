@@ -2,7 +2,7 @@
 // worker does. It ends when the other process does.
 //
 // Messages pass through the socket as a whole, so that limits on shared memory or file sizes do not
-// apply, and nobody can change a message while it is received.
+// apply. Nor can anybody change a message while it is received.
 #ifndef RG_HARNESS_DEVICES_WORKERS_CHANNEL_H
 #define RG_HARNESS_DEVICES_WORKERS_CHANNEL_H
 
@@ -16,7 +16,7 @@ struct rg_channel {
     int64_t most_bytes;      // limit of a received message
     struct rg_doing *doing;  // shows what the worker does; owned
     struct rg_message taken; // a message that has partly arrived
-    int64_t taken_bytes;     // bytes received of it and of its size before it
+    int64_t taken_bytes;     // bytes received of the message and of the size before it
     int64_t taken_size;
 };
 
@@ -27,8 +27,8 @@ int rg_channel_create(struct rg_channel *channel, int theirs[2]);
 bool rg_channel_join(struct rg_channel *channel, int socket, int page);
 void rg_channel_close(struct rg_channel *channel);
 
-// Sends a message of two parts. False where the other end has ended, or takes nothing (errno is
-// then ETIMEDOUT).
+// Sends a message of two parts. False if the other end has ended, or takes nothing (errno is then
+// ETIMEDOUT).
 bool rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
                      const struct rg_message *body);
 // Waits for up to `timeout_ms`, -1: forever, and receives a message, which the caller frees. A

@@ -8,9 +8,9 @@
 
 // Opens a device in its own worker, or in `worker`, which it then owns, if that is not NULL.
 // `environment` is as for rg_worker_create. `full` is the device's name including '@' and what
-// follows; `name` is what messages and tables call it, where it differs. rg_device_close closes it
-// and ends the worker. NULL, and one logged line, on failure, with rg_device_open's kind of error,
-// or the kind that ended the worker.
+// follows; `name` is the name in messages and tables, if another. rg_device_close closes it and
+// ends the worker. NULL, and one logged line, on failure, with rg_device_open's kind of error, or
+// the kind that ended the worker.
 struct rg_device *rg_remote_open(struct rg_worker *worker, const char *name, const char *full,
                                  const char *environment);
 

@@ -39,7 +39,7 @@ void rg_worker_tell_doing(const struct rg_doing *doing, char text[RG_WORKER_DOIN
              is_told ? "" : seen.queued);
 }
 
-// What became of the process; `mend` says what to do about it, or is "".
+// Writes how the process ended; `mend` gets the remedy, or "".
 static void tell_line(const struct rg_worker_end *end, char *line, size_t size, const char **mend)
 {
     char limits[RG_LIMITS_TEXT];

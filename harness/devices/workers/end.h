@@ -21,7 +21,7 @@ enum rg_worker_verdict {
 struct rg_worker_end {
     enum rg_worker_verdict verdict;
     int status;           // as waitpid has it
-    int64_t memory_bytes; // that it might hold
+    int64_t memory_bytes; // that it was allowed to hold
     int timeout_s;
     FILE *printed; // what it printed
 };
@@ -33,7 +33,7 @@ bool rg_worker_ended_lacking(int status);
 enum rg_outcome rg_worker_end_outcome(const struct rg_worker_end *end);
 
 // Writes what the process was doing, and which kernels nobody had waited for: a driver may compile
-// and run them at any time, in its own threads. "" or text that begins with a space or a ;.
+// and run kernels at any time, in its own threads. The text is "", or begins with a space or a ;.
 enum { RG_WORKER_DOING = 560 };
 void rg_worker_tell_doing(const struct rg_doing *doing, char text[RG_WORKER_DOING]);
 // Writes how the process ended, what it was doing, and the last line that it printed.

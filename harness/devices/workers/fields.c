@@ -5,7 +5,7 @@
 
 #include "core/base/array.h"
 
-// The address of a field's entry in its struct, or of a member beside it.
+// The address of a field's entry in its struct, or of a counter that belongs to it.
 static void *at(const void *all, size_t offset)
 {
     return (char *)(uintptr_t)all + offset;

@@ -1,5 +1,5 @@
-// Describes the contents of a message once, as fields of a struct by which it is sent and received,
-// so that the receiver checks everything that the description says.
+// Describes the contents of a message once, as fields of a struct. The struct is sent and received
+// by this table, so that the receiver checks everything in it.
 //
 //   static const struct rg_field fields[] = {
 //       RG_FIELD_INTEGER(struct fact, count, 0, 9),
@@ -15,33 +15,33 @@
 
 enum rg_field_kind {
     RG_KIND_END,
-    RG_KIND_INTEGER, // of 1, 4 or 8 bytes, from `least` to `most`: bools and enums as well
-    RG_KIND_NUMBER,  // a double, from `least` to `most`, which no NaN is
-    RG_KIND_BYTES,   // that may be any
-    RG_KIND_TEXT,    // that ends within its array
-    RG_KIND_NAME,    // a const char *, which lives as long as this process, of `least` bytes or
-                     // more; one of none is NULL
-    RG_KIND_STRUCT,  // the fields `of` it
-    RG_KIND_BLOCK,   // a pointer to memory of its own; its size is the size_t at `count`
-    RG_KIND_LIST,    // a pointer to rows, each with the fields `of` it; their number is the int at
-                     // `count`, the room for them the int64_t at `room`
-    RG_KIND_OWN,     // a struct that goes in a way of its own
-    RG_KIND_CHECK,   // no field: the struct is damaged where `holds` is false
+    RG_KIND_INTEGER, // of 1, 4 or 8 bytes, from `least` to `most`; also bools and enums
+    RG_KIND_NUMBER,  // a double from `least` to `most`; never NaN
+    RG_KIND_BYTES,   // bytes with any values
+    RG_KIND_TEXT,    // a text that ends within its array
+    RG_KIND_NAME,    // a const char * of `least` bytes or more, valid for the process's life; NULL
+                     // if empty
+    RG_KIND_STRUCT,  // a struct with the fields `of`
+    RG_KIND_BLOCK,   // a pointer to a block of memory; its size is the size_t at `count`
+    RG_KIND_LIST,    // a pointer to rows, each with the fields `of`; their number is the int at
+                     // `count`, their capacity the int64_t at `room`
+    RG_KIND_OWN,     // a struct with functions of its own (struct rg_field_way)
+    RG_KIND_CHECK,   // no field: the struct is damaged if `holds` returns false
 };
 
-// How a struct is put that no table describes. It is taken into a zeroed one: false, with one
-// logged line, where that failed; what was taken until then is given back by `free`, NULL: nothing.
+// Functions for a struct that no table describes. `take` fills a zeroed struct; false, with one
+// logged line, on failure. `free` then frees what was taken; NULL: there is nothing to free.
 struct rg_field_way {
     void (*put)(struct rg_message *message, const void *entry);
     bool (*take)(struct rg_message *message, void *entry);
     void (*free)(void *entry);
 };
 
-// A table of them ends with RG_FIELDS_END.
+// A field of a struct; RG_FIELDS_END ends a table of them.
 struct rg_field {
     enum rg_field_kind kind;
     size_t offset, size; // of one entry, or of one row of a list
-    int64_t least, most; // for a list: of its rows
+    int64_t least, most; // of a list: of its number of rows
     size_t entries;      // number of elements of an array
     bool is_counted;     // the int at `count` says how many of them are used
     size_t count, room;  // offsets
@@ -90,12 +90,12 @@ struct rg_field {
             .room = offsetof(S, room), .of = (table)                                               \
     }
 #define RG_FIELD_ENTRIES(S, field) (sizeof(((S *)0)->field) / sizeof(((S *)0)->field[0]))
-// All of a struct.
+// A whole struct, by functions of its own.
 #define RG_FIELD_OWN(S, functions)                                                                 \
     {                                                                                              \
         RG_KIND_OWN, .size = sizeof(S), .entries = 1, .way = (functions)                           \
     }
-// The last before the end: what no range of one field says.
+// The last field before the end: a condition on several fields.
 #define RG_FIELD_CHECK(function)                                                                   \
     {                                                                                              \
         RG_KIND_CHECK, .entries = 1, .holds = (function)                                           \
@@ -106,10 +106,10 @@ struct rg_field {
     }
 
 void rg_put_fields(struct rg_message *message, const struct rg_field *fields, const void *all);
-// Zero `all` before. False, with one logged line, where the message is damaged. Blocks and lists
+// Zero `all` before. False, with one logged line, if the message is damaged. Blocks and lists
 // received until then stay in `all`, which the caller frees in either case.
 bool rg_take_fields(struct rg_message *message, const struct rg_field *fields, void *all);
-// Gives back the memory of blocks, lists and structs that go their own way.
+// Frees blocks and lists, and structs by their own functions.
 void rg_free_fields(const struct rg_field *fields, void *all);
 
 #endif

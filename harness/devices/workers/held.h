@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-// Resident bytes; 0 where the process has ended.
+// Resident bytes; 0 if the process has ended.
 int64_t rg_held_bytes(pid_t process);
 
 #endif

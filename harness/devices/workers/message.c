@@ -83,7 +83,7 @@ int rg_take_index(struct rg_message *message, int end)
     return 0;
 }
 
-// The place of a block in the message; NULL, and size 0, where it does not fit.
+// The place of a block in the message; NULL, and size 0, if it does not fit.
 static const char *take_place(struct rg_message *message, int64_t *size)
 {
     const int64_t said = rg_take_int(message);

@@ -36,13 +36,13 @@ bool rg_take(struct rg_message *message, void *bytes, int64_t size);
 int64_t rg_take_int(struct rg_message *message);
 // Takes a number from 0 to `end` - 1; else the message has failed.
 int rg_take_index(struct rg_message *message, int end);
-// A text in the message, valid as long as it; "" where it has failed.
+// A text in the message, valid as long as it; "" if the message has failed.
 const char *rg_take_text(struct rg_message *message);
 // The same text, valid for the process's life: for names that structs point to. A message with more
 // or longer names than any program has fails.
 const char *rg_take_name(struct rg_message *message);
 // Takes a block, which the caller frees, with a word of zeros after it; an empty block is not NULL.
-// Size is 0 where the result is NULL.
+// The size is 0 if the result is NULL.
 void *rg_take_block(struct rg_message *message, int64_t *size);
 // Marks the message as failed because its content is invalid. Returns false.
 bool rg_message_fail(struct rg_message *message);

@@ -70,7 +70,7 @@ static bool serve_one(struct rg_channel *channel, rg_service *const services[],
 }
 
 // Makes this process end with the harness, without core dumps, which would mostly hold the driver's
-// memory. False if it was not started by the harness.
+// memory. False if the harness did not start it.
 static bool become_a_worker(pid_t harness)
 {
     const struct rlimit none = {0, 0};

@@ -33,8 +33,8 @@ enum { LOOK_MS = 100, END_MS = 5000, HELLO_MS = 20000 };
 // process's, so that more than this is dropped.
 enum { MOST_PRINTED = 1 << 20 };
 
-// Memory allowed to a process in addition to what it counts (core/base/memory.h): the program, its
-// driver, and compiled code.
+// Memory allowed to a process in addition to the memory that it counts (core/base/memory.h): the
+// program, its driver, and compiled code.
 #define OWN_BYTES ((int64_t)1 << 30)
 
 struct rg_workers rg_workers = {.timeout_s = 120};
@@ -43,13 +43,13 @@ struct rg_worker {
     char *name, *environment; // owned
     pid_t process;            // 0: not running
     struct rg_channel channel;
-    FILE *printed;        // what the process prints; drivers do
-    bool is_interrupted;  // it was told so
-    bool is_closed;       // its device was
-    bool closed_badly;    // something on it was not
-    bool was_open;        // its device, in this life or one before
-    int64_t memory_bytes; // that its process may hold
-    int64_t taken_bytes;  // of them counted here (core/base/memory.h)
+    FILE *printed;        // the process prints into it, as drivers do
+    bool is_interrupted;  // the process was told of the interruption
+    bool is_closed;       // the device was closed
+    bool closed_badly;    // something on the device was not closed
+    bool was_open;        // the device was open, in this life or one before
+    int64_t memory_bytes; // limit of the process's memory
+    int64_t taken_bytes;  // of the limit, counted here (core/base/memory.h)
     int life;
     int ended;                   // processes that ended since it was renewed
     enum rg_outcome end;         // how its last process ended
@@ -150,7 +150,8 @@ int64_t rg_worker_grant(struct rg_worker *worker)
     return rg_memory_grant(worker->taken_bytes);
 }
 
-// The file that the process prints into. It goes on at the end, wherever that has come to be.
+// Makes the file that the process prints into. Writes append, also after the harness has emptied
+// the file.
 static bool make_printed(struct rg_worker *worker, char why[RG_NAMELESS_WHY])
 {
     const int file = rg_file_nameless(why);
@@ -243,8 +244,8 @@ static int end_process(struct rg_worker *worker)
     return status;
 }
 
-// A process that was asked to close its device has nothing more to do but to end. False, with one
-// logged line, where it does not do so well.
+// A process that was asked to close its device only has to end. False, with one logged line, if it
+// does not end well.
 static bool end(struct rg_worker *worker)
 {
     char last[200];
@@ -355,8 +356,8 @@ static enum rg_outcome bury(struct rg_worker *worker, enum rg_worker_verdict ver
 
 // --- messages ---
 
-// A driver's error names its device; what the user did amiss has no device. What a driver cannot do
-// within low limits is no fault of it, nor is it absent for them.
+// A driver's error names its device; a user's error does not. If limits are low, a driver that
+// fails or gives no device is neither at fault nor absent: raingauge lacks memory.
 static void relay(const struct rg_worker *worker, enum rg_log_level level, enum rg_fault fault,
                   enum rg_outcome outcome, const char *line)
 {
@@ -377,7 +378,8 @@ static void relay(const struct rg_worker *worker, enum rg_log_level level, enum 
                  named);
 }
 
-// Logs what the worker did, and says whether the call succeeded. One that failed has said why.
+// Logs the worker's lines, and returns whether the call succeeded. A failed call has given its
+// reason.
 static bool open_reply(const struct rg_worker *worker, struct rg_message *reply)
 {
     const bool ok = rg_take_index(reply, 2);
@@ -452,8 +454,8 @@ static bool turn_away(struct rg_worker *worker)
                     worker->name, program_of(worker));
 }
 
-// Ensures that a process is running. False where it has ended too often, or cannot be started, with
-// the reason in `why`, or one logged line.
+// Ensures that a process is running. False, with the reason in `why` or one logged line, if it has
+// ended too often or cannot be started.
 static bool comes_to_life(struct rg_worker *worker, char *why, size_t size)
 {
     if (worker->process)
@@ -540,7 +542,7 @@ const struct rg_field rg_closed_fields[] = {
     RG_FIELDS_END,
 };
 
-// For want of memory nothing is closed badly: its process ends, and what was done is whole.
+// A lack of memory does not count as closing badly: the process ends, and finished work is whole.
 void rg_worker_closes_badly(struct rg_worker *worker)
 {
     worker->closed_badly = worker->closed_badly || rg_failure_take().outcome != RG_LACKING;

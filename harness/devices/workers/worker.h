@@ -41,19 +41,19 @@ struct rg_worker *rg_worker_create(const char *name, const char *environment);
 // Makes a running worker close its device, which logs leaks. False, with a logged line, if there
 // are any, or if it ends meanwhile.
 bool rg_worker_retire(struct rg_worker *worker);
-// What a worker replies to that: a bool, whether nothing was left and nothing on it had failed.
+// The reply to closing: a bool, whether nothing was left on the device and nothing had failed.
 extern const struct rg_field rg_closed_fields[];
-// What its process did when it crashed or was ended last, as the line about that has it: " while
-// running kernel 'flow_blur'"; "": nothing that is known.
+// The activity of the process when it last crashed or was ended, as in the line about that: " while
+// running kernel 'flow_blur'"; "": unknown.
 const char *rg_worker_end_doing(const struct rg_worker *worker);
-// Ends the process, so that the next call starts a new one, and resets the count of ends: for code
-// that crashes a driver deliberately and repeatedly.
+// Ends the process, so that the next call starts a new one, and resets the count of ends. For
+// callers that crash a driver deliberately and repeatedly.
 void rg_worker_renew(struct rg_worker *worker);
 // Makes rg_worker_retire return false, because something on the device could not be closed, which
 // has been logged.
 void rg_worker_closes_badly(struct rg_worker *worker);
 // Ends the worker, by force if necessary. False, with one logged line, if it had closed its device
-// and then ended as in a driver's crash. NULL is accepted.
+// and then ended as in a driver's crash. Accepts NULL.
 bool rg_worker_destroy(struct rg_worker *worker);
 
 // Its process; 0: none is running.
@@ -69,12 +69,13 @@ bool rg_worker_still_has(const struct rg_worker *worker, int life);
 int64_t rg_worker_grant(struct rg_worker *worker);
 
 // Makes a call and waits for the reply; the worker's messages are logged here. False, with one
-// logged line, where the call failed, or the worker ended, which is a crash or timeout error. Free
+// logged line, if the call failed, or if the worker ended, which is a crash or timeout error. Free
 // `reply` in either case.
 bool rg_worker_call(struct rg_worker *worker, enum rg_call call, const struct rg_message *request,
                     struct rg_message *reply);
-// The same for callers that report a worker's end themselves: returns RG_OK, the outcome of the
-// worker's error, or, with nothing logged and one line in `why`, how it ended.
+// The same for callers that report a worker's end themselves. Returns RG_OK or the outcome of the
+// worker's error. If the worker ended, logs nothing, writes one line to `why` and returns how it
+// ended.
 enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
                               const struct rg_message *request, struct rg_message *reply, char *why,
                               size_t why_size);

@@ -7,7 +7,7 @@
 #include "harness/measure/serving/serving.h"
 #include "harness/devices/frames/digests.h"
 
-// Counted up where calls and sizes stay as they are and mean something else.
+// Raise it if calls and sizes stay the same but mean something else.
 enum { FORMAT = 6 };
 
 const char *rg_serving_hello(void)

@@ -7,9 +7,9 @@
 
 #include "harness/devices/workers/fields.h"
 
-// Fields of RG_PROBE_COUNT struct rg_probe_result, without names and kinds, which both processes
-// know (rg_probe_name), of struct rg_drawing, of struct rg_timer_audit without `trusted`, and of
-// struct rg_ceilings.
+// Fields of RG_PROBE_COUNT struct rg_probe_result, of struct rg_drawing, of struct rg_timer_audit
+// without `trusted`, and of struct rg_ceilings. Names and kinds of operations are not sent: both
+// processes know them (rg_probe_name).
 extern const struct rg_field rg_probe_fields[], rg_drawing_fields[], rg_audit_fields[],
     rg_ceilings_fields[];
 

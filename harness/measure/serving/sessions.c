@@ -65,7 +65,7 @@ void rg_served_sessions_close(void)
     sessions.room = 0;
 }
 
-// --- calls of one, and of runs of the device ---
+// --- calls about a session, and about runs of the device ---
 
 static bool serve(const struct rg_frame_call *row, struct rg_message *request, void *asked,
                   void *told)

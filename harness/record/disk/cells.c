@@ -147,7 +147,7 @@ static void name_cell(const json_t *cell, size_t i, char *text, size_t size)
         snprintf(text + used, size - used, ")");
 }
 
-// Reports a document with cells that are not as they were written.
+// Reports a document whose cells have changed since they were written.
 static void tell(const char *path, const json_t *document, const struct found *found,
                  char why[RG_WHY_SIZE])
 {

@@ -1,4 +1,4 @@
-// Checksums of a stored table's cells. A journal has one checksum for its whole content; a table,
+// Checksums of a stored table's cells. A journal has one checksum for its whole content. A table,
 // which people keep, merge and shorten, has one for each cell, so that a changed cell can be named.
 //
 // A cell's checksum covers the cell and the fields before the cells: table, length, settings,

@@ -33,7 +33,7 @@ void rg_hold_release(struct rg_hold *hold)
 
 void rg_state_folder(char *folder, size_t size)
 {
-    char why[256]; // the writing that follows reports this failure
+    char why[256]; // writing reports this failure later
     if (!rg_user_path(RG_USER_STATE, "", folder, size, why)) {
         *folder = 0;
         return;

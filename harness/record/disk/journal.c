@@ -14,16 +14,17 @@
 #include "harness/record/disk/stored.h"
 
 struct rg_journal {
-    char folder[1536], name[RG_JOURNAL_NAME_SIZE], path[2048]; // no folder: there is none to be had
-    struct rg_result held;                                     // the rows that are whole, or begun
+    char folder[1536], name[RG_JOURNAL_NAME_SIZE], path[2048]; // "": no folder could be found
+    struct rg_result held;                                     // the complete rows, and those in
+                                                               // part
     bool has_file, is_followed;
-    bool is_of_others; // the file there is another run's
-    bool is_broken;    // it could not be written, which one logged line said
+    bool is_of_others; // the file belongs to another run
+    bool is_broken;    // writing failed, which one logged line said
 };
 
 // --- reading ---
 
-// The result's head without rows, which holds all that decides its numbers. Nothing in it is owned.
+// The result's head without rows, which has all that decides its numbers. It owns nothing.
 static struct rg_result head_of(const struct rg_result *result)
 {
     struct rg_result head = *result;
@@ -42,7 +43,7 @@ static bool has_same_head(const struct rg_result *a, const struct rg_result *b)
     return same;
 }
 
-// Takes over the rows of the file, where it is this result's.
+// Takes over the file's rows if its head equals this result's.
 static void read_file(struct rg_journal *journal)
 {
     char why[RG_WHY_SIZE];
@@ -128,7 +129,7 @@ bool rg_journal_take(const struct rg_journal *journal, struct rg_result *result,
             return false;
     for (at = rg_result_start_row(row); rg_result_next_in_row(result, &at);) {
         struct rg_record *record = rg_result_at(result, at);
-        const struct rg_device_info device = record->device; // the file has no limits of it
+        const struct rg_device_info device = record->device; // a file does not store its limits
         *record = *rg_result_at(&journal->held, at);
         record->device = device;
     }
@@ -137,13 +138,13 @@ bool rg_journal_take(const struct rg_journal *journal, struct rg_result *result,
 
 // --- writing ---
 
-// Whether a cell can be gone on with: nothing is known of one without a sample.
+// Whether measuring a cell can be continued: it needs at least one sample.
 static bool is_begun(const struct rg_result *result, const struct rg_record *record)
 {
     return record->outcome != RG_OK || record->sample_count || result->is_of_textures;
 }
 
-// Whether a row is worth keeping: what is broken may pass by the next run.
+// Whether a row is worth keeping: an error may have passed by the next run.
 static bool is_worth_keeping(const struct rg_result *result, int row)
 {
     bool worth = rg_result_has(result, row);
@@ -194,7 +195,7 @@ void rg_journal_add(struct rg_journal *j, const struct rg_result *result, int fi
 {
     for (int row = first; j && row <= last; row++)
         hold_row(j, result, row);
-    // Once all rows are measured they are printed, and kept where that fails.
+    // A table that is complete is printed now; only if that fails is its journal kept.
     if (j && (j->is_followed || !is_whole(result)))
         rg_journal_keep(j);
 }
@@ -204,7 +205,7 @@ void rg_journal_keep(struct rg_journal *j)
     if (!j || j->is_broken)
         return;
     j->is_broken = !write_file(j);
-    j->has_file = j->has_file || !j->is_broken; // what was written before stays
+    j->has_file = j->has_file || !j->is_broken; // an earlier version of the file stays
 }
 
 const char *rg_journal_path(const struct rg_journal *journal)

@@ -12,13 +12,12 @@ struct rg_stored {
 
 // Reads one or several results from a file, or from all .json and .journal files of a folder, by
 // name. Zero `stored` before. False, with one logged line that names the file, the place and the
-// mend, where a file is no result, or there is none. The caller calls rg_stored_free in either
-// case.
+// mend, if a file is no result, or there is none. The caller calls rg_stored_free in either case.
 bool rg_stored_read(struct rg_stored *stored, const char *path);
 void rg_stored_free(struct rg_stored *stored);
 
 // Reads a file with a single result, such as a journal. False, with the reason in one line in
-// `why`, where it is none.
+// `why`, if it is none.
 bool rg_stored_read_one(const char *path, struct rg_result *result, char why[RG_WHY_SIZE]);
 
 #endif

@@ -11,8 +11,8 @@
 enum { RG_DRIVER_LINE = 2600 };
 
 // "vulkan: llvmpipe Mesa 22.3.6 (LLVM 15.0.6), /usr/lib/x86_64-linux-gnu/libvulkan_lvp.so, build id
-// 4c1f...": one line without a newline. Files below the current folder have relative paths. A short
-// name is followed by what it stands for.
+// 4c1f...": one line without a newline. Files below the current folder have relative paths. The
+// name that a short name stands for follows it.
 void rg_driver_line(const struct rg_device_info *info, char line[RG_DRIVER_LINE]);
 
 // Prints a line for each device.

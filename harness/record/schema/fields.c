@@ -142,7 +142,7 @@ bool rg_field_count(struct rg_reader *reader, const json_t *object, const char *
     return found != NULL;
 }
 
-// Reads the fields of an object one by one, each by `take`, whose elements have this size.
+// Reads the fields of an object one by one, each by `take`, into elements of this size.
 static bool read_list(struct rg_reader *reader, const json_t *object, const char *name, void *list,
                       size_t size, int most, int *count,
                       bool (*take)(struct rg_reader *, const char *, const json_t *, void *))

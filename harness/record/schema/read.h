@@ -1,5 +1,5 @@
 // The two halves of reading a result's document: rg_result_from_json (schema.h) calls both. False,
-// and the reader's line, where the document is no result.
+// and the reader's line, if the document is no result.
 #ifndef RG_HARNESS_RECORD_SCHEMA_READ_H
 #define RG_HARNESS_RECORD_SCHEMA_READ_H
 
@@ -7,7 +7,7 @@
 #include "harness/record/result.h"
 
 bool rg_read_head(struct rg_reader *reader, const json_t *document, struct rg_result *result);
-// The cells of the rows that are there, each row's all.
+// Reads all cells of the rows that the document has.
 bool rg_read_cells(struct rg_reader *reader, const json_t *document, struct rg_result *result);
 
 #endif

@@ -1,4 +1,4 @@
-// Results from JSON: strictly, for a document may come from another program, or be cut off.
+// Reads results from JSON, strictly: a document may come from another program, or be cut off.
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "harness/record/schema/read.h"
 #include "harness/record/schema/schema.h"
 
-// --- what was measured ---
+// --- measurements ---
 
 static bool read_samples(struct rg_reader *r, const json_t *measured, struct rg_record *record)
 {
@@ -22,7 +22,7 @@ static bool read_samples(struct rg_reader *r, const json_t *measured, struct rg_
     return count > 0;
 }
 
-// What others took of each sample; results of before that was watched have none.
+// Reads the share that others took of each sample. Older results lack it.
 static bool read_taken(struct rg_reader *r, const json_t *measured, struct rg_record *record)
 {
     const json_t *array = json_object_get(measured, "taken");
@@ -70,7 +70,7 @@ static bool take_launch(const json_t *json, int after, struct rg_launch *launch)
     return launch->number && launch->ms > 0;
 }
 
-// Cells that no claim was measured of have none.
+// Reads launches. Cells that no claim needed have none.
 static bool read_launches(struct rg_reader *r, const json_t *measured, struct rg_record *record)
 {
     int count, after = 0;
@@ -88,7 +88,7 @@ static bool read_launches(struct rg_reader *r, const json_t *measured, struct rg
     return count > 0;
 }
 
-// Results of before there was one have none.
+// Reads the calibration's times. Older results lack them.
 static bool read_calibration(struct rg_reader *r, const json_t *measured, struct rg_record *record)
 {
     return !json_object_get(measured, "calibration_begin_ms") ||
@@ -96,7 +96,7 @@ static bool read_calibration(struct rg_reader *r, const json_t *measured, struct
             rg_field_number(r, measured, "calibration_end_ms", &record->calibration_end_ms));
 }
 
-// A cell that is not whole has no run in which passes are told apart.
+// Reads the number of samples wanted. An incomplete cell has no run that times passes.
 static bool read_wanted(struct rg_reader *r, const json_t *measured, struct rg_record *record)
 {
     record->wanted_samples = record->sample_count;
@@ -190,8 +190,8 @@ static bool read_record(struct rg_reader *r, const json_t *cell, const struct rg
 
 // --- cells ---
 
-// The index among `count` names, the first of which is here and the others `stride` bytes apart;
-// `count` where it is none of them.
+// The index of a name among `count` names, which lie `stride` bytes apart; `count` if it is none of
+// them.
 static int find(const char *names, size_t stride, int count, const char *name)
 {
     int i = 0;
@@ -200,7 +200,7 @@ static int find(const char *names, size_t stride, int count, const char *name)
     return i;
 }
 
-// Where a cell stands, by its row's number and its names.
+// Reads the place of a cell from its row's number and its names.
 static bool read_place(struct rg_reader *r, const json_t *cell, const struct rg_result *result,
                        struct rg_place *place)
 {
@@ -226,7 +226,7 @@ static bool read_place(struct rg_reader *r, const json_t *cell, const struct rg_
            rg_reader_refuse(r, "work", "is '%.40s', which 'works' does not name", work);
 }
 
-// Copies to a record what its place says: technique, work, variant and device.
+// Copies to a record the names of its place: technique, work, variant and device.
 static void name_record(const struct rg_result *result, struct rg_place at,
                         struct rg_record *record)
 {
@@ -237,7 +237,7 @@ static void name_record(const struct rg_result *result, struct rg_place at,
     record->device = result->devices[at.device];
 }
 
-// Reads a cell into its place. `rows_left`: how many more rows the number of cells allows.
+// Reads a cell into its place. `rows_left`: rows that may still begin.
 static bool read_cell(struct rg_reader *r, const json_t *cell, struct rg_result *result,
                       size_t *rows_left)
 {
@@ -266,8 +266,8 @@ bool rg_read_cells(struct rg_reader *r, const json_t *document, struct rg_result
     if (cells && count % a_row)
         return rg_reader_refuse(r, "cells", "has %zu elements, and a row has %zu cells", count,
                                 a_row);
-    // The number of cells is a multiple of a row's. As no cell comes twice, and no more rows begin
-    // than that number allows, every row is whole.
+    // The number of cells is a multiple of a row's. No cell comes twice, and no more rows begin
+    // than that number allows, so every row is complete.
     json_array_foreach(cells, i, cell)
     {
         rg_reader_enter(r, "cells[%zu]", i);

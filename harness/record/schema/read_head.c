@@ -1,4 +1,4 @@
-// What a result's document says of the table, before its cells.
+// Reads the head of a result's document: the table, before its cells.
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "harness/record/schema/read.h"
 #include "harness/record/schema/schema.h"
 
-// --- what the table is ---
+// --- the table ---
 
 static bool read_format(struct rg_reader *r, const json_t *document)
 {
@@ -30,7 +30,7 @@ static bool read_length(struct rg_reader *r, const json_t *document, struct rg_r
            rg_reader_refuse(r, "length", "is neither quick nor full");
 }
 
-// Files are named after the table.
+// Files are named after the table, so its name has only safe characters.
 static bool read_table(struct rg_reader *r, const json_t *document, struct rg_result *result)
 {
     if (!rg_field_text(r, document, "table", result->table, sizeof(result->table)))
@@ -52,7 +52,7 @@ static bool read_names(struct rg_reader *r, const json_t *document, struct rg_re
            read_length(r, document, result);
 }
 
-// Two whole numbers, from 1 on.
+// Two whole numbers of at least 1.
 static bool read_pair(struct rg_reader *r, const json_t *document, const char *name, int most,
                       int *first, int *second)
 {
@@ -120,8 +120,8 @@ static bool read_works(struct rg_reader *r, const json_t *document, struct rg_re
     return count > 0;
 }
 
-// What records of older raingauges do not have: a name by which to open it again, and the files
-// that its driver was loaded from.
+// Reads a device's full name, by which it can be opened again, and the files that its driver was
+// loaded from. Records of older raingauges lack them.
 static bool read_driver(struct rg_reader *r, const json_t *json, struct rg_device_info *info)
 {
     const json_t *array = json_object_get(json, "libraries");
@@ -185,7 +185,7 @@ static bool read_changed(struct rg_reader *r, const json_t *document, struct rg_
            rg_field_text(r, document, "changed", result->changed, sizeof(result->changed));
 }
 
-// The rows that a budget or quick mode left out, which count from 1.
+// The rows that a budget or quick mode left out, counted from 1.
 static bool read_left_out(struct rg_reader *r, const json_t *of, struct rg_result *result)
 {
     const json_t *rows = rg_field(r, of, "left_out", JSON_ARRAY);
@@ -198,7 +198,7 @@ static bool read_left_out(struct rg_reader *r, const json_t *of, struct rg_resul
     return rows != NULL;
 }
 
-// What was chosen of the rows; records that were kept before quick mode told have neither.
+// Reads the choices of a budget or of quick mode. Older records of quick mode lack them.
 static bool read_choice(struct rg_reader *r, const json_t *document, struct rg_result *result)
 {
     if (!json_object_get(document, "budget"))

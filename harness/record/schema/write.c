@@ -151,13 +151,13 @@ static json_t *works_json(const struct rg_result *result)
     return works;
 }
 
-// Text, or null where there is none.
+// Text, or null if there is none.
 static json_t *text_or_null(const char *text)
 {
     return *text ? rg_json_text(text) : json_null();
 }
 
-// What the table is, and which part of it was to be measured.
+// The head: the table, and the part of it that was to be measured.
 static json_t *head_json(const struct rg_result *result)
 {
     return json_pack("{sisssosssbsisss[ii]sisbs[ii]sosososo}", "format", RG_FORMAT_VERSION, "table",
@@ -179,7 +179,7 @@ static bool leaves_out(const struct rg_result *result)
     return any;
 }
 
-// The rows that a budget or quick mode leaves out, which count from 1.
+// The rows that a budget or quick mode leaves out, counted from 1.
 static json_t *left_out_json(const struct rg_result *result)
 {
     json_t *rows = json_array();
@@ -189,7 +189,7 @@ static json_t *left_out_json(const struct rg_result *result)
     return rows;
 }
 
-// What a budget chose.
+// The choices of a budget.
 static json_t *budget_json(const struct rg_result *result)
 {
     return json_pack("{sfsisbso}", "seconds", result->budget_s, "size_divisor",

@@ -30,9 +30,10 @@ enum rg_claim_test {
                        // as from `knee` to `last`
 };
 
-// The least whole fall of FALLS, since with enough launches any fall is found; and the largest rise
-// between neighbouring rows. Creus calls a table a decrease in which one row is 1.09 times as fast
-// as the one before it (table 5.3, second camera, 5 and 10 m), so his words allow a tenth.
+// RG_CLAIM_FALL is the least whole value of FALLS, since enough launches find any fall.
+// RG_CLAIM_REVERSAL is the largest rise between neighbouring rows. Creus's words allow a tenth: he
+// calls a table a decrease in which one row is 1.09 times as fast as the one before it (table 5.3,
+// second camera, 5 and 10 m).
 #define RG_CLAIM_FALL     1.05
 #define RG_CLAIM_REVERSAL 1.1
 
@@ -82,7 +83,8 @@ const char *rg_claim_verdict_text(enum rg_claim_verdict verdict);
 // Whether launches decided it: the first three.
 bool rg_claim_is_decided(enum rg_claim_verdict verdict);
 
-// What the medians of one launch say. They decide nothing: the next launch may say the opposite.
+// The result of the medians of one launch. It decides nothing: the next launch may give the
+// opposite.
 enum rg_claim_figures {
     RG_FIGURES_FIT,  // the claim holds by them
     RG_FIGURES_MISS, // it does not
@@ -91,7 +93,7 @@ enum rg_claim_figures {
     RG_FIGURES_COUNT
 };
 
-enum { RG_REASON_SIZE = 640 }; // enough for the names of two rows
+enum { RG_REASON_SIZE = 640 }; // room for the names of two rows
 
 struct rg_judgement {
     enum rg_claim_verdict verdict;
@@ -106,7 +108,7 @@ struct rg_judgement {
     char why[RG_REASON_SIZE]; // one sentence
 };
 
-// The verdict in words; of one launch what its figures say: "one launch: fits".
+// The verdict in words; for figures of one launch: "one launch: fits".
 const char *rg_judgement_text(const struct rg_judgement *judgement);
 
 // Judges a claim by its table's result on one device: by launches, if the result has any, at 1 %

@@ -48,7 +48,7 @@ static bool is_of_errors(const struct evidence *e)
     return e->claim->test == RG_CLAIM_FLATTENS;
 }
 
-// A claim about two or three rows needs no others; `step` is 0 behind the last.
+// A claim about two or three rows needs only these. `step` is 0 after the last.
 static int row_after(const struct rg_claim *c, int row)
 {
     if (c->test == RG_CLAIM_FLATTENS)
@@ -98,8 +98,8 @@ static bool can_miss(const struct rg_claim *c, int row)
     return row != c->first && row != c->last && row != c->knee;
 }
 
-// Collects the claim's rows, without those between that did other work. Ends where rows are missing
-// or required ones did other work; true if the claim can be judged.
+// Collects the claim's rows, without those between that did other work. Ends with a verdict if rows
+// are missing or required ones did other work; true if the claim can be judged.
 static bool collect_rows(struct evidence *e)
 {
     const struct rg_claim *c = e->claim;
@@ -120,7 +120,7 @@ static bool collect_rows(struct evidence *e)
     return true;
 }
 
-// Whether the result's work is not that of which the paper gives a rate.
+// Whether the result's work differs from the one for which the paper gives a rate.
 static bool is_reduced(struct evidence *e)
 {
     const struct rg_result *result = e->result;
@@ -225,7 +225,7 @@ void rg_evidence_take_medians(struct evidence *e)
 
 // --- print ---
 
-// From the table, if there is one, since unmeasured rows are printed all the same.
+// Takes the rows from the table, if there is one, since unmeasured rows are printed all the same.
 double rg_evidence_printed(const struct evidence *e, int row, int variant)
 {
     const struct rg_table *table = rg_table_find(e->claim->table);
@@ -239,7 +239,7 @@ double rg_evidence_printed(const struct evidence *e, int row, int variant)
                : NAN;
 }
 
-// Takes a row as a launch's; false where it is not printed.
+// Takes a printed row as a launch's; false if it is not printed.
 static bool take_printed_row(struct evidence *e, int row)
 {
     bool is_printed = true;

@@ -21,12 +21,12 @@ struct evidence {
     struct rg_judgement judgement;
 };
 
-// Finds the work, the variants and the rows. False where that already decides the verdict.
+// Finds the work, the variants and the rows. False if that already decides the verdict.
 bool rg_evidence_begin(struct evidence *e);
 // Takes the logarithms of all launches; false if there are none. Then of the medians.
 bool rg_evidence_take_launches(struct evidence *e);
 void rg_evidence_take_medians(struct evidence *e);
-// Takes the printed frame rates of all rows as a launch's. False where a variant is missing, or
+// Takes the printed frame rates of all rows as a launch's. False if a variant is missing, or
 // nothing is printed.
 bool rg_evidence_take_print(struct evidence *e);
 // Ends with a verdict and one sentence.
@@ -59,7 +59,7 @@ struct rg_claim_parts {
 // Makes the claim's parts from the evidence's logarithms. False: there is nothing to compare.
 bool rg_claim_parts_make(const struct evidence *e, struct rg_claim_parts *parts);
 // Writes one sentence about a part: its rows, its median with its interval (ends NAN: none), and
-// what is due.
+// the bounds.
 void rg_claim_part_tell(const struct evidence *e, const struct rg_claim_parts *parts, int part,
                         const struct rg_interval *of, char *text, size_t size);
 

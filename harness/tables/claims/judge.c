@@ -48,7 +48,7 @@ static enum rg_claim_verdict verdict_of(enum rg_settled settled)
 
 // --- errors of images ---
 
-// They are the same in every launch, so that one decides.
+// Errors of images are the same in every launch, so one launch decides.
 static struct rg_judgement judge_errors(struct evidence *e)
 {
     const double first = rg_evidence_row(e, e->claim->first)->truth_error.flip_mask_mean;
@@ -83,7 +83,7 @@ static void say(struct evidence *e, const char *format, ...)
     va_end(arguments);
 }
 
-// Our own bounds are told with the bound up to which the verdict stays the same.
+// Bounds of our own are given with the bound up to which the verdict stays the same.
 static void say_turn(struct evidence *e, const struct rg_claim_parts *parts,
                      const struct rg_settling *s)
 {

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Quantiles of the normal distribution: half of it is within the first, 95 % within the second, in
-// standard deviations.
+// Quantiles of the normal distribution, in standard deviations: half of it is within the first, 95
+// % within the second.
 #define HALF_WITHIN 0.6745
 #define MOST_WITHIN 1.96
 
@@ -30,8 +30,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// How far a row's logarithm is from the line between its neighbours, scaled as if only that row had
-// an error of one standard deviation; false unless it is between two rows of its group.
+// The distance of a row's logarithm from the line between its neighbours, scaled as if only that
+// row had an error of one standard deviation. False unless it is between two rows of its group.
 static bool is_off(const struct rg_slope_point *p, const double *printed, int count, int i,
                    double *off)
 {
@@ -43,8 +43,8 @@ static bool is_off(const struct rg_slope_point *p, const double *printed, int co
     return isfinite(*off);
 }
 
-// The standard deviation of printed rows from their neighbours, from the median deviation, which a
-// single bend of the curve does not affect; 0 for fewer than three rows.
+// The standard deviation of printed rows from their neighbours. It uses the median deviation, which
+// a single bend of the curve does not affect; 0 for fewer than three rows.
 static double scatter(const struct rg_slope_point *points, const double *printed, int count)
 {
     double offs[RG_SLOPE_POINTS];

@@ -12,8 +12,8 @@ double rg_margin_rounding(double printed);
 // Whether the first is larger than the second despite rounding.
 bool rg_margin_orders(double larger, double smaller);
 
-// The 95 % error of the slope of printed frame rates along the axis: from rounding, and from the
-// rows' deviations from the line between their neighbours as a standard deviation. Points are
+// The 95 % error of the slope of printed frame rates along the axis. It combines rounding with the
+// rows' deviations from the line between their neighbours, as a standard deviation. Points are
 // sorted by group and axis, and have weights.
 double rg_margin_slope(const struct rg_slope_point *points, const double *weights,
                        const double *printed, int count);

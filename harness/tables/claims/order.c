@@ -20,7 +20,7 @@ static double pairs_below(const double *low, int low_count, double factor, const
 
 // The probability of each count of the m n pairs. The largest sample is from the first set with
 // probability m / (m + n), and then below none of the other; otherwise it is above all m. So the
-// distribution of (m, n) follows from those of (m - 1, n) and (m, n - 1).
+// distributions of (m - 1, n) and (m, n - 1) give that of (m, n).
 static void make_distribution(int m, int n, double p[EXACT + 1][EXACT * EXACT + 1])
 {
     for (int i = 0; i <= m; i++) {

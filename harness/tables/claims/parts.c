@@ -1,4 +1,4 @@
-// A claim as parts: quantities of a launch with the bounds between which the claim has them.
+// A claim as parts: quantities of a launch, with the claim's bounds.
 #include <math.h>
 #include <stdio.h>
 
@@ -108,7 +108,7 @@ static bool is_within(const struct rg_claim *c, int row)
     return row >= c->knee && row <= (c->until ? c->until : c->knee);
 }
 
-// Each row outside the range is slower than the fastest within, which a launch has by itself.
+// Each row outside the range must be slower than the fastest within, of the same launch.
 static void make_optimum(const struct evidence *e, struct rg_claim_parts *p)
 {
     for (int r = 0; r < e->count; r++) {
@@ -147,7 +147,7 @@ static double axis_at(const struct evidence *e, int row)
     return NAN;
 }
 
-// The slope of the logarithm of the frame rate, over the whole axis: so it is the logarithm of a
+// The slope of the logarithm of the frame rate, over the whole axis. So it is the logarithm of a
 // ratio, like the values of other parts.
 static void make_exponent(const struct evidence *e, struct rg_claim_parts *p)
 {
@@ -239,7 +239,7 @@ static const char *variant_name(const struct evidence *e, int variant)
     return e->result->variants[variant ? e->other : e->at.variant];
 }
 
-// What the part is about: "size 5 against size 1".
+// The subject of the part: "size 5 against size 1".
 static void name_part(const struct evidence *e, const struct rg_claim_part *of, char *text,
                       size_t size)
 {

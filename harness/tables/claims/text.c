@@ -52,7 +52,7 @@ static bool add_table(struct rg_claim_outcomes *o, const struct rg_result *resul
 
 // --- verdicts that are kept ---
 
-// Figures near the bound agree with what is on either side of it.
+// Figures near the bound agree with every verdict.
 static enum rg_claim_agreement agreement_of(enum rg_claim_verdict kept, enum rg_claim_figures today)
 {
     const enum rg_claim_figures due = kept == RG_CLAIM_REPRODUCED       ? RG_FIGURES_FIT
@@ -190,7 +190,7 @@ static void add_rows(const struct rg_claim_outcomes *o, bool wide, struct rg_she
     }
 }
 
-// Explains the marks that the page has, and where the reasons are.
+// Explains the page's marks, and says where the reasons are.
 static void add_legend(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
 {
     bool has[RG_CLAIM_VERDICTS] = {false};
@@ -315,7 +315,7 @@ static void add_reasons(const struct rg_claim_outcomes *o, struct rg_sheet *shee
     }
 }
 
-// Lists where figures of today differ from kept verdicts, and counts the others.
+// Lists today's figures that differ from kept verdicts, and counts the others.
 static void add_agreements(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
 {
     int counts[RG_AGREEMENT_NOT_SEEN + 1] = {0}, kept = -1;

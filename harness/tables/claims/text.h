@@ -8,9 +8,9 @@
 
 enum { RG_CLAIMS_LENGTH = RG_TITLE_SIZE + 64 };
 
-// Whether today's figures say the same as the verdict that is kept.
+// Whether today's figures agree with the kept verdict.
 enum rg_claim_agreement {
-    RG_AGREEMENT_NONE, // nothing is kept of it, or no verdict
+    RG_AGREEMENT_NONE, // no verdict is kept
     RG_AGREEMENT_AGREES,
     RG_AGREEMENT_DIFFERS,
     RG_AGREEMENT_NOT_SEEN, // today's figures do not show it
@@ -47,18 +47,18 @@ struct rg_claims_shown {
     int first_row, last_row;
 };
 
-// Adds the outcomes of a table's claims, of those that are shown. Where the result has no launches,
-// verdicts are those of `kept` (NULL: none), and the result's figures are held against them. Zero
-// the outcomes before the first call. False, with one logged line, when memory runs out.
+// Adds the outcomes of a table's claims, of those that are shown. If the result has no launches,
+// takes the verdicts of `kept` (NULL: none), and compares the result's figures with them. Zero the
+// outcomes before the first call. False, with one logged line, when memory runs out.
 bool rg_claims_add(struct rg_claim_outcomes *outcomes, const struct rg_result *result,
                    const struct rg_stored *kept, const struct rg_claims_shown *shown);
 void rg_claims_free(struct rg_claim_outcomes *outcomes);
 
-// Makes a row for each claim and a column for each device, below one sentence and the totals of
-// what holds, what does not and what is open. Notes list the lengths of measurements by table,
-// claims judged by some of their rows, claims that the paper's own table contradicts, and where
-// today's figures differ. `wide` adds verdicts in words, with section and reason; otherwise the
-// page fits a screen. Zero the sheet before; the caller frees it.
+// Makes a row for each claim and a column for each device, below one sentence and the totals: how
+// many claims hold, do not hold, and are open. Notes list the lengths of measurements by table, and
+// three kinds of claims: judged by some of their rows, contradicted by the paper's own table, and
+// different by today's figures. `wide` adds verdicts in words, with section and reason; otherwise
+// the page fits a screen. Zero the sheet before; the caller frees it.
 void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool wide, struct rg_sheet *sheet);
 
 // Adds the sentence and the totals: the sheet's lead.

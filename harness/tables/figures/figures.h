@@ -11,8 +11,8 @@ struct rg_figure {
     const char *settings; // as for --set, separated by spaces
     int frame;
     double exposure; // as --exposure; 0: 1
-    // A file for a parameter, written beside the picture as the figure's id and `ending`. It has
-    // `text`, or else a grey picture of side_px x side_px linear values. NULL: none.
+    // A file for a parameter, whose name is the figure's id and `ending`, in the picture's folder.
+    // It has `text`, or else a grey picture of side_px x side_px linear values. NULL: none.
     const char *parameter, *ending, *text;
     const float *greys;
     int side_px;
@@ -32,10 +32,10 @@ struct rg_figure_run {
     int count;
 };
 
-// Draws each figure into FOLDER/ID.png, with the file that it needs, and then writes a Markdown
-// page beside them, with captions and the commands that draw them. The last part of the folder's
-// path is made if missing. Shows a progress bar. False, and one logged line, on failure or
-// interruption (harness/console/interrupt.h); complete files stay.
+// Draws each figure into FOLDER/ID.png, with the file that it needs. Then writes a Markdown page in
+// that folder, with captions and the commands that draw them. The last part of the folder's path is
+// made if missing. Shows a progress bar. False, and one logged line, on failure or interruption
+// (harness/console/interrupt.h); complete files stay.
 bool rg_figures_draw(const struct rg_figure_run *run);
 
 #endif

@@ -50,7 +50,7 @@ bool rg_launches_choose(struct rg_result *result, const struct rg_table *table)
 
 // --- the next launch ---
 
-// Whether most launches of a claim are disturbed, so that its course would never end; as in a gate.
+// Whether most launches of a claim are disturbed: its course would never end, as in a gate.
 static bool is_hopeless(const struct rg_judgement *j)
 {
     return j->disturbed > 32 && j->disturbed > 3 * j->launches;
@@ -63,7 +63,7 @@ static bool wants_launch(const struct rg_claim *claim, const struct rg_result *r
            (j.verdict == RG_CLAIM_UNDECIDED && j.more && !is_hopeless(&j));
 }
 
-// Whether the claim's test compares the variants of a row, and no rows; or nothing at all.
+// Whether the claim's test compares the variants of each row, and not rows; or compares nothing.
 static bool is_by_row(const struct rg_claim *claim)
 {
     return claim->test == RG_CLAIM_FASTER || claim->test == RG_CLAIM_CROSSES ||

@@ -1,6 +1,6 @@
 // The course of a table's claims: launches of each device until every claim is decided, or no look
-// is left. `claims` are rg_claims, or others, likewise ended by one without a table. What to do
-// next follows from the records alone, so that a course goes on from a journal.
+// is left. `claims` are rg_claims, or others, likewise ended by one without a table. The next step
+// follows from the records alone, so that a course goes on from a journal.
 #ifndef RG_HARNESS_TABLES_LAUNCHING_COURSE_H
 #define RG_HARNESS_TABLES_LAUNCHING_COURSE_H
 
@@ -9,8 +9,8 @@
 #include "harness/tables/claims/claim.h"
 #include "harness/tables/launching/launch.h"
 
-// Leaves out of a begun result the rows and variants that no claim needs. False where the paper
-// claims nothing of the table.
+// Drops from a begun result the rows and variants that no claim needs. False if the paper claims
+// nothing about the table.
 bool rg_launches_choose(struct rg_result *result, const struct rg_table *table);
 
 // Takes launches for the claims about a measured result, whose records get them; each is kept in

@@ -17,8 +17,8 @@
 #include "kernels/dialect/rng.h"
 
 // A slot is the time of a cell's frame: the median of several timings of at least TIMING_MS,
-// together of at least SLOT_MS. A group is timed there and back until that took GROUP_MS, so that
-// the load of the machine can be told from the kernel's ticks.
+// together of at least SLOT_MS. A group is timed there and back until that took GROUP_MS, long
+// enough for the kernel's ticks to show the machine's load.
 #define TIMING_MS 2
 #define SLOT_MS   20
 #define GROUP_MS  250

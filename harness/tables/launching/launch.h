@@ -19,8 +19,8 @@ struct rg_launch_cells {
 };
 
 // Takes launch `number` of a device of the result, whose records get it. False, and one logged
-// line, if the device cannot be opened or a cell fails; its group has no launch of this number
-// then. An interruption leaves the group under way without one.
+// line, if the device cannot be opened or a cell fails; its group then has no launch of this
+// number. After an interruption the current group has none either.
 bool rg_launch_take(struct rg_result *result, const struct rg_table *table,
                     const struct rg_launch_cells *cells, int number);
 

@@ -14,8 +14,8 @@ struct rg_cell_frames {
 };
 
 // Opens a subject and measures these times: two frames, then `steps` steps and, after more than
-// one, a third frame, because frames take longer while rain builds up. It stops after four seconds
-// of steps. step_ms is their average. The caller closes the session. NULL, and one logged line, on
+// one, a third frame, because frames take longer while rain builds up. Steps end after four
+// seconds; step_ms is their average. The caller closes the session. NULL, and one logged line, on
 // failure.
 struct rg_session *rg_cell_look(struct rg_device *device, const struct rg_subject *subject,
                                 int steps, struct rg_cell_frames *frames);

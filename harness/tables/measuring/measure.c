@@ -1,6 +1,6 @@
 // Measures a table's rows. As many rows as fit into memory are open together and timed in turn. If
-// not all fit, each group of rows is visited several times, so that a temporary disturbance of the
-// machine does not hit one row alone.
+// not all fit, each group of rows is visited several times: a temporary disturbance of the machine
+// then does not hit one row alone.
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -40,7 +40,8 @@ struct measuring {
     int group_count;
     struct group *now; // the visited group
     double share;      // part of the group's samples that this visit takes
-    // When the first round of this visit was over (0: it is not), and what was left then.
+    // The time at which the first round of this visit was over (0: it is not), and the time that
+    // was expected to be left then.
     double first_ms, first_left_ms;
     int64_t units;     // of the bar, for samples of this visit
     double kept_ms;    // time of the last save
@@ -74,9 +75,10 @@ static double samples_left_ms(const struct measuring *m)
     return ms;
 }
 
-// The time that samples take, by what was expected, since the first round of this visit. Frames may
-// take longer than the last one of the warm-up, on a busy machine above all. They are not taken to
-// be faster, for the first of a window come before it is opened anew. 0: not known yet.
+// The ratio of the time that samples take to the expected time, since the first round of this
+// visit. Frames may take longer than the last one of the warm-up, on a busy machine above all. They
+// are not taken to be faster, for the first of a window come before it is opened anew. 0: not known
+// yet.
 static double pace_of(struct measuring *m, double left_ms)
 {
     const double now_ms = rg_now_ms(), done_ms = m->first_left_ms - left_ms;
@@ -213,8 +215,8 @@ static bool has_room(const struct measuring *m, int rows)
            have_room(m, rows + 1);
 }
 
-// How many rows have to fit before the deadline together with this one: all later ones if the
-// deadline wants whole results, else only this one.
+// The number of rows that have to end before the deadline with this one: all later ones if only
+// whole results count, else this one.
 static int rows_due(const struct measuring *m, int row)
 {
     int rows = 1;
@@ -249,7 +251,7 @@ static int open_group(struct measuring *m, struct group *group, int row, bool *o
         }
         group->last_row = row;
     }
-    // A texture's row has no mark of being complete.
+    // A row of textures does not show whether it is complete, so it is dropped.
     if (rg_interrupted() && result->is_of_textures && group->last_row >= group->first_row)
         rg_result_drop_row(result, group->last_row);
     group->job_count = m->batch.job_count - group->first_job;

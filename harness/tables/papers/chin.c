@@ -1,15 +1,15 @@
 // Chin, "Animating Raindrops on a Surface" (2016). The numbers are those of
 // results/published/chin-timing.csv, which a test compares. The paper has one time; tables of our
-// own show what it consists of.
+// own divide it into its parts.
 #include "harness/tables/papers/published.h"
 
 enum { OFF, ON };
 
 // The paper's program draws particles.
 #define VIEW "view=particles"
-// Rain is so heavy that after `steps` the number of drops reaches its limit, and that water merges
-// in every step: by the paper's rules drops at rest stay, and on a pane full of them nothing
-// happens. Since water gathers, the 20 steps after these are timed.
+// Rain is so heavy that after `steps` the number of drops reaches its limit and water merges in
+// every step. By the paper's rules drops at rest stay, and on a pane full of them nothing happens.
+// Since water gathers, the 20 steps after these are timed.
 #define PANE(picture_width, picture_height, steps)                                                 \
     .technique = "drops", .width = (picture_width), .height = (picture_height),                    \
     .check_frames = (steps), .window_frames = 20,                                                  \

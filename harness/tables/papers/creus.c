@@ -25,7 +25,7 @@
         {"ours", "blocks=seen taps=2",                                                             \
          "of the packets, only those blocks of 32 particles are drawn that the view sees"}}
 
-// Errors of the limits show where they cut, and whole packets would reach beyond them.
+// Errors show the limits at which rain is cut, and whole packets would reach beyond them.
 #define LIMITED "sparse=1 cull=exact"
 
 // Table 5.1: sizes of the atlases' levels.

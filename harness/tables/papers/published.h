@@ -21,7 +21,7 @@ struct rg_table_row {
 struct rg_table_variant {
     const char *name; // "no_geometry"
     const char *set;  // assignments over the row's
-    // The column of its printed frame rate: "fps_no_geometry"; NULL where nothing is published, or
+    // The column of its printed frame rate: "fps_no_geometry". NULL if nothing is published, or if
     // times are, from ms_per_frame_min to ms_per_frame_max.
     const char *fps;
 };
@@ -33,11 +33,11 @@ struct rg_table_work {
     const char *name;
     const char *set;   // assignments over the row's and the variant's
     const char *saves; // one line about what saves work; "" for the printed work
-    // For "queries": assignments that give the same image on devices without queries. A table is
-    // measured without this work where no device has queries. NULL: every device can do it.
+    // For "queries": assignments that give the same image on devices without queries. NULL: every
+    // device can do the work. A table is measured without this work if no device has queries.
     const char *elsewhere;
-    // One line about how the paper is read, if it is ambiguous: "two textures a light (section
-    // 4.4.2)". NULL: unambiguous.
+    // One line about the reading of an ambiguous paper: "two textures a light (section 4.4.2)".
+    // NULL: unambiguous.
     const char *reading;
 };
 
@@ -63,8 +63,8 @@ struct rg_table {
     bool is_of_textures;
     // Quick mode's assignments over rows and variants, to save work: "atlas=small"; NULL: none.
     const char *quick;
-    // A budget's further assignments for pictures of a fourth and of half the width and height:
-    // they reduce the drawn things by as much as the pixels, so that the shape of curves stays.
+    // A budget's further assignments for pictures of a fourth and of half the width and height.
+    // They reduce the drawn things by as much as the pixels, so that the shape of curves stays.
     // NULL: none.
     const char *smaller[2];
     // Assignments over these for comparing a row's image with the truth, which restore what smaller
@@ -82,14 +82,14 @@ struct rg_table {
     int width, height; // of the image, in pixels
     int row_count;     // at most RG_TABLE_ROWS
     const struct rg_table_row *rows;
-    const char *note; // what a reader of the table must know, in one line
+    const char *note; // one-line note that readers of the table need
 };
 
 // Quick mode's assignments for a size divisor of 4, 2 or 1; the caller frees them. NULL, and one
 // logged line, when memory runs out.
 char *rg_table_quick(const struct rg_table *table, int divisor);
 bool rg_table_is_published(const struct rg_table *table);
-// The number in a row's column; NAN where the table has no such column.
+// The number in a row's column; NAN if the table has no such column.
 double rg_table_value(const struct rg_table *table, int row, const char *column);
 // The same for readers: "1000", or the name of a choice, "on".
 void rg_table_value_text(const struct rg_table *table, int row, int column, char *text,

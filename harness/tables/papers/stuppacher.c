@@ -12,7 +12,7 @@
             "little"                                                                               \
     }
 
-// Table 1: frame rates of a mirror, and of glass with a model behind it.
+// Table 1: frame rates of a mirror, and of glass in front of a model.
 static const struct rg_table_row rows_1[] = {
     {"move=paper panes=mirror", {24, 6, 160}, "mirror"},
     {"move=paper panes=glass model=dragon", {93044, 100000, 120}, "glass with dragon"},

@@ -80,9 +80,9 @@ static void note_why(struct budget *b, const struct rg_step *step, double expect
 
 // --- measuring a step ---
 
-// Makes a copy of a table that has only the given share of it, and of this only the variants or
-// works that the turn adds (RG_TURNS: all). The caller frees *quick, to which the copy points.
-// False, and one logged line, without memory.
+// Makes a copy of a table with only this share of it, and of the share only the variants or works
+// that the turn adds (RG_TURNS: all). The caller frees *quick, to which the copy points. False, and
+// one logged line, without memory.
 static bool view(const struct rg_table *table, const struct rg_share *share, enum rg_turn turn,
                  struct rg_table *seen, char **quick)
 {
@@ -172,8 +172,8 @@ static bool join(struct budget *b, const struct rg_step *step, const struct rg_r
     return ok;
 }
 
-// Accepts a step's part, which took `seconds`, if it is complete where it has to be. False without
-// memory.
+// Accepts a step's part, which took `seconds`, if it is complete, or if its turn does not need
+// that. False without memory.
 static bool take(struct budget *b, const struct rg_step *step, const struct rg_result *part,
                  double seconds)
 {
@@ -267,7 +267,7 @@ static void name_rows(const struct rg_result *result, int count, char *text, siz
     }
 }
 
-// Prints what was not measured of a table; false if nothing was left out.
+// Prints the parts of a table that were not measured; false if nothing was left out.
 static bool print_left_out(const struct budget *b, int table, FILE *out)
 {
     const struct rg_standing *s = &b->order.tables[table];

@@ -9,8 +9,8 @@
 #include "harness/devices/devices.h"
 #include "harness/tables/papers/published.h"
 
-// Opens a cell of each technique in these tables on each device that has a driver. Each cell is
-// opened by a process of this program, as many at a time as there are cores:
+// Opens a cell of each technique in these tables on each device that has a driver. A process of
+// this program opens each cell, as many at a time as there are cores:
 //     raingauge table ID --compile --device NAME --timeout S
 // Each failure is logged in one line. Returns an enum rg_exit.
 int rg_tables_compile(const struct rg_table *const tables[], int count,

@@ -104,8 +104,8 @@ bool rg_has_claims(const struct rg_table *table)
     return any;
 }
 
-// Whether this test judges a claim about the table. Quick settings that reduce the work leave no
-// rate to judge.
+// Whether this test judges a claim about the table. If quick settings reduce the work, no frame
+// rate can be judged.
 static bool has_test(const struct rg_table *table, enum rg_claim_test test)
 {
     bool has = false;

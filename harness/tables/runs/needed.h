@@ -4,9 +4,9 @@
 
 #include "harness/tables/papers/published.h"
 
-// The first and last row of quick mode and of each claim, a claim's knee, and the middle of a curve
-// without another row between its ends. Tables of textures take little time and need all rows.
-// Returns how many.
+// Finds the needed rows: the first and last row of quick mode and of each claim, a claim's knee,
+// and the middle of a curve without another row between its ends. Tables of textures take little
+// time and need all rows. Returns how many.
 int rg_needed_rows(const struct rg_table *table, bool needed[RG_TABLE_ROWS]);
 // The needed rows, and all others of quick mode. Returns how many.
 int rg_quick_rows(const struct rg_table *table, bool rows[RG_TABLE_ROWS]);

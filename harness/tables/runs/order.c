@@ -44,9 +44,10 @@ static bool are_alike(const struct rg_standing *a, const struct rg_standing *b)
            a->table->is_of_textures == b->table->is_of_textures;
 }
 
-// Estimates a cell's time on a device: from the table's own cells there; else from other tables
-// of the technique, scaled by a device on which both were measured; else from the table's cells on
-// another device, which may be too little. 0: unknown.
+// Estimates a cell's time on a device from the first of these that exist; 0: unknown. First the
+// table's own cells there. Then other tables of the technique, scaled by a device on which both
+// were measured. Then the table's cells on another device, which may be too little. Last other
+// tables of the technique on this device.
 static double cell_s(const struct rg_order *order, int table, int device)
 {
     const struct rg_standing *own = &order->tables[table];
@@ -135,8 +136,8 @@ static void choose_size(const struct rg_order *order, double left_s, struct rg_s
     step->expected_s = now_s * side * side / 4;
 }
 
-// The untried devices for which a turn can have a step: in turns of devices, only the one with
-// number `d`; else all together for d = 0.
+// The untried devices for which a turn can have a step. In turns of devices it is only the one with
+// number `d`, in others all together for d = 0.
 static unsigned devices_of(const struct rg_order *order, int table, enum rg_turn turn, int d)
 {
     const struct rg_standing *s = &order->tables[table];

@@ -64,12 +64,12 @@ struct rg_step {
     struct rg_share share; // the table's share after the step
     int cells;             // per device, the fewest that are useful
     double expected_s;     // for these cells, from earlier times; 0: unknown
-    double part_s;         // of the time left, what the step's rows may take
+    double part_s;         // seconds of the time left that the step's rows may take
 };
 
-// Takes the next step, which counts as tried from then on: in the first turn that has an untried
-// one, the step with the least expected or guessed time, so that a large table does not keep small
-// ones out. False if all steps were tried.
+// Takes the next step, which counts as tried from then on. It is in the first turn that has an
+// untried one. Among these it has the least expected or guessed time, so that a large table does
+// not keep small ones out. False if all steps were tried.
 bool rg_order_next(struct rg_order *order, double left_s, struct rg_step *step);
 // Updates the times per cell: a step took `seconds` for `cells` cells per device.
 void rg_order_learn(struct rg_order *order, const struct rg_step *step, int cells, double seconds);

@@ -122,8 +122,8 @@ static void leave_out_rows(const struct rg_table *table, struct rg_result *resul
         result->left_out[row - result->first_row] = !chosen[row];
 }
 
-// Leaves what no claim needs out of a begun result, which gets few samples, since launches decide.
-// False, and the result is freed, where there is no claim.
+// Drops from a begun result the parts that no claim needs. It gets few samples, since launches
+// decide. False, and the result is freed, if there is no claim.
 static bool choose_launches(struct rg_result *result, const struct rg_table *table)
 {
     result->few_samples = true;

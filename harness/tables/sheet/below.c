@@ -17,7 +17,7 @@ enum { LINES = 5 };
 
 // --- claims ---
 
-// Of verdicts up to OTHER_WORK; others are plain.
+// Colours of verdicts up to OTHER_WORK; others have none.
 static const char *const colours[RG_CLAIM_OTHER_WORK + 1] = {RG_GREEN, RG_RED, RG_YELLOW, RG_YELLOW,
                                                              RG_YELLOW};
 
@@ -168,7 +168,7 @@ static void add_other_work(struct notes *notes, const struct rg_result *result)
             *result->hardware ? ": not what was printed" : "");
 }
 
-// Notes what a budget of time reduced, so that the result is not taken for the full table.
+// Notes the parts that a time budget reduced, so that nobody takes the result for the full table.
 static void add_budget(struct notes *notes, const struct rg_result *result)
 {
     int rows = 0;
@@ -206,8 +206,8 @@ static void add_method(struct notes *notes, const struct rg_result *result)
         result->full ? "" : result->quick, drift, *marks ? " " : "", marks);
 }
 
-// For tables of no paper, of their first work: "The time of a frame of work paper goes with drops
-// to the power: cpu 0.98 (0.95 to 1.01), gl 1.02".
+// Notes the growth of the first work of a table without a paper: "The time of a frame of work paper
+// goes with drops to the power: cpu 0.98 (0.95 to 1.01), gl 1.02".
 static void add_growth(struct notes *notes, const struct rg_result *result)
 {
     char text[512] = "", power[32], low[32], high[32];

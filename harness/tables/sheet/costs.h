@@ -6,9 +6,9 @@
 #include "harness/console/sheet.h"
 #include "harness/record/result.h"
 
-// Adds a note with each other row's time relative to the first row's, and its error against the
-// truth, for the work, variant and device of a place. Nothing for tables without a truth or row
-// names, with published numbers, or with a cell without a number.
+// Adds a note for the work, variant and device of a place: each other row's time relative to the
+// first row's, and its error against the truth. Nothing for tables without a truth or row names,
+// with published numbers, or with a cell without a number.
 void rg_note_costs(const struct rg_result *result, struct rg_sheet *sheet, struct rg_place of);
 
 #endif

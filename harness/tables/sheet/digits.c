@@ -15,7 +15,7 @@ void rg_digits_ratio(double number, char *text, size_t size)
     snprintf(text, size, "%.*f", number >= 9.95 ? 0 : number >= 0.995 ? 1 : 2, number);
 }
 
-// The length of a name without these last words; all of it if it ends otherwise.
+// The length of a name without these last words; the whole length if it ends otherwise.
 static size_t length_without(const char *name, const char *words)
 {
     const size_t length = strlen(name), end = strlen(words);
@@ -50,7 +50,7 @@ static size_t length_without_unit(const char *name, const char *unit)
     return length;
 }
 
-// The unit of a column that is not a parameter; NULL where it has none.
+// The unit of a column that is not a parameter; NULL if it has none.
 static const char *unit_of(const char *name, size_t *length)
 {
     static const struct {

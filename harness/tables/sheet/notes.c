@@ -7,7 +7,7 @@
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/sheet/trend.h"
 
-// ", no_geometry", ", ours, full": names the variant and work of a cell, where there are several.
+// ", no_geometry", ", ours, full": names the variant and work of a cell, if there are several.
 static void name_kind(const struct rg_result *result, struct rg_place at, char *text, size_t size)
 {
     size_t used = 0;

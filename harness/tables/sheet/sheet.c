@@ -32,14 +32,14 @@ bool rg_is_frame_rate(const struct rg_named *published)
     return !strcmp(published->name, "fps");
 }
 
-// The first record, which has the names of all; NULL where there are no rows.
+// The first record, which has the names of all; NULL if there are no rows.
 static const struct rg_record *first_of(const struct rg_result *result)
 {
     struct rg_place at = rg_result_start(result);
     return rg_result_next(result, &at) ? rg_result_at(result, at) : NULL;
 }
 
-// The first record of a cell with counts; NULL where there is none.
+// The first record of a cell with counts; NULL if there is none.
 static const struct rg_record *first_counted(const struct rg_result *result)
 {
     for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)

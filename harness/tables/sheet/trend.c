@@ -81,7 +81,7 @@ static void join_single_rows(struct rows *rows)
         rows->points[i].group = 0;
 }
 
-// Collects rows, without those that did other work. False where a row has no time.
+// Collects rows, without those that did other work. False if a row has no time.
 static bool collect(const struct rg_result *result, struct rg_place of, struct rows *rows)
 {
     for (of.row = result->first_row; of.row <= result->last_row; of.row++) {
@@ -236,7 +236,7 @@ static double share_of(double least, double most)
     return 1 - least / most;
 }
 
-// Adds the rows of a variant. False where a number is missing.
+// Adds the rows of a variant. False if a number is missing.
 static bool add_variant(const struct rg_result *result, struct rg_place at,
                         double (*fps_of)(const struct rg_record *), struct rg_spread *spread)
 {

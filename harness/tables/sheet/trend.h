@@ -1,5 +1,5 @@
-// Whether a device's numbers vary along a table's rows as the published ones do, or for a table of
-// no paper, how they vary; and the spread of numbers over rows with names.
+// Whether a device's numbers vary along a table's rows as the published ones do, or how they vary
+// if nothing is published; and the spread of numbers over rows with names.
 #ifndef RG_HARNESS_TABLES_SHEET_TREND_H
 #define RG_HARNESS_TABLES_SHEET_TREND_H
 
@@ -33,7 +33,7 @@ struct rg_trend {
 // nothing but the axis are compared: with two cameras, each forms a group.
 struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of);
 
-// The axis of rows: the first number among their keys. NULL where there is none.
+// The axis of rows: the first number among their keys. NULL if there is none.
 const struct rg_named *rg_trend_axis(const struct rg_record *record);
 
 // The trends of all works, variants and devices as in docs/records.md (`shapes`); the caller owns
@@ -46,8 +46,8 @@ struct rg_spread {
     double of_a_variant;        // the greatest such difference within one variant
 };
 
-// The spread over the rows of a work on a device. False where there are fewer than two, rows have
-// no names, or a cell has no number.
+// The spread over the rows of a work on a device. False if there are fewer than two, if rows have
+// no names, or if a cell has no number.
 bool rg_spread_of(const struct rg_result *result, int work, int device, struct rg_spread *measured,
                   struct rg_spread *published);
 

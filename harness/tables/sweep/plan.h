@@ -8,7 +8,7 @@
 #include "harness/tables/table.h"
 
 struct rg_plan {
-    int rows, devices, failed;       // failed: of the devices, those that could not be opened
+    int rows, devices, failed;       // failed: how many of the devices could not be opened
     double device_s[RG_MAX_DEVICES]; // for its cells; NAN: it failed
     double check_s;                  // for the expected images, drawn by cpu:reference
     double row_bytes;                // of this process's memory, for the largest row
@@ -16,8 +16,8 @@ struct rg_plan {
 };
 
 // Opens the first and the last row on each device until frames resemble the timed ones
-// (rg_cell_look), and interpolates times and memory of the other rows. Logs a line for a device on
-// which a row cannot be opened. False if the input is at fault, if no device is left, or if
+// (rg_cell_look), and interpolates times and memory of the other rows. Logs a line for a device
+// that cannot open a row. False if the input is at fault, if no device is left, or if
 // cpu:reference, which checks the images, fails.
 bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, struct rg_kept *kept,
                   struct rg_plan *plan);

@@ -122,8 +122,8 @@ static bool read_factors(struct packing *p, struct rg_cave_why *why)
     return true;
 }
 
-// Finds the light's side, in which copies of the database differ: a drop that does not oscillate is
-// brightest on the side of a light at right angles to the view.
+// Finds the light's side, which differs between copies of the database. A drop that does not
+// oscillate is brightest on the side of a light at right angles to the view.
 static bool find_side(struct packing *p, struct rg_cave_why *why)
 {
     enum { OSCILLATION = 0, VIEW = 0, LIGHT = 5, PHI = 4 };

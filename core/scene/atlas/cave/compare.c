@@ -45,7 +45,7 @@ static void read_cell(const struct rg_atlas *atlas, const struct rg_cave_found *
 
 // --- figures ---
 
-// Correlates two pictures (Pearson). False where one of them is constant.
+// Correlates two pictures (Pearson). False if one of them is constant.
 static bool correlate(const float *a, const float *b, int count, double *correlation)
 {
     double sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;

@@ -24,7 +24,7 @@ static int index_of(int angle, int first, int count)
     return angle >= first && (angle - first) % 20 == 0 && index < count ? index : -1;
 }
 
-// Reads from a file name which picture it is; false where it is not one of the database.
+// Reads a picture's identity from a file name; false if it is not one of the database's.
 static bool read_name(const char *name, struct rg_cave_found *found)
 {
     int view, light = -90, phi = 10, k, end = 0;

@@ -87,12 +87,12 @@ INLINE float solve(struct rg_drop_shape s, struct vector p, struct vector d, flo
     return t;
 }
 
-// The distance along d at which a line enters the drop, on the viewer's side; `hit` becomes 0 where
+// The distance along d at which a line enters the drop, on the viewer's side; `hit` becomes 0 if
 // the line misses it.
 INLINE float enter(struct rg_drop_shape s, struct vector p, struct vector d, float *hit)
 {
     // p is the line's point nearest to the centre. Near the rim p may be outside the drop, so a
-    // point deeper in the field is searched; near the centre the field is too steep for that.
+    // point deeper in the field is sought. Near the centre the field is too steep for that.
     const float outside_here = field_at(s, p).value > 0 ? 1.0f : 0.0f;
     float deepest = 0;
 #pragma GCC unroll 8

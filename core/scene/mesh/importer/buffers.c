@@ -77,8 +77,7 @@ static bool has_buffer(const struct import *import, const char *path)
     return false;
 }
 
-// The path of a name in the mesh's folder; the caller frees it. NULL where the name leaves the
-// folder.
+// The path of a name in the mesh's folder; the caller frees it. NULL if the name leaves the folder.
 static char *path_of(const struct import *import, const char *name)
 {
     const char *slash = strrchr(import->name, '/');
@@ -91,8 +90,8 @@ static char *path_of(const struct import *import, const char *name)
     return path;
 }
 
-// Some programs write names unencoded, so a file of exactly that name is used where the decoded one
-// is missing.
+// Some programs write names unencoded. So if the decoded file is missing, a file of exactly that
+// name is used.
 static void read_buffer(struct import *import, const char *uri)
 {
     struct import_buffer *buffer = &import->buffers[import->buffer_count];

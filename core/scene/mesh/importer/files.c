@@ -9,7 +9,7 @@
 #include "core/base/text/mark.h"
 #include "core/scene/mesh/importer/importer.h"
 
-// A file in memory and the position in it, behind Assimp's callbacks.
+// A file in memory and the position in it, as Assimp's callbacks read it.
 struct memory_file {
     struct aiFile callbacks;
     unsigned char *bytes;

@@ -10,8 +10,8 @@
 #include "core/base/cage/cage.h"
 #include "core/scene/mesh/importer/importer.h"
 
-// Limits CPU time to two seconds and one more a megabyte, of which Assimp reads ten or more in a
-// second, and memory as core/scene/mesh/reply.h says.
+// Limits CPU time to two seconds and one more for each megabyte; Assimp reads ten or more in a
+// second. Limits memory as core/scene/mesh/reply.h says.
 static void set_limits(size_t file_bytes)
 {
     rg_cage_limit(&(struct rg_cage_limits){

@@ -1,5 +1,5 @@
-// Rewrites OFF files as OBJ for Assimp, whose own reader of OFF (5.2) takes comments for data,
-// clamps bad indices, loses polygons of ten corners and crashes on short files.
+// Rewrites OFF files as OBJ for Assimp. Its own reader of OFF (5.2) takes comments for data, clamps
+// bad indices, loses polygons of ten corners and crashes on short files.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -114,7 +114,7 @@ static struct placement place_within(const struct placement *parent, const struc
 }
 
 // The matrix of cofactors, which turns normals whatever the placement scales; they need to be
-// normalised again. Returns the determinant, which is negative where the placement mirrors.
+// normalised again. Returns the determinant, which is negative if the placement mirrors.
 static double find_cofactors(const double m[3][4], double cofactors[3][3])
 {
     double determinant = 0;

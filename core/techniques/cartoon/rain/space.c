@@ -1,5 +1,5 @@
-// The parameters of the rain's kernels: where drops start, how long they live, how many there may
-// be.
+// The parameters of the rain's kernels: the place where drops start, how long they live, how many
+// there may be.
 #include <math.h>
 
 #include "core/base/log.h"
@@ -89,7 +89,8 @@ static cartoon_rain_params fixed_params(const struct cartoon_rain *r, int seed)
     };
 }
 
-// The height at which drops start: above the scene, and at least what a drop falls in a second.
+// The height at which drops start: above the scene, and at least as far as a drop falls in a
+// second.
 static double top_m(const struct cartoon_rain *r, const cartoon_rain_params *p)
 {
     const struct cartoon_rain_settings *s = r->settings;
@@ -99,8 +100,8 @@ static double top_m(const struct cartoon_rain *r, const cartoon_rain_params *p)
     return fmax((double)r->scene.diorama->mesh->high[1] + 1, s->speed_m_s + fmax(pull, 0) / 2);
 }
 
-// Computes the number of slots: a drop lives for at most life_steps and fades before its slot is
-// free, and leaves one splash.
+// Computes the number of slots. A drop lives for at most life_steps and fades before its slot is
+// free, and makes one splash.
 static bool find_slots(const struct cartoon_rain_settings *s, cartoon_rain_params *p)
 {
     const double a_step = (double)s->drops_s / s->steps_s;

@@ -43,7 +43,7 @@ static bool take_line(const char *path, int line, char *text, struct cartoon_win
     return true;
 }
 
-// Skips the rest of a line after `text`. False where that is no comment, or the text holds a zero,
+// Skips the rest of a line after `text`. False if that is no comment, or if the text holds a zero,
 // so that the rest is unknown.
 static bool skip_rest(const char *text, FILE *in)
 {

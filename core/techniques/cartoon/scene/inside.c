@@ -9,8 +9,8 @@ static void corner_of(const struct rg_mesh *mesh, int face, int k, double corner
         corner[c] = (double)p[c];
 }
 
-// 1 where a ray leaves a solid through the face, -1 where it enters one, 0 where it misses
-// (Moeller and Trumbore, 1997).
+// 1 if a ray leaves a solid through the face, -1 if it enters one, 0 if it misses (Moeller and
+// Trumbore, 1997).
 static int crossing(const struct rg_mesh *mesh, int face, const double from[3], const double ray[3])
 {
     double a[3], u[3], v[3], t[3], p[3], q[3];
@@ -34,8 +34,8 @@ static int crossing(const struct rg_mesh *mesh, int face, const double from[3], 
 
 bool cartoon_is_inside(const struct rg_mesh *mesh, const float eye[3])
 {
-    // A ray from inside a solid leaves once more than it enters, in any direction; two rays are
-    // tested because one may also cross a single sheet.
+    // A ray from inside a solid leaves once more than it enters, in any direction. Two rays are
+    // tested, because one may also cross a single sheet.
     static const double rays[2][3] = {{0.0131, 1, 0.0173}, {0.8117, 0.0931, 0.5813}};
     const double from[3] = {(double)eye[0], (double)eye[1], (double)eye[2]};
     bool is_inside = true;

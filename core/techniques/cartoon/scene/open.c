@@ -1,4 +1,4 @@
-// The assets from which and into which the scene is drawn.
+// The assets that drawing the scene reads and writes.
 #include <stdlib.h>
 
 #include "core/base/log.h"

@@ -1,4 +1,4 @@
-// The view of the scene: camera, light, and the parameters that kernels get of them.
+// The view of the scene: camera, light, and the kernels' parameters for them.
 #include <math.h>
 
 #include "core/base/log.h"

@@ -28,8 +28,8 @@ drops_view_params drops_view_of(const struct drops *d, int width, int height)
 }
 
 // The matrix from (right, down, towards the viewer) on the pane to the world, whose y is up; an
-// upright pane is seen along -z. The camera keeps the pane's top upwards and looks through it:
-// upwards where the pane lies flat, with the water on its upper side.
+// upright pane is seen along -z. The camera keeps the pane's top upwards and looks through it. It
+// looks upwards if the pane lies flat, with the water on its upper side.
 static m4 to_world_of(const drops_params *params, double tilt_deg)
 {
     const double tilt = tilt_deg * M_PI / 180;

@@ -1,4 +1,4 @@
-// The background and surroundings of the pane, blurred as by a lens focused on the pane: a distant
+// The background and surroundings of the pane, blurred as by a lens focused on the pane. A distant
 // point becomes a disc with the aperture's angle as seen from the pane.
 #include <math.h>
 #include <stdlib.h>

@@ -166,8 +166,8 @@ flow_normals_params flow_normals_params_of(const struct flow_settings *s)
     };
 }
 
-// Random streams of flow. The item is a drop's number and the step its frame; where drops slide,
-// drops are numbered through all frames, so that the same ones fall whatever step_s is.
+// Random streams of flow. The item is a drop's number and the step its frame. If drops slide, they
+// are numbered through all frames, so that the same ones fall whatever step_s is.
 enum { STREAM_SEEDED = 1, STREAM_RAIN = 2, STREAMS_A_PANE = 16 };
 
 // The number of drops that have fallen on a pane before a frame. The epsilon lets a number that is

@@ -8,8 +8,8 @@
 
 enum { AMBIENT_PX = 8 }; // texels along a face of the ambient level
 
-// How far a drop displaces the picture behind a pane, in heights of the view, for a normal parallel
-// to the pane and a refraction_strength of 1.
+// The distance by which a drop displaces the picture seen through a pane, in heights of the view.
+// It is for a normal parallel to the pane and a refraction_strength of 1.
 #define LENS_REACH 0.2
 
 static int level_of(const struct flow_settings *s, int px)

@@ -1,5 +1,6 @@
-// Chooses a scene's lights: the user's, or by day and night in the order of the thesis's figure
-// 5.7: the sun, three street lamps, a red and a green traffic light, then the nearest lamps.
+// Chooses a scene's lights: the user's, or those of day or night. These have the order of the
+// thesis's figure 5.7: the sun, three street lamps, a red and a green traffic light, then the
+// nearest lamps.
 #include <math.h>
 #include <string.h>
 
@@ -60,8 +61,8 @@ static bool is_taken(const struct choice *choice, const struct city_lamp *lamp)
     return false;
 }
 
-// The nearest unused lamp of these kinds (bits), the first of equally near ones. NULL where there
-// is none.
+// The nearest unused lamp of these kinds (bits), the first of equally near ones. NULL if there is
+// none.
 static const struct city_lamp *nearest_lamp(const struct scenery_lights_settings *s, unsigned kinds,
                                             const struct choice *choice)
 {

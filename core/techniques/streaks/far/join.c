@@ -30,7 +30,7 @@ static double mean_of(const struct strip *strip, double row, int column)
 }
 
 // A drop completes one oscillation on its way. Its coverage at the end of the way is added to that
-// at the beginning and vice versa, so that the picture continues beyond both ends as in a longer
+// at the beginning, and vice versa. So the picture continues beyond both ends as in a longer
 // exposure.
 static void join_ends(const struct strip *strip, uint16_t *rows)
 {

@@ -30,8 +30,8 @@ static void bound(const double (*points)[2], int count, double box[4])
 // --- the hull ---
 
 // Cuts a convex body, given by its corners, at two planes across the fall, and finds the corners of
-// the slice: the body's corners in it, and the points where its edges meet the planes. All pairs of
-// corners are treated as edges; false edges give inner points, which the hull drops.
+// the slice. They are the body's corners in it, and the points where its edges meet the planes. All
+// pairs of corners are treated as edges; false edges give inner points, which the hull drops.
 static int slice(const double corners[CORNERS][3], double above, double below, double (*points)[2])
 {
     const double planes[2] = {above, below};
@@ -55,7 +55,7 @@ static int slice(const double corners[CORNERS][3], double above, double below, d
     return count;
 }
 
-// Above 0 where c is to the left of the line from a to b.
+// Above 0 if c is to the left of the line from a to b.
 static double turn(const double a[2], const double b[2], const double c[2])
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);

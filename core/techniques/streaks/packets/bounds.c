@@ -139,8 +139,8 @@ static inline float inside(const float plane[4], const float middle[3], const fl
            fabsf(plane[0]) * half[0] + fabsf(plane[1]) * half[1] + fabsf(plane[2]) * half[2];
 }
 
-// A block counts as high as the local space if its particles fall at different speeds, are
-// re-entering at the local top, or have just re-entered, when they may still be splashes at the
+// A block counts as high as the local space in three cases: its particles fall at different speeds,
+// are re-entering at the local top, or have just re-entered, when they may still be splashes at the
 // local ground.
 static inline bool is_seen(const struct streaks_sight *s, const float low[3], const float high[3],
                            float turn)

@@ -64,7 +64,7 @@ static bool all_fit(const struct rg_density *map, const struct streaks_grid *gri
     return true;
 }
 
-// The rain of a cell that falls elsewhere in it than the map says, in densities times texels.
+// The rain of a cell that falls at other places in it than the map says, in densities times texels.
 static double displaced(const struct rg_density *map, const struct streaks_grid *grid, int column,
                         int row)
 {
@@ -93,7 +93,7 @@ static bool is_fine(const struct rg_density *map, const struct streaks_grid *gri
     return (double)sum <= MOST_DISPLACED * PARTS * rg_density_mean(map) * map->width * map->height;
 }
 
-// Chooses this many cells, as square as possible. False where there are too many.
+// Chooses this many cells, as square as possible. False if there are too many.
 static bool set_cells(const struct streaks_packets *p, double particles_m2, int across, int down,
                       double *full_cell, struct streaks_grid *grid)
 {
@@ -111,9 +111,9 @@ static int next_multiple(int of, int from)
     return (from + of - 1) / of * of;
 }
 
-// Chooses the coarsest grid whose buckets fit packets. Where its cells are too large for the map,
-// they are halved along each side, again and again, down to texels or parts of texels. Returns the
-// particles of a cell at density 1, or 0 where there would be too many cells.
+// Chooses the coarsest grid whose buckets fit packets. If its cells are too large for the map,
+// halves them along each side, again and again, down to texels or parts of texels. Returns the
+// particles of a cell at density 1, or 0 if there would be too many cells.
 static double choose_cells(const struct streaks_packets *p, const struct rg_density *map,
                            double particles_m2, struct streaks_grid *grid)
 {
@@ -148,7 +148,7 @@ double streaks_cell_turn(uint32_t seed, int64_t cell)
     return (double)rg_uniform(cell_random(seed, cell).y);
 }
 
-// Rounds a level up or down at random, so that all cells together hold as much as the map asks for.
+// Rounds a level up or down at random, so that all cells together hold the map's amount.
 static int level_of(double level, uint32_t seed, int64_t cell)
 {
     if (is_whole(level))

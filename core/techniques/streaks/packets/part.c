@@ -101,8 +101,8 @@ static int64_t ones(const struct streaks_scatter *scatter, const struct streaks_
     return sum;
 }
 
-// How many of `count` uniform random numbers are below `chance`. All are compared with it bit by
-// bit, and those that differ are decided, so that a number takes about two random bits.
+// How many of `count` uniform random numbers are below `chance`. Compares all of them bit by bit,
+// until they differ from it, so that a number takes about two random bits.
 static int64_t below(const struct streaks_scatter *scatter, const struct streaks_part *part,
                      double chance)
 {
@@ -141,8 +141,8 @@ void streaks_part_halve(const struct streaks_scatter *scatter, const struct stre
 
 // --- a place in a part ---
 
-// Where the density, summed from one side of a window across x or down y, reaches a share of the
-// total. Finds the texel by bisection, then interpolates inside it.
+// The place at which the density, summed from one side of a window across x or down y, reaches a
+// share of the total. Finds the texel by bisection, then interpolates inside it.
 static double reach(const struct rg_density *map, struct window w, bool down, double share,
                     int *texel)
 {

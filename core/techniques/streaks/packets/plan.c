@@ -167,7 +167,8 @@ static bool refuse_cells(const struct streaks_packets_settings *settings)
                     settings->packet_size, STREAKS_MAX_CELLS);
 }
 
-// The plan that fits, and of two that fit the one with fewer packets.
+// The plan that fits. If both fit, the one with fewer packets; if neither fits, the one that takes
+// less memory.
 static struct streaks_plan better(const struct streaks_packets_settings *settings,
                                   struct streaks_plan a, struct streaks_plan b)
 {
@@ -193,7 +194,7 @@ static bool choose_automatically(struct streaks_packets *p, const struct rg_dens
         *plan = better(settings, *plan, plan_grid(&p->grid));
     else if (p->grid.across)
         return false;
-    // Counting a quad-tree's leaves is slow, so it is skipped where even full packets would not be
+    // Counting a quad-tree's leaves is slow, so it is skipped if even full packets would not be
     // fewer.
     if (!fits(settings, plan) || (total + size - 1) / size < plan->packets)
         *plan = better(settings, *plan, plan_quad(settings, scatter, total));

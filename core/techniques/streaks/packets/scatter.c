@@ -4,7 +4,7 @@ enum {
     LEAF = 16,         // particles that are placed one by one
     TASK = 1 << 17,    // particles that are worth a parallel task
     OSCILLATIONS = 10, // streaks of different drops (section 4.3.2)
-    START_BITS = 20,   // bits that a float keeps beside an oscillation
+    START_BITS = 20,   // bits of a start, which a float has left after an oscillation
 };
 
 // --- particles of one part ---

@@ -135,7 +135,7 @@ static void set_params(struct streaks *s, const double eye[3], double top_m)
 
 // --- listing blocks ---
 
-// The size classes come before them.
+// The buffer begins with the size classes.
 bool streaks_write_blocks(struct streaks *s, const struct streaks_draw *draw)
 {
     const int64_t before = (int64_t)s->sizes.count * STREAKS_SIZE_WORDS;

@@ -1,7 +1,8 @@
 // The depth map: the scene seen along the fall, which shows where drops hit (Creus, sections 4.2
-// and 4.4.2), and, if splashes need it, the number of the surface there. A static map covers the
-// rain space and is shared by instances on a device that need the same one; a dynamic map covers
-// the surroundings of the observer.
+// and 4.4.2). If splashes need it, the map also has the number of the surface there.
+//
+// A static map covers the rain space and is shared by instances on a device that need the same one.
+// A dynamic map covers the surroundings of the observer.
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

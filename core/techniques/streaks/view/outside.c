@@ -1,6 +1,6 @@
 // The view from outside: a second camera looks at the rain space, or at the volume of rain around
-// the observer, as in figures 4.1 to 4.15 of Creus's thesis. It shows what the observer has
-// selected.
+// the observer, as in figures 4.1 to 4.15 of Creus's thesis. It shows the packets that the observer
+// has selected.
 #include <math.h>
 #include <stdlib.h>
 

@@ -131,8 +131,8 @@ static void show_on_top(const struct streaks *s, const double a[3], const double
     scenery_overlay_line(s->overlay, ends[0], ends[1], &black);
 }
 
-// Shows the observer's frustum on the top plane: its edges along the view and at its end, and its
-// bounding rectangle, by which packets are selected (figure 4.14).
+// Shows the observer's frustum on the top plane: its edges along the view and at its end. Also
+// shows its bounding rectangle, by which packets are selected (figure 4.14).
 static bool show_frustum(const struct streaks *s)
 {
     const struct rg_image_desc *desc = &s->base.target->desc;

@@ -1,5 +1,5 @@
-// A baseline: what cells did on devices earlier. It has no pictures but their digests; where a
-// digest differs, cpu:reference draws the true picture anew.
+// A baseline: what cells did on devices earlier. It has digests in place of pictures; if a digest
+// differs, cpu:reference draws the true picture anew.
 #ifndef RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 #define RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 
@@ -52,7 +52,7 @@ struct rg_baseline_row *rg_baseline_add(struct rg_baseline *baseline);
 // NULL if there is none.
 const struct rg_baseline_row *rg_baseline_find(const struct rg_baseline *baseline, const char *cell,
                                                const char *device);
-// The digest of a row's state; NULL if it has no such state.
+// A row's digest of a state; NULL if it has no such state.
 const char *rg_baseline_state(const struct rg_baseline_row *row, const char *name);
 const struct rg_baseline_device *rg_baseline_device(const struct rg_baseline *baseline,
                                                     const char *name);
@@ -87,7 +87,7 @@ double rg_baseline_scatter(const struct rg_launches *launches);
 // --- running cells ---
 
 // Runs a cell on a device and fills in all of a zeroed row but its times. The caller destroys the
-// picture; it has no texels unless the outcome is OK.
+// picture, which has texels only if the outcome is OK.
 void rg_baseline_take(const struct rg_gate_cell *cell, struct rg_device *device,
                       struct rg_baseline_row *row, struct rg_picture *picture);
 

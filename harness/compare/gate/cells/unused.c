@@ -30,7 +30,7 @@ static int unmatched_field(const struct rg_expectation *row, const struct rg_gat
     return any ? RG_FIELD_DRIVER : RG_FIELD_DEVICE;
 }
 
-// Where the warnings look.
+// The input of the warnings.
 struct search {
     const struct rg_known *known;
     const struct rg_gate_cells *cells;

@@ -13,15 +13,15 @@ int64_t rg_gate_warn_of_unused(const struct rg_known *known, const struct rg_gat
 
 // A device whose cells are compared with expectations.
 struct rg_gate_target {
-    const char *device, *driver; // driver NULL: it is not there, and has none
+    const char *device, *driver; // NULL driver: the device is absent
 };
-// The same for expectations that match a cell, but none of these devices, or no driver of the
-// devices that they match and that are there.
+// The same for expectations that match a cell but no device of these, or no driver of the matching
+// devices that are present.
 int64_t rg_gate_warn_of_unused_on(const struct rg_known *known, const struct rg_gate_cells *cells,
                                   const struct rg_gate_target *targets, int count);
 
-// The same for expectations that begin after this day, and for those that hold for more than a year
-// from it: one line of each kind and file.
+// The same for expectations that begin after this day, and for those that last more than a year
+// from it: one line for each kind and file.
 int64_t rg_gate_warn_of_days(const struct rg_known *known, int today);
 
 #endif

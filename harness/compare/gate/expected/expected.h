@@ -48,7 +48,7 @@ struct rg_expectation {
     const char *values[RG_FIELD_COUNT]; // as written in the file; NULL: not given
     int64_t at[RG_FIELD_COUNT];         // the line of each field
     unsigned outcomes;                  // bit 1 << enum rg_outcome is set for each expected outcome
-    struct rg_envelope pixels, difference; // valid where values[] has the field
+    struct rg_envelope pixels, difference; // valid if values[] has the field
     int since, until; // days (harness/compare/gate/text/date.h); INT_MAX: no end
 };
 
@@ -74,11 +74,11 @@ struct rg_known_result {
     bool is_foreign;   // the failure is not this device's driver's, so expectations do not apply
 };
 
-// How a case ends by its expectation: as an expected failure where it fails as expected, as an
-// unexpected pass where it does not fail, as a flake in quarantine, skipped, or as without one.
+// How a case ends by its expectation: an expected failure, an unexpected pass, a flake in
+// quarantine, skipped, or as if nothing were expected.
 struct rg_judged {
     enum rg_ending ending;
-    bool applies;    // there is an expectation of this result
+    bool applies;    // an expectation matched this result
     bool is_expired; // which is past its `until` day
 };
 
@@ -95,9 +95,9 @@ void rg_known_free(struct rg_known *expected);
 // expression would match no name of this kind.
 bool rg_known_can_search(const struct rg_known *expected, const char *cell);
 
-// The row that applies to a cell on this day. If several match, a skip wins over a flake and a
-// flake over a failure, then the first wins; rows whose `since` is still to come do not match. -1:
-// none.
+// The row that applies to a cell on this day; -1: none. Rows whose `since` is still to come do not
+// match. If several match, a skip wins over a flake and a flake over a failure, then the first
+// wins.
 int64_t rg_known_row(const struct rg_known *expected, const char *cell, const char *device,
                      const char *driver, int today);
 // Whether a row forbids running its cell on this day; false for row -1.
@@ -113,9 +113,10 @@ const char *rg_judged_word(const struct rg_judged *judged);
 // Rewrites a file so that it is true of these results. Rows whose failure is fixed are removed;
 // rows that fail differently get the new evidence; expired rows get 90 more days, or are removed if
 // they are skips or have passed. Expectations of cells without a known result remain. With
-// `adds_new`, unexpected failures are appended. All other bytes stay the same. The caller frees the
-// text; it is NULL if nothing has to change, or if the file is neither in our own form nor Mesa's
-// fails. False, and one logged line, without memory.
+// `adds_new`, unexpected failures are appended. All other bytes stay the same.
+//
+// The caller frees the text. It is NULL if nothing has to change, and for Mesa's flakes and skips.
+// False, and one logged line, without memory.
 bool rg_known_mend(const struct rg_known *expected, int file, const struct rg_known_result *results,
                    int64_t count, int today, bool adds_new, char **text);
 

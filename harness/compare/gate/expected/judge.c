@@ -85,7 +85,7 @@ struct rg_judged rg_known_judge(const struct rg_known *expected, int64_t index,
                                 const struct rg_known_result *result, enum rg_ending own, int today)
 {
     const struct rg_judged alone = {own, false, false};
-    // What has expired fails even if it is faster or inconclusive.
+    // An expired expectation fails even if the case is faster or inconclusive.
     const enum rg_ending fails = rg_ending_fails(own) ? own : RG_ENDING_UNEXPECTED_PASS;
     if (index < 0)
         return alone;
@@ -95,7 +95,7 @@ struct rg_judged rg_known_judge(const struct rg_known *expected, int64_t index,
         return (struct rg_judged){RG_ENDING_SKIPPED, true, false};
     if (result->outcome == RG_UNSUPPORTED) // neither passed nor failed
         return alone;
-    if (result->is_foreign) // of another driver than the device has
+    if (result->is_foreign) // the failure is not of the device's driver
         return alone;
     if (row->kind == RG_EXPECT_FAIL && result->outcome == RG_OK)
         return (struct rg_judged){RG_ENDING_UNEXPECTED_PASS, true, false};

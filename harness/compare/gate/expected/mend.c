@@ -171,7 +171,7 @@ static void write_narrowed(const struct mend *m, int64_t index, int64_t result)
     }
 }
 
-// Whether a result keeps a row of its own after the row is split.
+// Whether a result gets a row of its own when the row is split.
 static bool stays(const struct mend *m, int64_t row, int64_t result)
 {
     const bool has_passed = is_fixed(&m->judged[result]) ||
@@ -179,7 +179,8 @@ static bool stays(const struct mend *m, int64_t row, int64_t result)
     return is_of_row(m, row, result) && !has_passed;
 }
 
-// Some cells of the row now pass: replaces it by a row for each that does not, or is not known to.
+// Some cells of the row now pass. Replaces it by a row for each that does not, or whose result is
+// unknown.
 static void write_split(const struct mend *m, int64_t index)
 {
     const char *between = "";

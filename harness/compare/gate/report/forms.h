@@ -1,11 +1,11 @@
-// The forms of a report. A form is a row here and a function that writes it; its option in the
-// gate's help, its destination and the file it must not replace all follow from the row.
+// The forms of a report. A form is a row here and a function that writes it. The row gives its
+// option in the gate's help, its destination, and the file that it must not replace.
 #ifndef RG_HARNESS_COMPARE_GATE_REPORT_FORMS_H
 #define RG_HARNESS_COMPARE_GATE_REPORT_FORMS_H
 
 #include "harness/compare/gate/report/report.h"
 
-// Where a form's output goes.
+// The destination of a form.
 enum rg_report_where {
     RG_WHERE_FILE,     // its option names a file
     RG_WHERE_INSTEAD,  // its option, a flag, prints it in place of text

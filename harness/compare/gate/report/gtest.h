@@ -1,9 +1,9 @@
 // googletest's protocol, so that runners that know gtest can drive the gate: their options, and the
 // lines that they read. https://google.github.io/googletest/advanced.html
 //
-// deqp-runner is the strictest of them. In the list it takes a line with a point for a suite,
-// and ends a name at a space. While a test runs, it takes any "[WORD] " for the result, stops at a
-// WORD that it does not know, and takes a process that ends without a result for a crash.
+// deqp-runner is the strictest of them. In the list it takes a line with a point for a suite, and
+// ends a name at a space. While a test runs, it takes any "[WORD] " for the result, and stops at a
+// WORD that it does not know. A process that ends without a result is a crash to it.
 #ifndef RG_HARNESS_COMPARE_GATE_REPORT_GTEST_H
 #define RG_HARNESS_COMPARE_GATE_REPORT_GTEST_H
 
@@ -25,10 +25,11 @@ struct rg_gtest_shards {
 // file of $GTEST_SHARD_STATUS_FILE. False, and one logged line, if they name no shard.
 bool rg_gtest_shards(struct rg_gtest_shards *shards);
 
-// The gtest name of a report's case, "streaks.small/cpu" for "streaks.small.cpu": the suite ends at
-// the first point, and further points become slashes. If the name has no suite, is longer than
-// RG_GTEST_KEPT bytes, or has characters that a filter or a list would misread, it is cut or gets
-// "_" for them, and a hash of the whole name follows to keep it unique.
+// The gtest name of a report's case, "streaks.small/cpu" for "streaks.small.cpu". The suite ends at
+// the first point; further points become slashes. A name without a suite gets the suite
+// "raingauge". A name of more than RG_GTEST_KEPT bytes is cut, and characters that a filter or a
+// list would misread become "_". After any of these changes a hash of the whole name follows, to
+// keep the name unique.
 enum { RG_GTEST_KEPT = 160, RG_GTEST_NAME = 256 };
 void rg_gtest_name(const char *name, char made[RG_GTEST_NAME]);
 

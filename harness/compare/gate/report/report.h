@@ -34,12 +34,12 @@ enum rg_ending {
 };
 enum { RG_ENDING_COUNT = RG_ENDING_PASS + 1 };
 
-// The ending of a case of which nothing is expected, and that no time decides.
+// The ending of a case without an expectation, when times decide nothing.
 enum rg_ending rg_ending_of(enum rg_outcome outcome);
-// "unexpected pass": the same words in all forms.
+// "unexpected pass": all forms use these words.
 const char *rg_ending_name(enum rg_ending ending);
-// JUnit's element: "failure" for a wrong result, "error" for no result, "skipped" for none that
-// counts; NULL: passed.
+// JUnit's element: "failure" for a wrong result, "error" for no result, "skipped" for one that does
+// not count; NULL: passed.
 const char *rg_ending_element(enum rg_ending ending);
 // The enum rg_exit of a gate whose worst ending this is.
 int rg_ending_exit(enum rg_ending ending);
@@ -108,8 +108,8 @@ void rg_report_free(struct rg_report *report);
 // How many cases have this ending.
 int rg_report_count(const struct rg_report *report, enum rg_ending ending);
 
-// "14 cases, 1 crash, 13 pass". Every case that passes, differs or has a ratio was compared; after
-// the number of expected failures the text says how many of them were not.
+// "14 cases, 1 crash, 13 pass". Every case that passes, differs or has a ratio was compared. The
+// number of expected failures is followed by the number of those that were not compared.
 enum { RG_REPORT_SUMMARY = 512 };
 void rg_report_summary(const struct rg_report *report, char text[RG_REPORT_SUMMARY]);
 

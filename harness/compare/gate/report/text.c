@@ -7,8 +7,8 @@
 
 // --- lines of RG_REPORT_WIDTH characters ---
 
-// How many bytes of the text go on a line of `room` characters: up to a line break, or the last
-// space that fits, or through a word that is longer than a line.
+// The number of bytes of the text that go on a line of `room` characters: up to a line break, or
+// the last space that fits, or the end of a word that is longer than a line.
 static size_t line_of(const char *text, int room)
 {
     const size_t whole = strcspn(text, "\n");
@@ -31,8 +31,8 @@ static void put_bytes(FILE *out, const char *text, size_t bytes)
     }
 }
 
-// Writes text from column `from` on. Each further line begins with a bar, so that a reader of the
-// log does not take foreign text at a line's start for a command, as GitHub does with "::error::".
+// Writes text from column `from` on. Each further line begins with a bar: at a line's start GitHub
+// would read foreign text such as "::error::" as a command.
 static void put_wrapped(FILE *out, const char *text, int from)
 {
     static const char bar[] = "  | ";

@@ -50,7 +50,7 @@ static enum rg_ending ending_of_times(const struct rg_gate_case *c)
     return endings[c->row.decision.verdict];
 }
 
-// As if nothing were expected.
+// The case's ending without regard to expectations.
 static enum rg_ending own_ending(const struct rg_gate_case *c)
 {
     if (c->is_over)
@@ -89,7 +89,7 @@ static void put_change(const struct rg_gate_decision *d, double before_ms, char 
              before_ms);
 }
 
-// Reports the times whatever is expected of the case: quarantined cases are measured to be seen.
+// Reports the times regardless of expectations: quarantined cases are measured to be seen.
 static void put_times(const struct rg_gate_case *c, char *text, size_t size)
 {
     const enum rg_ending ending = ending_of_times(c);
@@ -238,7 +238,7 @@ static void put_pictures(struct rg_gate_case *c, const char *folder, struct rg_r
     told->attachment_count = c->paths ? RG_GATE_PICTURES : 0;
 }
 
-// Whether something else than the case's driver failed: the other side, the truth, or raingauge
+// Whether the failure is not of the case's driver, but of the other side, the truth, or raingauge
 // itself because of its input.
 static bool is_foreign(const struct rg_gate_case *c)
 {

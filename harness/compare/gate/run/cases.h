@@ -30,7 +30,7 @@ struct rg_gate_request {
     struct rg_gtest_shards shards; // of the cases that the filter selects
     const char *pictures; // folder for pictures that differ, created if missing; NULL: none
     const char *folder;   // existing folder for the journal; NULL: none
-    bool fresh;           // ignores a journal that is there
+    bool fresh;           // ignores an existing journal
 };
 
 struct rg_gate_case {

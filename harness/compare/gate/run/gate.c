@@ -117,7 +117,7 @@ static int look_at_sides(struct rg_running_gate *r)
                                                                            : RG_EXIT_FAIL;
 }
 
-// Describes what the report's numbers depend on: the machine, and the sides that are there.
+// Describes the machine, and the sides that are present, on which the report's numbers depend.
 static bool set_passport(struct rg_running_gate *r)
 {
     struct rg_device_info there[RG_GATE_MOST_SIDES];
@@ -303,7 +303,7 @@ static bool run_all(struct rg_running_gate *r)
     return ok && (rg_interrupted() || rg_gate_report(r->asked, r->gate));
 }
 
-// The enum rg_exit of what was found. A budget in which no case came as far as its first look is
+// The enum rg_exit of the findings. A budget in which no case came as far as its first look is
 // refused, since nothing could be decided.
 static int exit_of(const struct rg_running_gate *r)
 {

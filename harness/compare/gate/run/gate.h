@@ -23,8 +23,8 @@ void rg_gate_free(struct rg_gate *gate);
 // it. NULL, and one logged line, without memory.
 char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device);
 
-// Runs the gate, comparing first and then timing. Times are compared with a baseline's if the
-// device's comparison key is the same; else they are reported beside the yardsticks, which fails
+// Runs the gate: compares first, then times. A baseline's times are compared if the device's
+// comparison key is the same; otherwise they are reported together with the yardsticks, and fail
 // nothing. Returns an enum rg_exit: fail if something is worse or broken, inconclusive if the times
 // do not decide, nothing measured if nothing was compared, unsupported if a side is.
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate);

@@ -31,8 +31,7 @@ static bool make_results(const struct rg_gate_request *asked, struct rg_gate *ga
 }
 
 // Adds a failing case, as for a missing device, if a required device has cells but none was
-// compared, failed or left out for want of time. Unsupported cells do not count: they do not pass
-// anyway.
+// compared, failed or ran out of time. Unsupported cells do not count: they do not pass anyway.
 static void hold_required(struct rg_gate *gate, const char *name)
 {
     bool any = false, is_told = false;

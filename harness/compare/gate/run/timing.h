@@ -12,12 +12,12 @@ enum { RG_GATE_MOST_SIDES = RG_SIDES * RG_MAX_DEVICES };
 struct rg_running_gate {
     const struct rg_gate_request *asked;
     struct rg_gate *gate; // one case per cell that the filter selects
-    // Of the pairs, two by two, A first. With a baseline A has no name.
+    // The sides of the pairs, two by two, A first. With a baseline A has no name.
     int side_count;
     struct rg_side sides[RG_GATE_MOST_SIDES];
-    struct rg_device_info infos[RG_GATE_MOST_SIDES]; // of the sides that are there
-    json_t *passport;                                // of the sides that are there
-    // Of sides that run alone and are there.
+    struct rg_device_info infos[RG_GATE_MOST_SIDES]; // of the sides that are present
+    json_t *passport;                                // of the sides that are present
+    // For sides that are present and run alone.
     json_t *parts[RG_GATE_MOST_SIDES]; // of their comparison keys
     bool same_key[RG_GATE_MOST_SIDES]; // equal to the baseline's key
     struct rg_truth truth;
@@ -25,13 +25,13 @@ struct rg_running_gate {
     double start_ms, end_ms;         // of the pair that runs; end 0: no limit
     double first_ms;                 // when the first pair began
     double look_ms;                  // until a pair's first look, the longest of all pairs
-    bool has_looked;                 // some case came as far as that, or ended without it
+    bool has_looked;                 // some case reached its first look, or ended without it
     struct rg_gate_journal *journal; // NULL: no journal
 };
 
 // How many courses share the budget and the error: one with a baseline.
 int rg_gate_courses(const struct rg_running_gate *run);
-// Times the cases of a pair, or all that run alone, and notes when a first look was to be had.
+// Times the cases of a pair, or all that run alone, and notes when a first look was due.
 bool rg_gate_time(struct rg_running_gate *run, struct rg_gate_case *cases, int count);
 
 #endif

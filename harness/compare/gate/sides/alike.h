@@ -22,8 +22,8 @@ struct rg_agreement {
     // written. has_pictures: some have been.
     const char *folder, *name;
     bool has_pictures;
-    // If pictures differ: the name of the device whose picture counts as true, not owned, outlives
-    // the gate; and the strictest tier that the pictures pass, RG_TIER_COUNT: none.
+    // If pictures differ: the name of the device whose picture counts as true, which outlives the
+    // gate and is not owned; and the strictest tier that the pictures pass, RG_TIER_COUNT: none.
     const char *truth;
     int would_hold;
     bool has_code;                         // `code` is known and can be reported

@@ -11,8 +11,8 @@ enum { RG_SIDE_A, RG_SIDE_B, RG_SIDES };
 struct rg_side {
     const char *name;         // as an argument of --device for one device; not owned
     struct rg_device *device; // NULL: not open
-    bool was_closed_badly;    // at least once work was left on it, or its driver crashed
-    bool was_lacking;         // at least once raingauge lacked what it needs to open it
+    bool was_closed_badly;    // at least once closing it found a leak or a crash
+    bool was_lacking;         // at least once raingauge lacked something for opening it
 };
 
 // Closes the device if it is open, and opens it again in a new worker process. False, with one
@@ -20,8 +20,8 @@ struct rg_side {
 bool rg_side_launch(struct rg_side *side);
 void rg_side_close(struct rg_side *side);
 
-// Takes the failure that was just met: writes its line to `why`, and whether it is of raingauge,
-// its input or the machine's set-up, so that nothing of a driver's expectations applies.
+// Takes the failure that was just met and writes its line to `why`. *is_ours tells whether it is of
+// raingauge, its input or the machine's set-up; then no expectation of a driver applies.
 enum rg_outcome rg_side_failure(bool *is_ours, char *why, size_t size);
 
 // The result of a first launch.

@@ -144,8 +144,8 @@ static bool time_slot(struct rg_session *session, const struct rg_slot *slot, do
 // --- a cell's launch ---
 
 // Runs frames that are not timed, because drivers compile in the first. Both sides get the same
-// slot, chosen by the geometric mean of their frame times, so that a slow side does not take for
-// ever and a fast one is not too short for the clock. False also if there is no room for it.
+// slot, chosen by the geometric mean of their frame times: short enough for a slow side, long
+// enough for the clock on a fast one. False also if there is no room for it.
 static bool warm_up(struct rg_gate_times *t, struct rg_timed_cell *timed,
                     struct rg_session *sessions[RG_SIDES])
 {
@@ -193,7 +193,7 @@ static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions
             return false;
         logs[i] = is_pair ? rg_block_log_ratio(at[RG_SIDE_A], at[RG_SIDE_B]) : 0;
     }
-    // By a hypervisor: what other programs take falls on both sides.
+    // Only time that a hypervisor takes counts: other programs slow both sides.
     const struct rg_processors after = rg_processors_now(NULL, 0);
     *quads =
         (struct rg_quads){.b_ms = rg_median(b_ms, is_pair ? 2 * QUADS : QUADS).median,

@@ -25,8 +25,9 @@ struct rg_regex {
 
 // --- from Rust's syntax to libpcre2's ---
 
-// The syntaxes differ in the constructs refused here, in an unmatched ), which is read here as
-// itself, and in a repetition of a repetition, which libpcre2 would read as possessive.
+// The syntaxes differ in the constructs refused here. They also differ in an unmatched ), which is
+// read here as itself, and in a repetition of a repetition, which libpcre2 would read as
+// possessive.
 struct translation {
     const char *place;
     const char *at;                    // the rest to translate
