@@ -156,8 +156,7 @@ static void expect_oracle(const struct oracle_drop *drop, const double start[3],
     }
 }
 
-// Every oscillation at two moments, from all views. Rays that touch the rim are left out, being
-// unstable.
+// Every oscillation at two moments, from all views, without the rays that touch the rim.
 static void test_oscillating(void **state)
 {
     (void)state;
