@@ -1,6 +1,6 @@
 // glslc folds constants in double precision and rounds once, but C rounds after each operation:
-// `180.0f / 3.14159274f / 20.0f` becomes another float. So each float constant of a SPIR-V module
-// must be in the kernel's text: as a literal, or as the float result of an expression of literals.
+// `180.0f / 3.14159274f / 20.0f` becomes another float. So the kernel's text must hold each float
+// constant of a SPIR-V module, as a literal or as the float result of an expression of literals.
 // The test does not see constants that were folded further, into integers and booleans.
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-// The SPIR-V of every stage forbids drivers to change a kernel's floats: each float operation is
+// The SPIR-V of every stage forbids drivers to change a kernel's floats. Each float operation is
 // decorated NoContraction, and no function is called whose rounding a driver may choose.
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,8 +1,8 @@
 // Tells ThreadSanitizer about the order that libgomp keeps. gcc's libgomp is built without
-// ThreadSanitizer, which thus sees neither a barrier nor the end of a parallel region, and reports
-// races between them. This file wraps each entry of libgomp that orders threads; libgomp's own
-// entry does the work. A region has its own places, at which its threads release and acquire order,
-// so that no false order hides a race.
+// ThreadSanitizer. Without this file the latter sees neither a barrier nor the end of a parallel
+// region, and reports races between them. This file wraps each entry of libgomp that orders
+// threads; libgomp's own entry does the work. A region has its own places, at which its threads
+// release and acquire order, so that no false order hides a race.
 #define _GNU_SOURCE // RTLD_NEXT
 #include "tests/backends/watched/annotate.h"
 

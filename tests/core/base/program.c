@@ -43,7 +43,7 @@ static const char *run(const char *const args[], const int fds[], int fd_count)
     return text;
 }
 
-// Runs a line of the shell with an output and no other descriptor.
+// Runs a line of the shell, and gives it a file for its output alone.
 static const char *run_line(const char *line)
 {
     return run((const char *const[]){"sh", "-c", line, NULL}, (const int[]){-1, file_of(""), -1},

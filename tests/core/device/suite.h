@@ -38,9 +38,9 @@ struct rg_buf *make_buf(struct rg_device *device, const void *words, int count, 
 struct rg_buf *filled_buf(struct rg_device *device, uint32_t value, int count, const char *name);
 uint32_t *read_words(struct rg_buf *buf, int count); // the caller frees them
 
-// listen() collects messages from then on instead of printing them. heard() stops that and returns
-// the line that came; more than one fails the test. heard_all() returns any number, one below the
-// other.
+// listen() collects messages from then on instead of printing them. heard() ends that and returns
+// the line that came; more than one line fails the test. heard_all() returns any number of lines,
+// one below the other.
 void listen(void);
 const char *heard(void);
 const char *heard_all(void);

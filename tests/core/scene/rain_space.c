@@ -199,8 +199,8 @@ static void test_drops_stay_where_they_are(void **state)
     assert_above(came_in_again, 1000);
 }
 
-// Against the thesis, which adds to the run position frame by frame: time / (height / speed), and
-// (h'_o - h_o) / h_l in clip coordinates, where h_o is the observer's distance from the top.
+// Against the thesis, which adds to the run position frame by frame. It adds time / (height /
+// speed) and, in clip coordinates, (h'_o - h_o) / h_l; h_o is the observer's distance from the top.
 static void test_run_is_the_thesis_sum(void **state)
 {
     (void)state;

@@ -17,7 +17,7 @@ struct way {
     bool scissor, counted;
 };
 
-// What a draw left behind.
+// The results of a draw.
 struct drawn {
     uint32_t *colour, *depth, *samples;
     int colour_words;

@@ -18,7 +18,7 @@ void random_texels(enum rg_format format, uint32_t seed, int count, void *texels
 // The colour that a kernel fetches of a packed texel.
 struct colour decode_texel(enum rg_format format, const void *texel);
 
-// The packed texel that a kernel's store of a colour leaves behind.
+// The packed texel that a kernel's store of a colour leaves.
 void encode_texel(enum rg_format format, struct colour colour, void *texel);
 
 #endif

@@ -130,7 +130,7 @@ static void end_within(int number)
         raise(number);
 }
 
-// Whatever ends the program while it writes, the old file stays and nothing else is left.
+// The program may end in any way while it writes: the old file stays, and nothing else is left.
 static void a_signal_leaves_nothing(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-// The atlas as a whole: its sizes are the thesis's, its cells keep apart, its levels keep the
-// light.
+// The whole atlas: sizes of the thesis, cells without leaks, levels that keep the light.
 //
 //     atlas FOLDER_OF_PUBLISHED_TABLES
 #include <setjmp.h>

@@ -207,8 +207,8 @@ static double mirror_difference(const float *a, const float *b, int width, int h
     return difference / largest;
 }
 
-// Light from the left mirrors light from the right: on an upright drop, and on two drops that swing
-// against each other (2 and 4, 6 and 8).
+// Light from the left mirrors light from the right. That holds for an upright drop, and for two
+// drops that swing against each other (2 and 4, 6 and 8).
 static void test_mirror_images(void **state)
 {
     (void)state;

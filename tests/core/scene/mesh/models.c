@@ -340,7 +340,7 @@ static void test_packaged_models(void **state)
     expect_model("cow", "cow.off", 0, 5804); // not in the table
 }
 
-// The head is taller than it is deep; the cat is rotated as its model lies.
+// The head is taller than deep, and the cat is its file's model turned by 90 degrees.
 static void test_packaged_models_are_upright(void **state)
 {
     (void)state;

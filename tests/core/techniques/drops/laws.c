@@ -251,8 +251,7 @@ static void waters_that_meet_merge(void **state)
     rig_close(d);
 }
 
-// Where the waters of two drops are equally high, in cells halfway between, the older drop owns
-// them.
+// The waters of two drops are equally high in cells halfway between: the older drop owns these.
 static void the_oldest_owns_what_is_as_high(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// drops on a device and the paper's own rule (one drop after the other, in double precision) move
-// the same few drops down a small pane alike, step by step.
+// The same few drops run down a small pane, step by step alike: as drops on a device, and by the
+// paper's own rule, one drop after the other in double precision.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-// Scenes of a few drops and puddles on a small pane, opened both as drops on a device and as a
-// model of the paper's rule. They have no chance, and the order of drops does not matter.
+// Scenes of a few drops and puddles on a small pane, for drops on a device and for a model of the
+// paper's rule. They have no chance, and the order of drops does not matter.
 #ifndef RG_TESTS_CORE_TECHNIQUES_DROPS_SCENES_H
 #define RG_TESTS_CORE_TECHNIQUES_DROPS_SCENES_H
 

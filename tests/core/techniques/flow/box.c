@@ -69,8 +69,8 @@ static void give_part(struct expected *e, const struct box_oracle *box, struct b
         e->drained += droplets;
 }
 
-// Divides water along one direction. Of the water that reaches a texel, r goes on to the next, up
-// to the reach. Each further texel needs M - L more water.
+// Divides water along one direction. A share r of the water that reaches a texel goes on to the
+// next, up to the reach. Each further texel needs M - L more water.
 static void give_along(struct expected *e, const struct box_oracle *box, const struct rule *rule,
                        struct box_texel from, const int step[2], double water, double droplets)
 {
@@ -138,8 +138,8 @@ static void expect_step(struct rig *rig, const struct box_oracle *box, const str
         if (before[i])
             give(e, box, rule, (struct box_texel){i / (SIZE * SIZE), i % SIZE, i / SIZE % SIZE},
                  before[i]);
-    // The kernels round down to whole droplets in single precision, and the oracle in double: off
-    // by one droplet a part, and a texel takes 16 parts at most.
+    // The kernels round down to whole droplets in single precision, and the oracle in double. That
+    // makes one droplet a part, and a texel takes 16 parts at most.
     for (int i = 0; i < TEXELS; i++)
         if (fabs((double)after[i] - e->water[i]) > 16)
             fail_msg("pane %d, texel (%d, %d): %lld droplets, %g expected", i / (SIZE * SIZE),

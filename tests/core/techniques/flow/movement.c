@@ -69,8 +69,8 @@ static void test_much_water_reaches_two_texels(void **state)
     }
 }
 
-// With L = 0.25 and M = 0.5, water above 0.75 reaches the third texel, and above 1 the fourth: each
-// takes M - L more. Of the water that reaches a texel, r goes beyond it.
+// With L = 0.25 and M = 0.5, water above 0.75 reaches the third texel, and above 1 the fourth. Each
+// takes M - L more. A share r of the water that reaches a texel goes beyond it.
 static void test_reach(void **state)
 {
     (void)state;
@@ -327,7 +327,7 @@ static void test_texels_keep_their_direction(void **state)
         const int64_t swept = UNIT / 8 - water[MIDDLE * SIZE + MIDDLE];
         const int64_t there = water[(MIDDLE + cases[i].dy) * SIZE + MIDDLE + cases[i].dx];
         free(water);
-        // tan(18.4 degrees) is 1/3. Of the two nearest directions, the nearer one gets more.
+        // tan(18.4 degrees) is 1/3, and the nearer one of two directions gets more.
         if (swept <= 0 || there <= swept / 2)
             fail_msg("%s: of %lld droplets %lld went to (%d, %d)", text, (long long)swept,
                      (long long)there, cases[i].dx, cases[i].dy);

@@ -101,11 +101,11 @@ static struct difference difference_of(const struct pair *pair)
 }
 
 // Both models divide whole droplets. A texel has 10^4 to 10^5 droplets, and single precision is off
-// by one part in 2^24. Now and then this moves a result across a whole number: one droplet. If such
-// a droplet decides whether a texel is above L, the texel gives up to 30 % of its 9,830 droplets a
-// step earlier or later, and its neighbours follow. The runs below print their worst: 2,978
-// droplets (0.05 units), 1.74 % of the texels off by more than one droplet, and differences that
-// add up to 2.6e-4 of all water. The mutants below all exceed these bounds.
+// by one part in 2^24. Now and then this moves a result across a whole number: one droplet. Such a
+// droplet may decide whether a texel is above L. The texel then gives up to 30 % of its 9,830
+// droplets a step earlier or later, and its neighbours follow. The runs below print their worst:
+// 2,978 droplets (0.05 units), and 1.74 % of the texels off by more than one droplet. Their
+// differences add up to 2.6e-4 of all water. The mutants below all exceed these bounds.
 static const int64_t LARGEST_DROPLETS = 8192;
 static const double TEXELS_FRACTION = 0.05, WATER_FRACTION = 0.0015;
 

@@ -203,10 +203,10 @@ static bool lit_right(const struct difference *d)
 }
 
 // Halves are rounded down by one part in 2^10 each time: in the picture behind, in its copy, and
-// for each of two panes blended over it. Beyond that, pixels differ whose centre is within a
-// snapped 1/256 pixel of an edge, and those for which single precision rounds a normal of the map
-// the other way. A sphere of 27,648 faces with normals of 10 bits is not quite round. The runs
-// below print their worst: 1 pixel of 13,200, and 8 with the sphere.
+// for two panes blended over it. Beyond that, two kinds of pixels differ. The centre of one kind is
+// within a snapped 1/256 pixel of an edge. For the other kind, single precision rounds a normal of
+// the map the other way. A sphere of 27,648 faces with normals of 10 bits is not quite round. The
+// runs below print their worst: 1 pixel of 13,200, and 8 with the sphere.
 static const double TOLERANCE = 4.0 / 1024, SHARE = 0.0005;
 static const double MODEL_TOLERANCE = 0.02, MODEL_SHARE = 0.0015;
 

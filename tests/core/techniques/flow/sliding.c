@@ -228,9 +228,9 @@ static bool does_slide(const char *assignments)
     return after[1] > before[1] + 0.5;
 }
 
-// The water around the middle of a drop that is in the middle of a cell, by the Gaussian of 4 x
-// 0.69 mm2 a side, integrated in polar coordinates. Cells of 1.5 mm widen the average by a twelfth
-// of their square.
+// The water around the middle of a drop, which is in the middle of a cell. The weight is the
+// Gaussian of 4 x 0.69 mm2 a side, integrated in polar coordinates. Cells of 1.5 mm widen the
+// average by a twelfth of their square.
 static double water_around_mm3(double radius_mm, double height_mm)
 {
     const double step_mm = 1e-3, smoothed_mm2 = 4 * 0.69, all_mm2 = smoothed_mm2 + 1.5 * 1.5 / 12;

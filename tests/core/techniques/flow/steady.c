@@ -1,4 +1,4 @@
-// Laws of sliding drops over seconds: drops run the same way in the same time for any texels and
+// Laws of sliding drops over seconds. Drops run the same way in the same time for any texels and
 // steps, and steady rain keeps a pane as it is. On cpu.
 #include <setjmp.h>
 #include <stdarg.h>

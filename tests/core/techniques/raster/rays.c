@@ -20,7 +20,7 @@ enum { WIDTH = 480, HEIGHT = 270 };
 static const double snap_px = 1.0 / 256;
 
 // Errors of single precision in a face's depth and its corners' weights: 32 roundings, and corners
-// off by a sixteenth of the grid, which matters for thin faces.
+// off by a sixteenth of the grid. The latter matters for thin faces.
 static const double rounding = 8.0 / 16777216, place_px = 1.0 / 4096;
 
 // A scene as drawn and as rays see it.
@@ -230,7 +230,7 @@ static void faces_through_each_other_show_what_rays_meet(void **state)
 
 // --- closed surfaces ---
 
-// A ray enters a closed surface as often as it leaves it: the fill rule gives a centre on an edge
+// A ray enters a closed surface as often as it leaves it. The fill rule gives a centre on an edge
 // to one side, whichever way faces look. Faces thinner than the grid are an exception. Culling goes
 // by a face's turn before snapping, and snapping may turn the face over.
 static void check_closed(struct rg_device *device, const char *assignments)

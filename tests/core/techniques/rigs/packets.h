@@ -37,8 +37,8 @@ struct streaks_packets *rig_packets(const struct rg_rain_space *space,
 struct streaks_view rig_everywhere(const struct rg_rain_space *space, double local_height_m);
 
 // Reads the blocks as a kernel does; the caller frees `all`. Fails the test if a block breaks a
-// rule of its header: a particle outside its buffer, an empty mask, draws that overlap or leave
-// blocks out, or more particles than the selection counts.
+// rule of its header: a particle outside its buffer, an empty mask, or draws that overlap or leave
+// blocks out. More particles than the selection counts fail it as well.
 struct rig_particles rig_read(const struct streaks_packets *packets,
                               const struct rg_rain_space *space,
                               const struct streaks_selection *selection);

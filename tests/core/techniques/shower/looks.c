@@ -1,6 +1,6 @@
-// The paper's claim that improved rain looks the same, measured by the mean and deviation of its
-// light in each region, and over time: shower looks. One device is asked, since all draw the same
-// pictures.
+// The paper claims that improved rain looks the same: shower looks. The test measures mean and
+// deviation of its light in each region, and over time. One device is asked, since all draw the
+// same pictures.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

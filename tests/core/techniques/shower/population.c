@@ -19,7 +19,7 @@ static int count_of(struct shower *s)
     return count;
 }
 
-// If all particles leave in each step, a step's births are ExpectedNum plus the random term:
+// All particles leave in each step. A step's births are then ExpectedNum plus the random term:
 // uniform from ExpectedNum (1 - C0) to ExpectedNum (1 + C0).
 static void births_vary_evenly(void **state)
 {

@@ -171,8 +171,8 @@ static void test_looser_is_no_larger(void **state)
     assert_below(before_m, first_m / 2);
 }
 
-// However large the allowed error, the fastest drop of a spectrum (9.17 m/s) has time for a streak
-// of 1/60 s and a splash of 3 s.
+// However large the allowed error, the fastest drop of a spectrum (9.17 m/s) has time to make a
+// streak and a splash: 1/60 s and 3 s.
 static void test_least_height_of_sizes(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
 // Drops of a spectrum as they land and as they are seen: landing DEVICE. Fast drops land more often
-// than slow ones, so that splashes have the spectrum of the flux, not of the air; the test computes
-// it from formulas. Blocks and packets, which are selected by the largest and the fastest drops,
-// must not show.
+// than slow ones. Thus splashes have the spectrum of the flux, not of the air; the test computes it
+// from formulas. Blocks and packets, which are selected by the largest and the fastest drops, must
+// not show.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -273,7 +273,7 @@ static void off_all_are_of_one(void **state)
     assert_above(counts[FILM], 1000);
     for (int m = 1; m < MATERIALS; m++)
         assert_int_equal(counts[m], 0);
-    assert_int_equal(s->map->numbers->desc.width, 1); // it takes no memory
+    assert_int_equal(s->map->numbers->desc.width, 1); // a single texel: nothing is kept
     close_rain(s);
 }
 

@@ -1,6 +1,6 @@
 // Drops of different sizes: sizes DEVICE. The particles' number, spectrum, water and flux against
-// integrals of the same spectrum and speed law, computed here from their formulas; speeds against
-// Gunn and Kinzer's.
+// integrals of the same spectrum and speed law, from their formulas. Speeds are compared with Gunn
+// and Kinzer's.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -98,7 +98,7 @@ static void test_sums(void **state)
 }
 
 // Published values, one between two of them, and Atlas' fit, which is near them in its range.
-// Best's rain has its nominal rate, within the differences between authors' spectra and speeds; in
+// Best's rain has its nominal rate, within the differences between authors' spectra and speeds. In
 // the hardest rain some water is in drops beyond 6 mm.
 static void test_speeds(void **state)
 {

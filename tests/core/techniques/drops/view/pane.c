@@ -1,5 +1,5 @@
-// The lit pane in closed cases: the images of a dry pane and of a drop, the size of blur, and water
-// that neither adds nor takes light.
+// The lit pane in closed cases: images of a dry pane and of a drop, the size of blur, and water
+// that keeps light.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -88,8 +88,8 @@ static const double TEXEL_MM = 10, BEHIND_MM = 2000, DISTANCE_MM = 500;
 #define BEHIND DRY "distance_mm=500 background_m=2 background_deg=90 "
 
 // By similar triangles, the pane shows a point X off the axis at X D / (D + B). A lens of width A,
-// focused on the pane, spreads the point into a disc of A B / D, which is A B / (D + B) on the
-// pane. A disc's deviation is a quarter of its diameter.
+// focused on the pane, spreads the point into a disc of A B / D. On the pane that is A B / (D + B).
+// A disc's deviation is a quarter of its diameter.
 static void a_dry_pane_shows_what_lies_behind(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Pixels of the city: look DEVICE. Against a model in double precision that casts one ray a pixel:
-// sky, textures, wet ground, openness to the sky, haze, and lights of each kind.
+// Pixels of the city: look DEVICE. A model in double precision casts one ray a pixel. It has sky,
+// textures, wet ground, openness to the sky, haze, and lights of each kind.
 #include "tests/core/techniques/scenery/city/stage.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-// For tests of streaks' lights: boxes over a floor with all kinds of light around them, points in
-// the air, and the light there on a device.
+// For tests of streaks' lights: boxes over a floor with all kinds of light around them, and the
+// light at points in the air on a device.
 #ifndef RG_TESTS_CORE_TECHNIQUES_SCENERY_LIGHTS_RIG_H
 #define RG_TESTS_CORE_TECHNIQUES_SCENERY_LIGHTS_RIG_H
 

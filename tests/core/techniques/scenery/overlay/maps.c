@@ -16,8 +16,8 @@ static double ramp(double v)
 
 enum { MAP_PX = 4 };
 
-// The texel of a map on the floor that a pixel's ray meets, and the ray's distance from the texel's
-// rim, in texels; negative off the map.
+// The texel of a map on the floor that a pixel's ray meets. Returns the ray's distance from the
+// texel's rim, in texels; negative off the map.
 static double texel_met(double x, double y, int *texel, double *ahead)
 {
     const double slope = 2.0 / 6, length = sqrt(1 + slope * slope);

@@ -27,8 +27,8 @@ float *picture_read(const struct picture *p);
 struct scenery_overlay *open_overlay(struct rg_device *device, struct rg_instance *instance);
 void close_overlay(struct scenery_overlay *overlay, struct rg_instance *instance);
 
-// The matrix of a camera at (0, 2, 6) that looks at the origin, with an angle of 60 degrees and a
-// far plane at 50. The near plane is at 0.5, or at `near_plane`.
+// The matrix of a camera at (0, 2, 6) that looks at the origin with an angle of 60 degrees. The far
+// plane is at 50, and the near plane at 0.5 or at `near_plane`.
 void overlay_look(float to_clip[16]);
 void overlay_look_from(float near_plane, float to_clip[16]);
 

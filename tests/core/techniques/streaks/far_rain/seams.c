@@ -1,6 +1,6 @@
 // Slabs of far rain do not show: seams DEVICE. Dense rain has nearly its mean light in every pixel.
-// Its light is compared with the path of each pixel's ray between the two radii, and with itself as
-// the observer passes from slab to slab.
+// That light is compared with the length of each pixel's ray between the two radii. It is also
+// compared with itself as the observer passes from slab to slab.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

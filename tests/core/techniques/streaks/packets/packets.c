@@ -157,8 +157,8 @@ static int64_t packets_of(const struct rg_density *map, struct streaks_packets_s
 static void test_auto_takes_the_fewest(void **state)
 {
     (void)state;
-    // Most of this rain falls in one quarter, with a different density everywhere: 7 quarters of a
-    // quad-tree, 8 halves, or a grid of 16 different cells.
+    // Most of this rain falls in one quarter, and the density differs everywhere. It takes 7
+    // quarters of a quad-tree, 8 halves, or a grid of 16 different cells.
     static const float quarter[16] = {1,     0.98f, 0.26f, 0.25f, 0.96f, 0.94f, 0.24f, 0.23f,
                                       0.27f, 0.22f, 0.28f, 0.21f, 0.2f,  0.29f, 0.3f,  0.19f};
     struct rg_density *maps[3] = {rig_uneven_map(), rg_density_gradient(), rig_map(4, 4, quarter)};

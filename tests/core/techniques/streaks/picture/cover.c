@@ -25,7 +25,7 @@ static double surface_at(double a, double b, double phi, const double n[3])
 }
 
 // The distance of a drop's outline from its middle, seen from an elevation, in a direction about
-// the view: the farthest that the surface reaches to that side.
+// the view. It is the farthest that the surface reaches to that side.
 static double outline_at(double a, double b, double phi, double elevation, double about)
 {
     double farthest = 0;

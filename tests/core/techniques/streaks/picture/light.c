@@ -1,6 +1,6 @@
 // The share of their light that rain's layers show at the default gains: light DEVICE. Rain adds
-// its gain times a constant to a picture, so that the light at a gain of 1 is due a hundredth of
-// the light at a gain of 100. tests/core/techniques/streaks/picture/cover.c and oracle.c check the
+// its gain times a constant to a picture. The light at a gain of 1 is thus due a hundredth of the
+// light at a gain of 100. tests/core/techniques/streaks/picture/cover.c and oracle.c check the
 // latter against optics.
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
-// What decides the look of rain, in cases that need no reference picture: looks DEVICE. A blank
-// part of the atlas shows, by what is then missing, what was read. Suns shine from one side, and
-// their light is compared with an oracle's through a drop at rest.
+// The look of rain in cases that need no reference picture: looks DEVICE. A blank part of the atlas
+// shows, by what is then missing, what was read. Suns shine from one side, and their light is
+// compared with an oracle's through a drop at rest.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -285,8 +285,8 @@ static void write_sun(double elevation, double azimuth, bool shadows)
     assert_int_equal(fclose(file), 0);
 }
 
-// A drop at rest under a light of irradiance 1, seen from elevation 0: its mean radiance, and how
-// far to the right of the middle its light is, in radii.
+// A drop at rest under a light of irradiance 1, seen from elevation 0. Its mean radiance, and the
+// distance of its light from the middle to the right, in radii.
 struct glow {
     double radiance, aside;
 };

@@ -18,7 +18,7 @@ static char path[64];
 
 enum { LAMP = 1, SPOT = 2, SUN = 4, SKY = 8, ALL = LAMP | SPOT | SUN | SKY };
 
-// A lamp among the drops on the left, a spot from the right that lights a part of them, a sun from
+// A lamp among the drops on the left; a spot from the right that lights a part of them; a sun from
 // behind on the right.
 static const struct streak_light lights[] = {
     {STREAK_LAMP, {1.5, 6, -1}, {0, 0, 0}, {30, 20, 10}, 0, 0},

@@ -1,5 +1,5 @@
 // The view from outside: outside DEVICE. Marks are at the particles of the state and have the
-// colour of their height; maps lie over the places that they show; frusta have their lights'
+// colour of their height. Maps lie over the places that they show. Frusta have their lights'
 // colours. All in double precision, with a camera that this test finds itself.
 #include <math.h>
 #include <stdio.h>

@@ -20,7 +20,6 @@ static void cross_unit(const double a[3], const double b[3], double of[3])
         of[i] /= sqrt(squared);
 }
 
-// Sizes of a level.
 static int wide_at(int level)
 {
     return CROWN_WIDE >> level;

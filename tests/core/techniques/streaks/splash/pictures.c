@@ -1,5 +1,5 @@
 // Pictures of splashes against an oracle, one pixel at a time: pictures DEVICE. With an opacity of
-// 0 splashes only add light, and with a gain of 0 they only hide: in both cases their order does
+// 0 splashes only add light, and with a gain of 0 they only hide. In both cases their order does
 // not matter.
 #include <math.h>
 #include <stdio.h>
