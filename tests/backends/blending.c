@@ -1,5 +1,5 @@
-// When a device's programs blend by themselves: of `cpu`, made out to be a device whose driver
-// blends, and is off where a test says so.
+// When a device's programs blend by themselves, tested on `cpu`. It pretends to be a device whose
+// driver blends, inexactly in the format that a test names.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@ extern const struct rg_backend rg_backend_cpu;
 
 static enum rg_tier tier;
 static bool is_able;
-static enum rg_format inexact; // RG_FORMAT_NONE: none
+static enum rg_format inexact; // RG_FORMAT_NONE: no format
 static int runs;
 
 static int list(struct rg_device_info *infos, int max, char *why, size_t why_size)
@@ -51,7 +51,7 @@ static bool pass_run(struct rg_pass *pass, const struct rg_run *run)
     return rg_backend_cpu.pass_run(pass, run);
 }
 
-// One number of all is off, by its last bit.
+// One number's last bit is off.
 static bool image_read(struct rg_image *image, int layer, int level, void *texels)
 {
     const bool ok = rg_backend_cpu.image_read(image, layer, level, texels);
@@ -75,7 +75,7 @@ static struct rg_device *open_pretending(enum rg_tier its_tier, bool able, enum 
     return rg_device_open("cpu");
 }
 
-// What was found out leaves nothing behind on the device.
+// The check of the driver must leave no trace on the device.
 static void check(struct rg_device *device, bool blends, int its_runs)
 {
     assert_non_null(device);
@@ -101,7 +101,7 @@ static void exact_drivers_do(void **state)
     check(open_pretending(RG_T1, true, RG_FORMAT_NONE), false, 6);
 }
 
-// Nor are drivers asked that draw as cpu:reference does, or that leave programs no way.
+// Drivers are not checked that draw as cpu:reference does, or that do not let programs blend.
 static void others_are_not_asked(void **state)
 {
     (void)state;

@@ -1,6 +1,5 @@
-// What cpu alone can get wrong: targets of odd sizes, batches, rounds and threads when it draws,
-// whatever their number it leaves what cpu:reference leaves, to the last bit; and which items it
-// leaves out.
+// For cpu alone: targets of odd sizes, and any number of batches, rounds and threads leave the bits
+// of cpu:reference. Also the items that cpu skips.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +20,7 @@
 
 static const uint32_t poison = 0x3f3f3f3fu; // a depth of 0.75, and a colour
 
-// What is drawn, and where.
+// A scene and its target.
 struct scene {
     int width, height, layers, levels, layer, level;
     int first, items; // of a buffer that holds more
@@ -152,7 +151,7 @@ static void few_pixels_are_drawn_to(void **state)
                               RG_BLEND_OVER, RG_DEPTH_TEST});
 }
 
-// More pixels than the largest number of tiles of the least size.
+// So many pixels that tiles of the smallest size would exceed the largest number of tiles.
 static void many_pixels_are_drawn_to(void **state)
 {
     (void)state;
@@ -170,7 +169,7 @@ static void some_items_of_a_buffer_are_drawn(void **state)
                                   RG_BLEND_OVER, RG_DEPTH_OFF});
 }
 
-// More than a new device has room for: the first run takes several rounds.
+// More items than a new device has room for: the first run takes several rounds.
 static void many_items_are_drawn(void **state)
 {
     (void)state;
@@ -178,7 +177,7 @@ static void many_items_are_drawn(void **state)
                           RG_DEPTH_OFF});
 }
 
-// Room ends amid a batch whose items are clipped, and the batch is drawn again as a whole.
+// Room ends amid a batch of clipped items, and the whole batch is drawn again.
 static void many_clipped_items_are_drawn(void **state)
 {
     (void)state;
@@ -191,7 +190,7 @@ static void hush(enum rg_log_level level, const char *line, void *user)
     (void)level, (void)line, (void)user;
 }
 
-// It draws without them, and has no code of theirs.
+// cpu draws without packing kernels, and has no code for them.
 static void kernels_that_pack_are_refused(void **state)
 {
     (void)state;
@@ -210,10 +209,10 @@ static void kernels_that_pack_are_refused(void **state)
 
 // --- items with nothing to do ---
 
-// Rows of two and a half blocks beside what a run begins with.
+// Rows of two and a half blocks, after the columns that the run leaves out.
 enum { IDLE_WIDTH = 5 * TEST_IDLE_ITEMS / 2 + 3, IDLE_ROWS = 7, IDLE_BEGIN = 3 };
 
-// How often each item ran on a device, of a run that leaves the first columns out.
+// How often each item ran on a device, in a run without the first columns.
 static void count_runs(const char *name, const uint32_t *marks, uint32_t *runs)
 {
     struct rg_device *device = rg_device_open(name);
@@ -235,7 +234,7 @@ static void count_runs(const char *name, const uint32_t *marks, uint32_t *runs)
     assert_true(rg_device_close(device));
 }
 
-// Whether an item, or, where it is of a whole block of a run, one of that block, is marked.
+// Whether cpu runs an item: its block is cut short by the row's end, or holds a marked item.
 static bool runs_on_cpu(const uint32_t *row, int x)
 {
     const int block = IDLE_BEGIN + (x - IDLE_BEGIN) / TEST_IDLE_ITEMS * TEST_IDLE_ITEMS;
@@ -245,8 +244,8 @@ static bool runs_on_cpu(const uint32_t *row, int x)
     return marked;
 }
 
-// cpu leaves out whole blocks of items that have nothing to do, and no others; the reference runs
-// all, and each item runs once.
+// cpu skips whole blocks of items with nothing to do, and no others. The reference runs all items.
+// Each runs once.
 static void idle_items_are_left_out(void **state)
 {
     (void)state;
@@ -266,13 +265,13 @@ static void idle_items_are_left_out(void **state)
     assert_above(left_out, TEST_IDLE_ITEMS * IDLE_ROWS / 2);
 }
 
-// --- items that are unseen ---
+// --- unseen items ---
 
-// Runs that begin and end within groups, and that take more than a batch.
+// Runs that begin and end within groups, and runs of more than a batch.
 enum { UNSEEN_PX = 96, UNSEEN_ITEMS = 1500, UNSEEN_GROUPS = (UNSEEN_ITEMS + 31) / 32 };
 
-// What a device draws of the items from `begin` to `end`, and what it counts. Without marks, of the
-// program that has plain items.
+// A device's picture and counts of the items from `begin` to `end`. Without marks it runs the
+// program with plain items.
 static void draw_marked(const char *name, const float *quads, const uint32_t *marks, int begin,
                         int end, uint32_t *texels, struct rg_counts *counts)
 {
@@ -304,7 +303,8 @@ static void draw_marked(const char *name, const float *quads, const uint32_t *ma
     assert_true(rg_device_close(device));
 }
 
-// cpu draws what the reference, which draws all, draws where marked quads have no area.
+// cpu with marks draws the same as the reference with marked quads of no area. The reference
+// ignores marks and draws all quads.
 static void unseen_items_are_left_out(void **state)
 {
     (void)state;
@@ -331,8 +331,8 @@ static void unseen_items_are_left_out(void **state)
     }
 }
 
-// cpu takes the pixels of plain items for plain, and no others, but for long rows, which it does
-// not list; the reference takes none.
+// cpu treats pixels of plain items as plain, and no others. It does not list long rows and draws
+// them as usual. The reference treats none as plain.
 static void plain_items_are_listed_apart(void **state)
 {
     (void)state;

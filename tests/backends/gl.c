@@ -1,6 +1,5 @@
-// What is particular to the gl backend: `gl` runs on the first gl device, and `gl TEXT`
-// expects that there is none, for a reason that contains TEXT (tests/meson.build breaks the
-// driver), and with `fails` that a driver is there.
+// For the gl backend alone. `gl` runs on the first gl device. `gl TEXT` expects no device, for a
+// reason that contains TEXT (tests/meson.build breaks the driver); with `fails`, a driver is there.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,9 +19,9 @@
 #include "tests/kernels/drawing/quads_params.h"
 
 static const char *reason; // why there is no device; NULL: there is one
-static enum rg_fault kind; // of that
+static enum rg_fault kind; // the reason's kind
 static int errors;         // lines logged as errors
-static FILE *noise;        // what anyone wrote to stderr
+static FILE *noise;        // stderr of all
 
 static void count_line(enum rg_log_level level, const char *line, void *user)
 {
@@ -42,7 +41,7 @@ static int close_device(void **state)
     return rg_device_close(*state) ? 0 : -1;
 }
 
-// Changes one word `steps` times, from buffer to buffer and back.
+// Changes one word `steps` times, copying it from buffer to buffer and back.
 static uint32_t walk(struct rg_device *device, int steps, uint32_t salt)
 {
     uint32_t word = 0;
@@ -71,13 +70,13 @@ static uint32_t expected_walk(int steps, uint32_t salt)
     return word;
 }
 
-// More runs than the memory for parameters holds at once: none sees another one's.
+// More runs than the memory for parameters holds at once: each sees its own.
 static void queued_runs_keep_their_parameters(void **state)
 {
     assert_int_equal(walk(*state, 9001, 0x9e3779b1u), expected_walk(9001, 0x9e3779b1u));
 }
 
-// A display ends with its last user: neither listing nor closing takes it from a living device.
+// A display ends with its last user. Neither listing nor closing takes it from a living device.
 static void devices_and_lists_live_side_by_side(void **state)
 {
     static struct rg_device_list list;
@@ -101,7 +100,7 @@ static void in_folder(char path[64], const char *folder, const struct text *text
     snprintf(path, 64, "%s/%s", folder, text->file);
 }
 
-// Opens a kernel whose code is what `texts` say, up to the first without a file.
+// Opens a kernel with its code replaced by `texts`, which end at the first without a file.
 static struct rg_pass *open_changed(struct rg_device *device, const char *kernel,
                                     const struct text *texts)
 {
@@ -150,7 +149,7 @@ static void a_program_that_does_not_link_is_one_line(void **state)
 
 // --- targets ---
 
-// A pass that fills its target, and what that takes.
+// A pass that fills its target, and its objects.
 struct filler {
     struct rg_device *device;
     struct rg_pass *pass;
@@ -175,7 +174,7 @@ static void destroy_filler(struct filler *f)
     rg_buf_destroy(f->samples);
 }
 
-// test_quads leaves out pixels of the first item where px ^ py ends in 15.
+// test_quads skips pixels of the first item for which px ^ py ends in 15.
 static int kept_of(int size)
 {
     int kept = 0;
@@ -184,7 +183,7 @@ static int kept_of(int size)
     return kept;
 }
 
-// Fills a layer, and returns how many of its pixels have changed from `before`.
+// Fills a layer, and returns how many of its pixels changed from `before`.
 static int fill_layer(const struct filler *f, struct rg_draw to, const float before[4])
 {
     const test_quads_params p = {0};
@@ -219,14 +218,14 @@ static int kept_framebuffers(const struct rg_device *device)
     return kept;
 }
 
-// A driver may give the numbers of dead images to new ones: no framebuffer outlives its images.
+// A driver may give numbers of dead images to new ones: a framebuffer must not outlive its images.
 static void framebuffers_go_with_their_images(void **state)
 {
     const float black[4] = {0};
     struct filler f = make_filler(*state);
     enum { SIZE = 20 };
     for (int round = 0; round < 8; round++) {
-        const float depth = round % 2 ? 0.75f : 0.25f; // the quad lies at 0.5
+        const float depth = round % 2 ? 0.75f : 0.25f; // the quad is at 0.5
         const bool visible = depth > 0.5f;
         struct rg_image *colour = cleared(*state, RG_RGBA32F, SIZE, 1, black);
         struct rg_image *behind = cleared(*state, RG_D32F, SIZE, 1, &depth);
@@ -247,7 +246,7 @@ static void framebuffers_go_with_their_images(void **state)
     assert_int_equal(errors, 0);
 }
 
-// More targets than are kept at once, each twice.
+// More targets than are cached, each twice.
 static void more_targets_than_are_kept(void **state)
 {
     enum { LAYERS = 150, SIZE = 4 };
@@ -264,7 +263,7 @@ static void more_targets_than_are_kept(void **state)
     assert_int_equal(errors, 0);
 }
 
-static int finishes; // times that the driver was waited for
+static int finishes; // waits for the driver
 static void (*wait_for_driver)(void);
 
 static void count_finish(void)
@@ -273,8 +272,7 @@ static void count_finish(void)
     wait_for_driver();
 }
 
-// A clock that is read behind a sync says nothing unless the driver has finished: glFlush returns
-// while it works.
+// A clock read after a sync means nothing unless the driver has finished: glFlush returns earlier.
 static void a_sync_waits_for_the_driver(void **state)
 {
     assert_true(rg_device_sync(*state)); // libepoxy finds the function on its first call
@@ -322,7 +320,7 @@ static void a_missing_driver_has_a_reason(void **state)
     assert_non_null(strstr(rg_last_error(), reason));
 }
 
-// Runs last: everything before it was to leave stderr alone.
+// Runs last: nothing before it may write to stderr.
 static void drivers_are_silent(void **state)
 {
     (void)state;

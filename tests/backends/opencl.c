@@ -1,5 +1,5 @@
-// What is particular to the opencl backend. opencl runs on its first device; opencl
-// absent CODE expects that there is none, and that the reason names the code.
+// For the opencl backend alone. `opencl` runs on its first device. `opencl absent CODE` expects no
+// device, and a reason that names the code.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -71,7 +71,7 @@ static uint32_t word_of_target(const struct copier *c, int index)
 
 static void data_is_the_callers_again_after_a_write(void **state)
 {
-    // Together more than the backend keeps copies of: one of the writes waits.
+    // Together the writes exceed the copies that the backend keeps, so that one of them waits.
     enum { WORDS = 1 << 20, WRITES = 20, BUSY = 8 };
     struct copier c = make_copier(*state, WORDS);
     uint32_t *data = malloc((size_t)WORDS * 4);
@@ -122,7 +122,7 @@ static void runs_above_two_billion_items_are_split(void **state)
     const float texel[4] = {1, 2, 3, 4}, nothing[4] = {0};
     assert_true(source && target && pass && rg_image_write(source, 0, 0, texel) &&
                 rg_image_clear(target, nothing));
-    // All but one item a layer lie outside the image and end at once.
+    // All items except one a layer are outside the image and end at once.
     const struct test_image_copy_params params = {0, 0};
     assert_true(
         rg_pass_run(pass, &(struct rg_run){.params = &params,
@@ -157,7 +157,7 @@ static void the_clock_runs_on(void **state)
 enum { TARGET_PX = 1000, LAYERS = 3, LEVEL = 1, LEVEL_PX = TARGET_PX / 2, QUADS = 3000 };
 enum { ENOUGH_BYTES = 64 << 20 };
 
-// What a draw of quads left: colours and depths of one layer of one level, and visible samples.
+// The results of a draw of quads: colour and depth of one layer of one level, and visible samples.
 struct drawn {
     uint32_t *colour, *depth, *samples;
 };
@@ -184,8 +184,8 @@ static float *make_quads(void)
     return quads;
 }
 
-// Counts samples against depth, or, without colour, writes depth. Scratch memory grows by buffers
-// of `max_buffer_bytes` at most.
+// Counts samples against depth; without colour it writes depth instead. Scratch memory grows in
+// buffers of at most `max_buffer_bytes`.
 static struct drawn draw(struct rg_device *device, bool with_colour, int64_t max_buffer_bytes)
 {
     const test_quads_params p = {.gradient = 1.0f / 64, .slope_x = 0.0005f, .slope_y = -0.0004f};
@@ -254,8 +254,8 @@ static void a_layer_of_a_level_is_drawn_to(void **state)
     draws_as_the_reference(*state);
 }
 
-// A GPU shades a tile by a work group, a processor by a work item; told that it is the former, the
-// latter draws the same.
+// A work group shades a tile on a GPU, and a work item on a processor. A processor that takes
+// itself for a GPU draws the same.
 static void tiles_are_shared_as_on_a_gpu(void **state)
 {
     (void)state;
@@ -266,7 +266,7 @@ static void tiles_are_shared_as_on_a_gpu(void **state)
     assert_true(rg_device_close(device));
 }
 
-// A list of 1,024 elements holds the tiles of one quad that fills the target, not those of two.
+// A list of 1,024 elements has room for the tiles of one quad that fills the target, not of two.
 static void little_memory_takes_rounds(void **state)
 {
     struct drawn whole = draw(*state, true, ENOUGH_BYTES), parts = draw(*state, true, 4096);
@@ -286,7 +286,7 @@ static void count_line(enum rg_log_level level, const char *line, void *user)
     lines++;
 }
 
-// Bytes that reached stderr since listen_to_stderr, which is given back to whom it belonged.
+// listen_to_stderr collects stderr; stop_listening restores it and returns the bytes.
 static int own_stderr;
 static FILE *heard;
 
@@ -313,7 +313,7 @@ static long stop_listening(void)
 static void a_broken_kernel_is_one_line(void **state)
 {
     (void)state;
-    struct rg_device *device = rg_device_open("opencl"); // one that has built nothing yet
+    struct rg_device *device = rg_device_open("opencl"); // a device that has built nothing yet
     assert_non_null(device);
     char folder[] = "/tmp/raingauge-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));

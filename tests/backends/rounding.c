@@ -1,5 +1,5 @@
-// When a device's programs round quotients and roots themselves: of `cpu`, made out to be a device
-// of an API that lets these be inexact, whose results are off where a test says so.
+// When a device's programs round quotients and roots themselves, tested on `cpu`. It pretends that
+// its API allows inexact ones, and its results are off if a test says so.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -48,7 +48,7 @@ static bool pass_run(struct rg_pass *pass, const struct rg_run *run)
     return is_lost ? rg_error("device 'cpu': lost") : rg_backend_cpu.pass_run(pass, run);
 }
 
-// One result of all is off, by an ulp.
+// One result is off by an ulp.
 static bool buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size)
 {
     if (!rg_backend_cpu.buf_read(buf, offset, data, size))
@@ -72,7 +72,7 @@ static struct rg_device *open_pretending(bool rough, enum rg_tier its_tier,
     return rg_device_open("cpu");
 }
 
-// What was found out leaves nothing behind on the device.
+// The check of the driver must leave no trace on the device.
 static void check(struct rg_device *device, bool rounds, int its_runs)
 {
     assert_non_null(device);
@@ -97,7 +97,7 @@ static void exact_devices_do_not(void **state)
     check(open_pretending(true, RG_T1, NEITHER), false, 2);
 }
 
-// Nor are devices asked that compute as C does, or whose API promises exact ones.
+// Devices are not checked that compute as C does, or whose API promises exact results.
 static void others_are_not_asked(void **state)
 {
     (void)state;
@@ -146,8 +146,7 @@ static void what_cannot_be_is_refused(void **state)
     rg_log_listen(NULL, NULL);
 }
 
-// Programs that round are given as modules of their own, and as a text that says so behind its
-// version.
+// Programs that round have their own modules, and a text that says so after its version.
 static void their_code_is_another(void **state)
 {
     (void)state;

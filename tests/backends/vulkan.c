@@ -1,4 +1,4 @@
-// What is particular to the vulkan backend: validation, batches, staging, absent drivers.
+// For the vulkan backend alone: validation, batches, staging, absent drivers.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ static int open_device(void **state)
     return *state ? 0 : -1;
 }
 
-// What the driver or the validation layer says while all is destroyed counts too.
+// Messages of the driver or of the validation layer while objects are destroyed count as well.
 static int close_silently(void **state)
 {
     return rg_device_close(*state) && errors == 0 ? 0 : -1;
@@ -52,7 +52,7 @@ static bool run_copy(struct rg_pass *pass, struct rg_buf *from, struct rg_buf *t
                                               .extent = {words, 1, 1}});
 }
 
-// More runs than several batches hold, with writes between them that must not overtake.
+// More runs than several batches hold, with writes between them that must stay in order.
 static void writes_keep_their_place_among_runs(void **state)
 {
     enum { WORDS = 1000, RUNS = 500 };
@@ -79,7 +79,7 @@ static void writes_keep_their_place_among_runs(void **state)
         rg_buf_destroy(bufs[i]);
 }
 
-// Larger than a staging buffer ever grows, so that they travel in parts.
+// Images larger than a staging buffer ever grows, so that they travel in parts.
 static void large_images_travel_in_parts(void **state)
 {
     const struct rg_image_desc desc = {RG_RGBA32F, 1025, 1030, 1, 1};
@@ -97,7 +97,7 @@ static void large_images_travel_in_parts(void **state)
     free(back);
 }
 
-// Ordinary texels, and those that a driver's conversion from float would not keep.
+// Ordinary texels, and some that a driver's conversion from float would change.
 static void clears_keep_every_bit(void **state)
 {
     static const struct {
@@ -144,9 +144,9 @@ static void time_never_goes_back(void **state)
     assert_at_least(after_ns, before_ns);
 }
 
-// --- kernels from a folder that are not what they should be ---
+// --- wrong kernels in a folder ---
 
-// Loads `size` bytes as probe_copy's SPIR-V; true if the device took them.
+// Loads `size` bytes as probe_copy's SPIR-V; returns whether the device accepted them.
 static bool takes_kernel(struct rg_device *device, const void *bytes, size_t size)
 {
     char folder[] = "/tmp/raingauge-test-XXXXXX", path[64];
@@ -169,11 +169,12 @@ static void files_that_are_no_spirv_are_refused(void **state)
 {
     assert_false(takes_kernel(*state, "#version 450 core\n", 18));
     assert_non_null(strstr(rg_last_error(), "are no SPIR-V"));
-    assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT); // RG_KERNEL_DIR names them
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT); // RG_KERNEL_DIR names the files
     assert_int_equal(errors, 1);
 }
 
-// Binds slot 2 to 9, which the pipeline's layout lacks. A complaint fails one call, not the next.
+// Changes slot 2's binding to 9, which the pipeline's layout lacks. A complaint fails one call, not
+// the next.
 static void complaints_of_validation_fail_calls(void **state)
 {
     struct rg_kernel_code code;

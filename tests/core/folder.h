@@ -1,4 +1,5 @@
-// A folder of a test's own, as setup and teardown of a group; what a test writes there it removes.
+// A folder of a group's own; make_folder and remove_folder are setup and teardown. Each test
+// removes the files that it writes there.
 #ifndef RG_TESTS_CORE_FOLDER_H
 #define RG_TESTS_CORE_FOLDER_H
 

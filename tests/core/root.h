@@ -1,4 +1,5 @@
-// A folder of a test's own in place of a machine's root, as setup and teardown of a test.
+// A test's own folder in place of a machine's root; make_root and remove_root are setup and
+// teardown of a test.
 #ifndef RG_TESTS_CORE_ROOT_H
 #define RG_TESTS_CORE_ROOT_H
 
@@ -24,7 +25,7 @@ static int remove_root(void **state)
     return system(command);
 }
 
-// Writes a file, with the folders that it lies in.
+// Writes a file, and makes the folders above it.
 static void put(const char *path, const char *text)
 {
     char whole[256];

@@ -1,7 +1,7 @@
-// glslc folds constants in double precision and rounds once, where C rounds after each operation:
-// `180.0f / 3.14159274f / 20.0f` becomes another float. So each float constant of a SPIR-V module
-// must be one that the kernel's text has: a literal, or what an expression of literals comes to in
-// floats. Constants that were folded further, into integers and truths, are not seen.
+// glslc folds constants in double precision and rounds once, but C rounds after each operation:
+// `180.0f / 3.14159274f / 20.0f` becomes another float. So the kernel's text must hold each float
+// constant of a SPIR-V module, as a literal or as the float result of an expression of literals.
+// The test does not see constants that were folded further, into integers and booleans.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,14 +17,14 @@
 #include "tests/dialect/spirv.h"
 #include "tests/tools/expect.h"
 
-// --- what the text has ---
+// --- constants of the text ---
 
 struct values {
     float *all;
     int count, room;
 };
 
-// Their signs do not matter: a minus rounds nothing.
+// Ignores signs: a minus rounds nothing.
 static void record(struct values *values, double value)
 {
     if (values->count == values->room) {
@@ -43,7 +43,7 @@ static bool has_value(const struct values *values, float value)
     return false;
 }
 
-// Whether a value has this significand: what kernels/dialect/rounding.h makes of a constant
+// Whether a value has this significand, as kernels/dialect/rounding.h derives it from a constant
 // divisor.
 static bool has_significand(const struct values *values, float significand)
 {
@@ -55,10 +55,10 @@ static bool has_significand(const struct values *values, float significand)
     return false;
 }
 
-// A number that a constant expression comes to; a float is held exactly.
+// The result of a constant expression; a float is held exactly.
 struct number {
     double value;
-    bool whole; // an integer, of its language
+    bool whole; // an integer in its language
 };
 
 struct reader {
@@ -71,7 +71,7 @@ static bool is_name_char(char c)
     return isalnum((unsigned char)c) || c == '_';
 }
 
-// The next character that is no space.
+// The next character that is not a space.
 static char next(struct reader *reader)
 {
     while (isspace((unsigned char)*reader->at))
@@ -135,8 +135,8 @@ static bool take_operand(struct reader *reader, struct number *to)
     return next(reader) == '(' ? take_brackets(reader, to) : take_literal(reader, to);
 }
 
-// A double has room for what two floats come to, so that rounding it to a float is as good as
-// rounding once (S. Figueroa, "When is double rounding innocuous?", 1995).
+// A double holds the result of two floats so well that rounding it to a float equals rounding once
+// (S. Figueroa, "When is double rounding innocuous?", 1995).
 static struct number reckon(struct number a, char operation, struct number b)
 {
     const double value = operation == '+'   ? a.value + b.value
@@ -148,7 +148,7 @@ static struct number reckon(struct number a, char operation, struct number b)
     return (struct number){whole ? trunc(value) : (double)(float)value, whole};
 }
 
-// Operands between `operations`, from the left; what stands behind the last operand stays.
+// Operands joined by `operations`, from the left. Text after the last operand stays unread.
 static bool take_chain(struct reader *reader, const char *operations,
                        bool (*take_part)(struct reader *, struct number *), struct number *to)
 {
@@ -190,7 +190,7 @@ static void skip_word(struct reader *reader)
     reader->at += reader->at == start;
 }
 
-// What all constant expressions of a text come to, and all their parts.
+// The results of all constant expressions in a text, and of all their parts.
 static struct values read_values(const char *text)
 {
     struct values values = {0};
@@ -215,7 +215,7 @@ static struct values values_of(struct rg_kernel_code text)
     return values;
 }
 
-// --- what the module has ---
+// --- constants of the module ---
 
 enum { MOST_CONSTANTS = 1000 };
 
@@ -224,7 +224,7 @@ struct constants {
     int count;
 };
 
-// All floats have 32 bits, and none is left to whoever makes a pipeline of the module.
+// All floats must have 32 bits, and none may be a specialisation constant.
 static bool read_constant(const struct spirv_instruction *at, void *data)
 {
     struct constants *constants = data;
@@ -238,11 +238,11 @@ static bool read_constant(const struct spirv_instruction *at, void *data)
     return true;
 }
 
-// The float constants of a stage's module, in their order, and what its text has. Neither is read
-// where the kernel lacks the stage.
+// The float constants of a stage's module, in order, and the values in its text. Both stay empty if
+// the kernel lacks the stage.
 struct stage {
     struct constants constants;
-    struct values values; // for the caller to free
+    struct values values; // the caller frees them
 };
 
 static struct stage read_stage(const struct rg_kernel *kernel, const struct spirv_stage *stage)
@@ -281,7 +281,7 @@ static void every_constant_is_written(void **state)
         fail_msg("glslc folded them in double precision: write such constants out");
 }
 
-// --- that it finds what it looks for ---
+// --- the test finds planted constants ---
 
 static bool comes_to(const char *text, double value)
 {
@@ -308,8 +308,8 @@ static void expressions_come_to_what_c_makes_of_them(void **state)
     assert_false(comes_to("(3.0f + x) + 4.0f", 7));
 }
 
-// How many float constants of a stage a kernel has, and how many would not be missed if they were
-// one step of a float away, since the text has that one, too.
+// Counts the float constants of a stage of a kernel. `missed` counts those that could be one step
+// of a float larger unnoticed, since the text has that float, too.
 static void count_steps(const struct rg_kernel *kernel, const struct spirv_stage *stage,
                         int *constants, int *missed)
 {

@@ -1,4 +1,5 @@
-// Measures the error bounds that kernels/dialect/math.h states, in double precision, and its edges.
+// Measures in double precision the error bounds that kernels/dialect/math.h states, and checks its
+// edges.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +12,7 @@
 #include "kernels/dialect/math.h"
 #include "tests/tools/expect.h"
 
-// Every 1,009th float of every exponent: about two million of each sign.
+// Every 1,009th float of every exponent, about two million of each sign.
 enum { STRIDE = 1009, PAIRS = 2000000 };
 
 struct worst {
@@ -25,7 +26,8 @@ static void keep_worst(struct worst *worst, double error, float x, float y)
         *worst = (struct worst){error, x, y};
 }
 
-// Errors in ulp: the distance of neighbouring floats where the truth lies, no less than normal.
+// Errors in ulp, the distance of neighbouring floats at the true value; that distance is at least
+// that of normal floats.
 static double ulps(float got, double truth)
 {
     int exponent;
@@ -103,7 +105,7 @@ static void bounds_in_ulp_hold(void **state)
     }
 }
 
-// Where a logarithm is near 0 its relative error is hardest to hold: every float close to 1.
+// A logarithm's relative error is hardest to bound near 0: tries every float close to 1.
 static void logarithms_hold_near_one(void **state)
 {
     (void)state;

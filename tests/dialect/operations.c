@@ -1,6 +1,5 @@
-// What no driver may do to a kernel's floats stands in its SPIR-V, in every stage: each float
-// operation is decorated NoContraction, and nothing is called whose rounding is a driver's own
-// choice.
+// The SPIR-V of every stage forbids drivers to change a kernel's floats. Each float operation is
+// decorated NoContraction, and no function is called whose rounding a driver may choose.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -39,7 +38,7 @@ static bool is_float_operation(uint32_t op)
     }
 }
 
-// Drivers filter and derive as they see fit. Texels are fetched, one by one.
+// Filtering and derivatives are up to drivers, so that kernels fetch texels one by one.
 static bool is_refused(uint32_t op)
 {
     return (op >= SpvOpImageSampleImplicitLod && op <= SpvOpImageSampleProjDrefExplicitLod) ||
@@ -47,7 +46,7 @@ static bool is_refused(uint32_t op)
            (op >= SpvOpDPdx && op <= SpvOpFwidthCoarse);
 }
 
-// The functions of GLSL.std.450 that are exact on every driver; all others are refused.
+// The functions of GLSL.std.450 that are exact on every driver; the others are refused.
 static bool is_exact(uint32_t function)
 {
     switch (function) {
@@ -75,9 +74,9 @@ static bool is_exact(uint32_t function)
 }
 
 struct findings {
-    bool *exact;               // a flag an id: decorated NoContraction
-    int operations, functions; // looked at
-    char fault[160];           // the first; "" if there is none
+    bool *exact;               // one flag an id: decorated NoContraction
+    int operations, functions; // numbers inspected
+    char fault[160];           // the first fault; "" if there is none
 };
 
 static void note(struct findings *found, const char *what, uint32_t number)
@@ -86,7 +85,7 @@ static void note(struct findings *found, const char *what, uint32_t number)
         snprintf(found->fault, sizeof(found->fault), "%s %u", what, number);
 }
 
-// Decorations precede all uses.
+// Decorations precede all uses, so that one pass suffices.
 static bool inspect(const struct spirv_instruction *at, void *data)
 {
     struct findings *found = data;
@@ -107,7 +106,7 @@ static bool inspect(const struct spirv_instruction *at, void *data)
     return true;
 }
 
-// Nothing is found in a stage that the kernel does not have.
+// A stage that the kernel lacks has no findings.
 static struct findings inspect_module(struct spirv_module module)
 {
     enum { BOUND_WORD = 3 }; // all ids are below it (SPIR-V specification, section 2.3)
@@ -121,7 +120,7 @@ static struct findings inspect_module(struct spirv_module module)
     return found;
 }
 
-// Kernels that probe what a driver makes of its built-in functions call them on purpose.
+// Kernels that probe a driver's built-in functions call them on purpose.
 static bool is_probe(const struct rg_kernel *kernel)
 {
     return !strncmp(kernel->name, "probe_builtin", strlen("probe_builtin"));
@@ -161,7 +160,7 @@ static void every_module_is_valid(void **state)
     assert_at_least(modules, count);
 }
 
-// A GRID kernel has one stage, a DRAW program the two others.
+// A GRID kernel has one stage, and a DRAW program the other two.
 static void every_kernel_has_its_stages(void **state)
 {
     (void)state;
@@ -189,15 +188,15 @@ static void the_inspection_sees_operations(void **state)
                     5);
 }
 
-// How often a fault was found in a module with one decoration, one square root or one fetch made
-// another.
+// How often the inspection found a module's fault, with one decoration, square root or fetch
+// replaced.
 struct faults {
     int decorations, roots, fetches;
 };
 
 struct spoiled {
     uint32_t *words;
-    size_t count, at; // of the words; the instruction that is looked at
+    size_t count, at; // the number of words; the inspected instruction
     struct faults faults;
 };
 
@@ -239,7 +238,7 @@ static struct faults spoil(const char *kernel, enum rg_code_kind kind)
     free(spoiled.words);
     const struct findings intact = inspect_module(module);
     assert_string_equal(intact.fault, "");
-    // glslang decorates some others too.
+    // glslang decorates some other instructions, too.
     assert_int_equal(spoiled.faults.decorations, intact.operations);
     return spoiled.faults;
 }
@@ -254,15 +253,15 @@ static void the_inspection_finds_faults(void **state)
 
 // --- rounding ---
 
-// What becomes of the values of a module with quotients and roots.
+// The uses of values in a module with quotients and roots.
 enum { IS_BITS = 1, IS_ROUGH = 2, IS_CHOSEN = 4 };
 
 struct roundings {
-    unsigned char *ids; // flags an id
+    unsigned char *ids; // flags of each id
     int rough;          // quotients and roots
 };
 
-// Whether it is of significands alone, which kernels/dialect/rounding.h puts together from bits.
+// Whether all operands are significands, which kernels/dialect/rounding.h assembles from bits.
 static bool is_guess(const struct roundings *r, const struct spirv_instruction *at, size_t operands)
 {
     for (size_t i = operands; i < at->count; i++)
@@ -282,7 +281,7 @@ static bool note_rounding(const struct spirv_instruction *at, void *data)
         if (!is_guess(r, at, is_root ? 5 : 3))
             r->ids[at->result] |= IS_ROUGH;
     }
-    // one of two values: of a choice, of two branches, of a variable that either stores to
+    // One of two values: of a select, of two branches, or of a variable that both store to.
     if (at->op == SpvOpSelect)
         r->ids[at->words[4]] |= IS_CHOSEN, r->ids[at->words[5]] |= IS_CHOSEN;
     for (size_t i = 3; at->op == SpvOpPhi && i < at->count; i += 2)
@@ -292,7 +291,7 @@ static bool note_rounding(const struct spirv_instruction *at, void *data)
     return true;
 }
 
-// How many quotients and roots of a module go on as they are: no choice may keep another.
+// How many quotients and roots of a module are used unrounded: no choice could replace them.
 static int left_to_the_driver(struct spirv_module module, int *rough)
 {
     enum { BOUND_WORD = 3 };
@@ -307,7 +306,7 @@ static int left_to_the_driver(struct spirv_module module, int *rough)
     return left;
 }
 
-// Software drivers would not tell: their own are exact.
+// Running cannot show this on software drivers, since theirs are exact.
 static void no_quotient_is_left_to_the_driver(void **state)
 {
     (void)state;

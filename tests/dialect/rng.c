@@ -1,4 +1,4 @@
-// Compares kernels/dialect/rng.h with Random123's own Philox and its published known answers.
+// Compares kernels/dialect/rng.h with Random123's own Philox and with its published known answers.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -62,7 +62,7 @@ static void uniforms_fill_the_unit_interval(void **state)
     const int count = 100000;
     for (int i = 0; i < count; i++)
         sum += (double)rg_uniform(rg_random(1, (uint)i, 0, 0).x);
-    // the mean's standard deviation is 1 / sqrt(12 count) = 0.0009
+    // The mean's standard deviation is 1 / sqrt(12 count) = 0.0009.
     assert_below(fabs(sum / count - 0.5), 0.004);
 }
 

@@ -1,4 +1,4 @@
-// Quotients and roots are C's, whatever a driver within its limits makes of them first.
+// Quotients and roots equal C's for any driver within its limits of error.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +10,7 @@
 
 #include "kernels/dialect/lang.h"
 
-static int planted_ulps; // that the driver's are off by
+static int planted_ulps; // the driver's error
 
 static float off(float exact)
 {
@@ -34,8 +34,8 @@ struct operands {
     uint of, by;
 };
 
-// Any two floats; every second pair has significands next to each other, or at an end of their
-// range, where the quotient's exponent changes.
+// Any two floats. Three of eight pairs have significands next to each other or at an end of their
+// range, where the quotient's exponent changes. One of eight has a dividend near the smallest.
 static struct operands draw(int i)
 {
     struct operands o = {random_bits(), random_bits()};
@@ -106,7 +106,7 @@ static void roots_are_exact(void **state)
         check_roots(ulps);
 }
 
-// What is not normal, or would not be, is left to the driver, and 0 and its sign survive.
+// Operands and results that are not normal are left to the driver; 0 keeps its sign.
 static void the_rest_is_the_drivers(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
-// Tells ThreadSanitizer what libgomp puts in order. gcc's libgomp is built without it, so that it
-// sees neither a barrier nor the end of a parallel region, and takes all that they keep apart for
-// races. Each of libgomp's entries that orders anything is taken here, before libgomp's own, which
-// does the work. A region has places of its own that threads leave and pick up their order at: no
-// more is taken to be in order than is.
+// Tells ThreadSanitizer about the order that libgomp keeps. gcc's libgomp is built without
+// ThreadSanitizer. Without this file the latter sees neither a barrier nor the end of a parallel
+// region, and reports races between them. This file wraps each entry of libgomp that orders
+// threads; libgomp's own entry does the work. A region has its own places, at which its threads
+// release and acquire order, so that no false order hides a race.
 #define _GNU_SOURCE // RTLD_NEXT
 #include "tests/backends/watched/annotate.h"
 
@@ -17,18 +17,17 @@
 
 typedef void work_function(void *data);
 
-// A parallel region, on the stack of the thread that it began in. The address of a char is a place
-// of order.
+// A parallel region, on the stack of the thread that began it. The address of a char is a place of
+// order.
 struct region {
     work_function *work;
     void *data;
     char begun, ended, tasks_ended;
-    char met[2]; // of barriers, in turn: a thread may be at the next one while others still leave
-                 // this one
+    char met[2]; // of barriers in turn: a thread may be at the next one while others leave
 };
 
 static _Thread_local struct region *mine; // NULL: outside all regions
-static _Thread_local int barriers;        // that this thread met in it
+static _Thread_local int barriers;        // those that this thread met in its region
 static char in_critical, in_atomic;
 static int helpers;
 
@@ -60,8 +59,8 @@ static void *next(const char *name)
     }
     return found;
 }
-// Behind what is declared above, libgomp's own of that name. Looked up each time: a place that all
-// threads keep it in would be a race of its own.
+// libgomp's own function of the name, after this file's. Looked up each time, since a shared place
+// for it would be a race of its own.
 #define NEXT(name) __typeof__(name) *own = (__typeof__(name) *)next(#name)
 
 // --- regions ---
@@ -106,7 +105,7 @@ void GOMP_parallel_loop_nonmonotonic_dynamic(work_function *work, void *data, un
     leave(&region);
 }
 
-// A barrier's two sides.
+// The two sides of a barrier.
 static char *arrive(void)
 {
     char *place = mine ? &mine->met[barriers++ % 2] : NULL;
@@ -131,7 +130,7 @@ void GOMP_barrier(void)
     go_on(place);
 }
 
-// A loop that is not `nowait` ends in a barrier.
+// A loop without `nowait` ends in a barrier.
 void GOMP_loop_end(void)
 {
     NEXT(GOMP_loop_end);
@@ -192,11 +191,11 @@ static void run_task(void *data)
     __tsan_release(&region->tasks_ended);
 }
 
-// Of its flags: it waits for other tasks, or ends when it is told.
+// Flags of tasks that wait for other tasks, or that end on request.
 enum { DEPENDS = 8, DETACHED = 64, UNTOLD = DEPENDS | DETACHED };
 
-// A task waits for nothing but a barrier or its region's end: what other kinds wait for is not told
-// here.
+// A task waits only for a barrier or its region's end. Other kinds are refused, since their order
+// is not annotated.
 void GOMP_task(work_function *work, void *data, void (*copy)(void *to, void *from), long size,
                long align, bool is_deferred, unsigned flags, void **depends, int priority,
                void *detached)

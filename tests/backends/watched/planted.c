@@ -12,7 +12,7 @@
 
 enum { THREADS = 4, WORDS = 1 << 16 };
 
-// Told to the compiler to be seen by others, so that nothing that leads to it is left out.
+// Volatile, so that the compiler keeps the work that leads to it.
 static volatile int64_t sum;
 
 static struct rg_buf *make_buf(struct rg_device *device, const char *name)
@@ -25,7 +25,7 @@ static struct rg_buf *make_buf(struct rg_device *device, const char *name)
     return buf;
 }
 
-// Runs a kernel on the device whose passes are shared out among threads.
+// Runs a kernel on cpu, which divides its passes among threads.
 static void run_kernel(const char *kernel, const void *params, int width, int height)
 {
     struct rg_device *device = rg_device_open("cpu");
@@ -43,7 +43,7 @@ static void run_kernel(const char *kernel, const void *params, int width, int he
     rg_device_close(device);
 }
 
-// Items of all rows write the first row's words.
+// In the wrong form, items of all rows write the first row's words.
 static void items_of_a_kernel(bool is_right)
 {
     enum { WIDTH = 512, HEIGHT = WORDS / WIDTH };
@@ -82,7 +82,7 @@ static void threads_in_turn(bool is_right)
     }
 }
 
-// The same by what gcc has libgomp do where the processor has no instruction for it.
+// The same, with the code that gcc uses when the processor has no instruction for it: libgomp.
 static void threads_adding(bool is_right)
 {
     static long double whole;
@@ -97,7 +97,7 @@ static void threads_adding(bool is_right)
 }
 
 // Pieces of a loop, handed out one at a time, write beside each other, or all to one place. Each
-// waits until a second thread has one, which is no order.
+// waits until a second thread has a piece; the wait orders nothing.
 static void pieces_of_a_loop(bool is_right)
 {
     static int pieces[8], begun;
@@ -111,7 +111,7 @@ static void pieces_of_a_loop(bool is_right)
     sum += pieces[0];
 }
 
-// What a region writes is read once it has ended, or by another thread while it runs.
+// A region's writes are read after it has ended, or overwritten by another thread while it runs.
 static void a_region_and_the_next(bool is_right)
 {
     int written[THREADS] = {0};
@@ -126,8 +126,8 @@ static void a_region_and_the_next(bool is_right)
     sum += written[THREADS - 1 - omp_get_thread_num()];
 }
 
-// A task's halves make tasks of their own; or one that is not waited for is read. The thread that
-// reads waits until another has done it, which is no order.
+// A task makes a task of its own; in the wrong form a task's result is read without waiting for the
+// task. The reader spins until another thread has run it, which orders nothing.
 static void tasks(bool is_right)
 {
     static int made[4];
@@ -156,7 +156,7 @@ static void tasks(bool is_right)
     sum += made[3];
 }
 
-// Whether a value is above another, which only one of them has.
+// Compares two values; in the wrong form the second one is not set.
 static void a_value(bool is_right)
 {
     int *values = malloc(2 * sizeof(*values));

@@ -1,5 +1,5 @@
-// Work that is wrong in one way: what ThreadSanitizer must find, or valgrind, so that its silence
-// elsewhere means something; and the same work as it should be, of which it must be silent.
+// Work with one planted fault, which ThreadSanitizer or valgrind must find, so that their silence
+// elsewhere means something. The same work without the fault must leave them silent.
 #ifndef RG_TESTS_BACKENDS_WATCHED_PLANTED_H
 #define RG_TESTS_BACKENDS_WATCHED_PLANTED_H
 
@@ -11,6 +11,6 @@ struct planted {
 };
 
 extern const struct planted planted_races[]; // the last has no name
-extern const struct planted planted_values;  // that nobody has set
+extern const struct planted planted_values;  // a value that nobody has set
 
 #endif

@@ -1,11 +1,11 @@
-// Draws with the device cpu, or compares pictures, in one process and without workers, so that
-// ThreadSanitizer or valgrind can watch all of it. They end it with a status of their own where
-// they have found something.
+// Draws with the device cpu, or compares pictures, in one process without workers, so that
+// ThreadSanitizer or valgrind can watch everything. If they find something, they end the process
+// with a status of their own.
 //
 //     watched TECHNIQUE SIDE FRAMES 'KEY=VALUE KEY=VALUE'...    once for each of these settings
 //     watched pictures
-//     watched planted [NAME right|wrong]                        lists races, or runs one, or the
-//     value that nobody has set
+//     watched planted [NAME right|wrong]                        lists races; runs one, or the value
+//                                                               that nobody has set
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +18,7 @@
 #include "tests/backends/watched/annotate.h"
 #include "tests/backends/watched/planted.h"
 
-// How often a thread has joined another one's work until now. Without ThreadSanitizer nobody
-// counts.
+// How often a thread has joined another's work so far. Without ThreadSanitizer nobody counts.
 static int helpers(void)
 {
 #ifdef __SANITIZE_THREAD__
@@ -30,7 +29,7 @@ static int helpers(void)
 #endif
 }
 
-// Steps and draws with buffers, passes and images as any command does.
+// Steps and draws with buffers, passes and images, as a command does.
 static bool run_frames(const struct rg_technique *technique, struct rg_device *device,
                        const void *settings, int side, int frames)
 {
@@ -63,7 +62,7 @@ static bool draw(const char *name, int side, int frames, char **sets)
     return ok && rg_device_close(device);
 }
 
-// Two pictures with a light that is 40 times white, of which the second is a little off.
+// Two pictures with a light of 40 times white; the second is slightly off.
 static bool make_pictures(struct rg_picture pictures[2])
 {
     for (int k = 0; k < 2; k++) {

@@ -1,4 +1,4 @@
-// Text that is appended to memory of a fixed size.
+// Appending text to memory of a fixed size.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-// What a program in the cage can still do, and what not.
+// The cage allows a program some actions and refuses it others.
 #define _GNU_SOURCE // syscall
 #include <setjmp.h>
 #include <stdarg.h>
@@ -45,7 +45,7 @@ static bool starts_a_process(void)
 static bool starts_a_program(void)
 {
     char *const args[] = {(char *)"true", NULL};
-    execv("/bin/true", args); // does not come back where it works
+    execv("/bin/true", args); // returns only if it fails
     return false;
 }
 
@@ -64,7 +64,8 @@ static bool kills_a_thread_of_its_parent(void)
     return !syscall(SYS_tgkill, parent, parent, 0);
 }
 
-// What becomes readable or writable there sends it a signal, SIGKILL if F_SETSIG says so.
+// A descriptor signals its owner when it becomes readable or writable; F_SETSIG can make that
+// SIGKILL.
 static bool has_its_parent_killed(void)
 {
     return !fcntl(RG_CAGE_REPLY, F_SETOWN, parent);
@@ -162,7 +163,7 @@ static void a_caged_program_computes_and_answers(void **state)
     }
 }
 
-// Else the test above would tell nothing.
+// Without this, refusals in the cage would prove nothing.
 static void without_a_cage_all_of_it_works(void **state)
 {
     (void)state;
@@ -189,8 +190,8 @@ static void limits_hold(void **state)
     assert_int_equal(status, 0);
 }
 
-// The program sees no variable of ours, and has five descriptors; sh opens the folder to count
-// them.
+// The program sees none of our variables and has five descriptors. A sixth is the folder, which sh
+// opens to count them.
 static void a_caged_program_has_no_environment(void **state)
 {
     (void)state;
@@ -208,7 +209,7 @@ static void a_caged_program_has_no_environment(void **state)
     close(file);
 }
 
-// Nobody waits longer for a program that says that it has ended, and has not.
+// A program that closes its reply but runs on is killed at its time limit.
 static void a_caged_program_that_feigns_its_end_is_killed(void **state)
 {
     (void)state;
@@ -223,7 +224,7 @@ static void a_caged_program_that_feigns_its_end_is_killed(void **state)
     close(file);
 }
 
-// A reply comes whole, however large, and one without end is not taken.
+// A reply comes whole, however large; one beyond its limit is refused.
 static void a_reply_has_an_end(void **state)
 {
     (void)state;
@@ -244,8 +245,8 @@ static void a_reply_has_an_end(void **state)
     free(caged.reply);
 }
 
-// What went wrong is told by how the program ended; a file is not blamed for a library that is
-// absent, with which the loader ends a program.
+// The way a program ends tells what went wrong. If the loader lacks a library, the file is not
+// blamed.
 static void an_end_that_is_not_sound_says_why(void **state)
 {
     (void)state;

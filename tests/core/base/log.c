@@ -1,4 +1,4 @@
-// What is logged is one line of plain characters, whatever stands in it.
+// A logged line is one line of plain characters, whatever its text holds.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,7 +38,7 @@ static void lines_hold_no_control_characters(void **state)
     rg_log_listen(NULL, NULL);
 }
 
-// How often a line stands in what was printed.
+// How often the file holds a line.
 static int printed(FILE *file, const char *line)
 {
     char read[256];
@@ -49,7 +49,7 @@ static int printed(FILE *file, const char *line)
     return count;
 }
 
-// Several devices and cells meet one error; people read it once, and who listens hears all of it.
+// Several devices and cells can meet one error. It is printed once; a listener hears each.
 static void an_error_is_printed_once(void **state)
 {
     (void)state;
@@ -64,7 +64,7 @@ static void an_error_is_printed_once(void **state)
     }
     rg_error("another is lost");
     assert_string_equal(rg_last_error(), "another is lost");
-    rg_error("the device is lost"); // printed before, and yet the last
+    rg_error("the device is lost"); // not printed again, but still the last error
     fflush(stderr);
     dup2(kept, 2);
     close(kept);
@@ -93,7 +93,7 @@ static void a_relayed_error_has_its_kind(void **state)
     rg_log_listen(NULL, NULL);
 }
 
-// Many devices meet one cause: who prints is told the line once, who listens hears each.
+// Many devices can meet one cause. A line is news once; a listener hears each.
 static void a_line_is_news_once(void **state)
 {
     (void)state;
@@ -110,7 +110,7 @@ static void a_line_is_news_once(void **state)
     assert_string_equal(heard, "a.obj: no such file");
 }
 
-// What goes wrong while lines are held is not heard; whoever holds them asks for the last error.
+// An error while lines are held is not heard, but stays the last error.
 static void held_lines_are_not_heard(void **state)
 {
     (void)state;

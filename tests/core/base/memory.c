@@ -1,5 +1,5 @@
-// How much memory may be taken: a limit that is counted against, told to other processes, and
-// refused by in one line.
+// A limit of memory: what is taken counts, started processes learn the limit, and a refusal is one
+// line.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -25,8 +25,8 @@ static void count_warnings(enum rg_log_level level, const char *line, void *user
     warnings += level == RG_LOG_WARNING && strstr(line, "RG_MEMORY_BYTES=1e9: is no whole number");
 }
 
-// It runs first, before a limit has been chosen: the variable says what is no number, which is
-// ignored and told once.
+// This test runs first, before a limit is chosen. The variable holds no number: it is ignored, with
+// one warning.
 static void without_a_choice_a_tenth_of_what_is_free_is_kept(void **state)
 {
     (void)state;
@@ -35,7 +35,7 @@ static void without_a_choice_a_tenth_of_what_is_free_is_kept(void **state)
     rg_log_listen(NULL, NULL);
     assert_int_equal(warnings, 1);
     assert_above(available, 0);
-    // Others take and give meanwhile.
+    // Other processes take and give memory meanwhile.
     assert_above(left, available / 2);
     assert_below(left, available * 95 / 100);
     assert_false(rg_memory_take(available));
@@ -48,20 +48,20 @@ static void what_is_taken_counts_until_it_is_given_back(void **state)
 {
     (void)state;
     rg_memory_allow(10 * MIB);
-    rg_memory_allow(0); // no choice
+    rg_memory_allow(0); // 0 is no choice
     assert_int_equal(rg_memory_left(), 10 * MIB);
     assert_true(rg_memory_take(10 * MIB - 4));
-    assert_false(rg_memory_take(5)); // small, and still counted
+    assert_false(rg_memory_take(5)); // small pieces count as well
     assert_false(rg_memory_allows(5));
     assert_true(rg_memory_allows(4));
-    rg_memory_allow(4 * MIB); // less than is taken
+    rg_memory_allow(4 * MIB); // less than is taken already
     assert_int_equal(rg_memory_left(), 0);
     assert_false(rg_memory_take(1));
     rg_memory_give(10 * MIB - 4);
     assert_int_equal(rg_memory_left(), 4 * MIB);
 }
 
-// The user may allow more than is free, and processes that are started learn it.
+// The user may allow more than is free; started processes learn the choice.
 static void a_choice_outweighs_what_is_free(void **state)
 {
     (void)state;
@@ -86,7 +86,7 @@ static void a_refusal_has_the_numbers(void **state)
                         "more, or ask for less: a smaller --size");
 }
 
-// One large piece, which is not counted, is held against what is left.
+// A large piece must fit into what is left, though it is not counted.
 static void large_pieces_of_the_host_are_refused(void **state)
 {
     (void)state;
@@ -107,11 +107,11 @@ static int64_t available(void)
     return rg_memory_available_under(root);
 }
 
-// The least that a group around this process leaves holds, and files that are dropped are no loss.
+// The tightest group around this process decides. Inactive file pages count as free.
 static void what_groups_of_version_2_leave_is_what_is_free(void **state)
 {
     (void)state;
-    assert_int_equal(available(), 0); // no such files: unknown
+    assert_int_equal(available(), 0); // without files it is unknown
     put("/proc/meminfo", "MemTotal: 4096 kB\nMemFree: 1 kB\nMemAvailable:    3072 kB\n");
     assert_int_equal(available(), 3 * MIB);
     put("/proc/self/cgroup", "0::/outer/inner\n");
@@ -126,7 +126,7 @@ static void what_groups_of_version_2_leave_is_what_is_free(void **state)
     put("/sys/fs/cgroup/outer/inner/memory.max", "2097152\n");
     assert_int_equal(available(), MIB);
     put("/sys/fs/cgroup/outer/inner/memory.max", "1048576\n");
-    assert_int_equal(available(), 1); // nothing, which is known
+    assert_int_equal(available(), 1); // 1 means known to be nothing
 }
 
 static void what_groups_of_version_1_leave_is_what_is_free(void **state)

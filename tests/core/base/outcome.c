@@ -1,4 +1,4 @@
-// The words of outcomes, and what the last error was.
+// The words of outcomes, and the last error.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,13 +14,13 @@ static void outcomes_are_found_by_their_names(void **state)
     (void)state;
     static const char *const names[] = {"ok",    "fail",    "unsupported", "error",
                                         "crash", "timeout", "nothing"};
-    for (int i = 0; i < RG_LACKING; i++) { // those behind are errors with a fault beside them
+    for (int i = 0; i < RG_LACKING; i++) { // later outcomes are errors with a fault beside them
         enum rg_outcome found = (enum rg_outcome)((i + 1) % RG_OUTCOME_COUNT);
         assert_string_equal(rg_outcome_name((enum rg_outcome)i), names[i]);
         assert_true(rg_outcome_find(names[i], &found));
         assert_int_equal(found, i);
     }
-    assert_string_equal(rg_outcome_name(RG_LACKING), "error"); // which older readers know
+    assert_string_equal(rg_outcome_name(RG_LACKING), "error"); // the word that older readers know
     assert_string_equal(rg_outcome_name(RG_SETUP), "error");
     enum rg_outcome untouched = RG_CRASH;
     assert_false(rg_outcome_find("unknown", &untouched));
@@ -57,7 +57,7 @@ static void errors_are_of_a_kind(void **state)
     assert_string_equal(rg_last_error(), "the driver's 1");
     assert_null(rg_unsupported_null("nobody's"));
     assert_int_equal(rg_failure_take().fault, RG_FAULT_NONE);
-    rg_warning("no error"); // which changes nothing
+    rg_warning("no error"); // warnings do not change the last error
     rg_info("no error");
     assert_int_equal(rg_failure_take().outcome, RG_UNSUPPORTED);
     assert_string_equal(rg_last_error(), "nobody's");

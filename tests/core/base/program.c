@@ -1,4 +1,4 @@
-// A program that is started gets what it is given, and nothing else of this one.
+// A started program gets what it is given, and nothing else of this process.
 #define _GNU_SOURCE // memfd_create
 #include <errno.h>
 #include <setjmp.h>
@@ -17,17 +17,17 @@
 #include "core/base/program.h"
 #include "tests/tools/expect.h"
 
-// A file in memory with a text, at its start.
+// A file in memory that holds a text, read from its start.
 static int file_of(const char *text)
 {
-    const int fd = memfd_create("text", 0); // which an exec would leave open
+    const int fd = memfd_create("text", 0); // no FD_CLOEXEC, so an exec would leave it open
     assert_at_least(fd, 0);
     assert_int_equal(pwrite(fd, text, strlen(text), 0), (ssize_t)strlen(text));
     return fd;
 }
 
-// Runs a program with these descriptors, of which the file at 1 gets what it prints: that text. It
-// ends with 0.
+// Runs a program with these descriptors, expects status 0, and returns what it printed to the file
+// at 1.
 static const char *run(const char *const args[], const int fds[], int fd_count)
 {
     static char text[512];
@@ -43,7 +43,7 @@ static const char *run(const char *const args[], const int fds[], int fd_count)
     return text;
 }
 
-// The same of a line of the shell, of which nothing else is given.
+// Runs a line of the shell, and gives it a file for its output alone.
 static const char *run_line(const char *line)
 {
     return run((const char *const[]){"sh", "-c", line, NULL}, (const int[]){-1, file_of(""), -1},
@@ -61,7 +61,7 @@ static void descriptors_are_those_that_were_given(void **state)
     assert_above(b, a);
     assert_below(b, 8);
     fds[a] = b, fds[b] = a; // each gets the number of the other
-    close(gaps[0]);         // numbers that the copies of these two must not have
+    close(gaps[0]);         // the copies of these two must not take these numbers
     close(gaps[1]);
     char line[128];
     snprintf(line, sizeof(line), "cat; echo noise >&2; cat <&%d; cat <&%d", a, b);
@@ -93,7 +93,7 @@ static void no_signal_is_ignored_or_blocked(void **state)
     sigprocmask(SIG_BLOCK, &blocked, NULL);
     signal(SIGXFSZ, SIG_IGN);
     unsigned long long ignored, held;
-    // Not by the shell, which unblocks signals.
+    // Not through the shell, which unblocks signals.
     const char *const args[] = {"sed", "-n", "s/^Sig\\(Blk\\|Ign\\)://p", "/proc/self/status",
                                 NULL};
     const char *text = run(args, (const int[]){-1, file_of(""), -1}, 3);
@@ -122,7 +122,7 @@ static void what_is_missing_is_not_started(void **state)
                      ENOENT);
     assert_int_equal(waitpid(-1, NULL, 0), -1);
     const int after = dup(0);
-    assert_int_equal(after, next); // nothing is left open
+    assert_int_equal(after, next); // no descriptor is left open
     close(after);
 }
 

@@ -1,4 +1,5 @@
-// What two devices owe each other: of made-up devices, since few machines have one of each kind.
+// How closely two devices must agree. The devices are made up, since few machines have one of each
+// kind.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +16,7 @@ static const struct rg_device_info reference = {.name = "cpu:reference", .tier =
                                    native = {.name = "gl:native", .tier = RG_T2},
                                    other_native = {.name = "vulkan:native", .tier = RG_T2};
 
-// In either order.
+// The order of the two must not matter.
 static enum rg_tier owed(const struct rg_device_info *a, const struct rg_device_info *b)
 {
     assert_int_equal(rg_tier_owed(a, b), rg_tier_owed(b, a));
@@ -34,7 +35,7 @@ static void the_looser_of_two_tiers_is_owed(void **state)
     assert_int_equal(owed(&native, &other_native), RG_T2);
 }
 
-// What runs where says nothing of how it draws: native drawing in software owes T2 all the same.
+// Native drawing in software owes T2 all the same: the place where a device runs decides nothing.
 static void running_in_software_decides_nothing(void **state)
 {
     (void)state;

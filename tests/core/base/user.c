@@ -46,7 +46,7 @@ static void its_folders_are_made(void **state)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof(path), "%s/a/b/", folder);
     assert_true(rg_user_make_folders(path, why));
-    assert_true(rg_user_make_folders(path, why)); // which are there already
+    assert_true(rg_user_make_folders(path, why)); // they are there already
     assert_true(!stat(path, &st) && S_ISDIR(st.st_mode) && (st.st_mode & 0777) == 0700);
     snprintf(path, sizeof(path), "%s/a/b", folder);
     rmdir(path);

@@ -1,4 +1,4 @@
-// Where long texts are broken into lines.
+// Long texts are broken into lines.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

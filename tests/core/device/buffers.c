@@ -1,4 +1,4 @@
-// Buffers keep words, wherever and however many are written.
+// Buffers keep their words, wherever and however many are written.
 #include "tests/core/device/suite.h"
 
 static void buffers_keep_what_was_written(void **state)

@@ -1,5 +1,4 @@
-// What core/device makes of a run that a device takes in parts, and what it counts, on a device
-// that notes what it is asked for.
+// How core/device splits a run into parts, and what it counts, on a device that notes its calls.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -34,7 +33,7 @@ static bool note_run(struct rg_pass *pass, const struct rg_run *run)
     return true;
 }
 
-// Every item is run once, in parts of 8 x 2 x 2 at most.
+// Every item runs once, in parts of 8 x 2 x 2 at most.
 static void test_parts(void **state)
 {
     (void)state;
@@ -68,7 +67,7 @@ static void test_parts(void **state)
     assert_true(rg_device_close(device));
 }
 
-// Bytes of what lives, and of what travels, level by level.
+// Bytes of live objects and of transfers, level by level.
 static void test_bytes(void **state)
 {
     (void)state;
@@ -101,7 +100,8 @@ static void ignore(enum rg_log_level level, const char *line, void *user)
     (void)user;
 }
 
-// A device without room for a work group, or for an item in one, would be asked for ever.
+// A device that says it has no room for a work group, or for an item in one, would be asked for
+// ever.
 static void test_no_room_for_work(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void test_no_room_for_work(void **state)
     assert_true(rg_device_close(device));
 }
 
-// By index from 0 on, and nothing behind the last of a backend's devices.
+// Devices of a backend count from 0, and an index after the last names none.
 static void test_names(void **state)
 {
     (void)state;
@@ -140,7 +140,7 @@ static void test_names(void **state)
     rg_log_listen(NULL, NULL);
 }
 
-// The looser of two devices', in either order.
+// Two devices owe the looser of their tiers, in either order.
 static void test_tiers(void **state)
 {
     (void)state;
@@ -152,8 +152,8 @@ static void test_tiers(void **state)
         }
 }
 
-// Objects that are only counted have a size and read as zeroes, and runs with them do nothing; the
-// room is that of what lived together at most.
+// Counted objects have a size and read as zeroes, and runs with them do nothing. The room is the
+// most that lived together.
 static void test_room(void **state)
 {
     (void)state;

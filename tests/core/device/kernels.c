@@ -1,4 +1,4 @@
-// Kernels run once for every item of any grid, and their atomics lose nothing.
+// Kernels run once for every item of any grid, and atomics lose nothing.
 #include "kernels/probe/copy_params.h"
 #include "tests/core/device/suite.h"
 #include "tests/kernels/atomics_params.h"
@@ -6,7 +6,7 @@
 
 enum { POISON = 0x99999999 };
 
-// Copies the items of a grid within a larger one; all others must stay as they were.
+// Copies a grid's items within a larger grid; all others must keep their words.
 static void check_copy(struct rg_device *device, struct rg_extent whole, struct rg_extent origin,
                        struct rg_extent extent)
 {
@@ -53,7 +53,7 @@ static void grids_cover_their_items_and_no_others(void **state)
         check_copy(*state, grids[i].whole, grids[i].origin, grids[i].extent);
 }
 
-// 70,000 work groups exceed what llvmpipe and lavapipe run at once.
+// llvmpipe and lavapipe cannot run 70,000 work groups at once.
 static void grids_are_folded(void **state)
 {
     const int groups = 70000;
@@ -79,7 +79,7 @@ static void folding_is_counted(void **state)
     assert_int_equal(after->dispatches - before.dispatches, (70000 + (int64_t)limit - 1) / limit);
 }
 
-// Parameters belong to their run: those of a queued run do not change with the next.
+// A queued run keeps its parameters when the next run sets others.
 static void runs_keep_their_parameters(void **state)
 {
     enum { RUNS = 200, WORDS = 64 };
@@ -105,7 +105,7 @@ static void runs_keep_their_parameters(void **state)
     rg_buf_destroy(target);
 }
 
-// Each run reads what the one before it wrote, without a sync in between.
+// Each run reads the previous run's writes, without a sync in between.
 static void runs_follow_each_other(void **state)
 {
     enum { WORDS = 10007 };
@@ -132,7 +132,7 @@ static void runs_follow_each_other(void **state)
     rg_buf_destroy(bufs[1]);
 }
 
-// What tests/kernels/atomics.h leaves behind, computed one item after the other.
+// The results of tests/kernels/atomics.h, computed one item after the other.
 static void expect_atomics(int items, int buckets, uint32_t *counts, int32_t *extremes)
 {
     for (int x = 0; x < items; x++) {
@@ -180,7 +180,7 @@ static void atomics_lose_nothing(void **state)
     rg_pass_destroy(pass);
 }
 
-// The other devices do not look: there, what lies outside is the kernel's fault.
+// Other devices do not check indices: one out of range is the kernel's fault.
 static void reference_notices_an_index_out_of_range(void **state)
 {
     if (strcmp(suite_device, "cpu:reference") != 0)
@@ -190,7 +190,7 @@ static void reference_notices_an_index_out_of_range(void **state)
     assert_non_null(pass);
     static const struct {
         int offset;
-        const char *message; // NULL: all is well
+        const char *message; // NULL: the indices are in range
     } cases[] = {{0, NULL}, {5, NULL}, {6, "target[10]"}, {-1, "target[-1]"}, {10, "target[10]"}};
     for (int c = 0; c < COUNT_OF(cases); c++) {
         const struct test_fault_params params = {cases[c].offset};

@@ -1,9 +1,9 @@
-// What a device lacks is refused from its limits, as unsupported and before the backend is asked:
-// here of a device whose limits say less than it can do.
+// core/device refuses what a device lacks, as unsupported, from the limits and before it asks the
+// backend. Here limits say less than the device can do.
 #include "tests/core/device/suite.h"
 #include "tests/kernels/drawing/quads_params.h"
 
-// The device's limits, to be changed; given_back sets them as they were.
+// The device's true limits; given_back restores them.
 static struct rg_limits kept;
 
 static struct rg_limits *taken(void **state)

@@ -1,4 +1,4 @@
-// Objects and devices come and go without a trace, and live side by side.
+// Objects and devices come and go without a trace, and exist side by side.
 #include <stdio.h>
 #include <time.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@ static int64_t resident_bytes(void)
     return (int64_t)resident * sysconf(_SC_PAGESIZE);
 }
 
-// Growth since `before`. AddressSanitizer keeps what was freed for a while, and finds leaks itself.
+// Growth since `before`. AddressSanitizer keeps freed memory for a while, and finds leaks itself.
 static int64_t grown_bytes(int64_t before)
 {
 #ifdef __SANITIZE_ADDRESS__
@@ -40,7 +40,7 @@ static void check_as_many_live(const struct rg_device *device, const struct rg_w
     assert_int_equal(work->live_bytes, before->live_bytes);
 }
 
-// 64 KiB each, written so that they take memory: a leak of a tenth of them is found.
+// 64 KiB each, and written, so that they take memory: a leak of one in ten is found.
 static void buffers_leave_nothing_behind(void **state)
 {
     enum { WORDS = 16384 };
@@ -177,7 +177,7 @@ static void devices_live_side_by_side(void **state)
     assert_true(rg_device_close(reference));
 }
 
-// Where a leak checker looks, so that it does not report what is leaked on purpose.
+// Pointers that a leak checker finds, so that it does not report the leaks made on purpose.
 static void *leaked[3];
 
 static void closing_reports_what_still_lives(void **state)
@@ -193,17 +193,17 @@ static void closing_reports_what_still_lives(void **state)
     const struct rg_device_info info = device->info;
     listen();
     assert_false(rg_device_close(device));
-    // a validating driver may add its own view of it
+    // A validating driver may add lines of its own.
     const char *lines = heard_all();
     assert_non_null(strstr(lines, "1 buffers, 1 images and 1 passes not destroyed"));
     assert_non_null(strstr(lines, info.name));
 }
 
-// One of a kind is enough.
+// One object of any kind is enough.
 static void closing_reports_each_kind(void **state)
 {
     (void)state;
-    static void *each[3]; // for the search for leaks
+    static void *each[3]; // so that a leak checker finds them
     const struct rg_image_desc desc = {RG_RGBA8, 4, 4, 1, 1};
     for (int kind = 0; kind < 3; kind++) {
         struct rg_device *device = rg_device_open(suite_device);
@@ -220,7 +220,7 @@ static void closing_reports_each_kind(void **state)
 
 // --- shared things ---
 
-// A buffer of four words that say what was asked for; counts what is made and destroyed.
+// A shared buffer of four words, all of them the argument; counts what is made and destroyed.
 static int things_made, things_destroyed;
 
 static void *thing_make(struct rg_device *device, const void *arg)
@@ -238,7 +238,7 @@ static void thing_destroy(void *thing)
 static const struct rg_shared_kind thing_kind = {"thing", thing_make, thing_destroy};
 static const struct rg_shared_kind other_kind = {"other thing", thing_make, thing_destroy};
 
-// One that is made of a thing.
+// A shared thing that holds another one.
 static struct rg_device *box_device;
 
 static void *box_make(struct rg_device *device, const void *arg)
@@ -249,7 +249,7 @@ static void *box_make(struct rg_device *device, const void *arg)
 
 static void box_destroy(void *box)
 {
-    const uint32_t none = 0; // it is there, and is not made
+    const uint32_t none = 0; // finds the existing thing; making one of 0 would fail
     void *inside = rg_shared_get(box_device, "inside", &thing_kind, &none);
     assert_non_null(inside);
     rg_shared_put(box_device, inside);
@@ -285,7 +285,7 @@ static void things_are_shared_by_key_and_kind(void **state)
     rg_shared_put(*state, other);
     rg_shared_put(*state, kin);
     assert_int_equal(things_destroyed, 3);
-    // what had gone is made anew
+    // A thing that was destroyed is made again.
     rg_shared_put(*state, rg_shared_get(*state, key, &thing_kind, &nine));
     assert_int_equal(things_made, 5);
     assert_int_equal(things_destroyed, 4);
@@ -332,8 +332,8 @@ static double wall_ns(void)
     return (double)now.tv_sec * 1e9 + (double)now.tv_nsec;
 }
 
-// In nanoseconds: as long as the wall's clock says, by a factor of 2. Whether it is closer is for
-// `raingauge doctor` to tell.
+// Device time is in nanoseconds: within a factor of 2 of the wall clock. `raingauge doctor` checks
+// it more closely.
 static void time_is_in_nanoseconds(void **state)
 {
     int64_t first_ns, second_ns;

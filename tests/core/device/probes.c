@@ -1,4 +1,4 @@
-// Every operation of the dialect gives the same bits on every device and every instruction set.
+// Every operation of the dialect gives the same bits on every device and instruction set.
 #include "backends/blending.h"
 #include "core/base/log.h"
 #include "core/device/probe.h"
@@ -6,7 +6,7 @@
 #include "tests/core/device/suite.h"
 #include "tests/tools/expect.h"
 
-// Rows that must be exact come first and are; the drivers' own functions follow and may differ.
+// The first rows must be exact. The drivers' own functions come after them and may differ.
 static void check_operations(struct rg_device *device)
 {
     struct rg_probe_result results[RG_PROBE_COUNT];
@@ -30,8 +30,8 @@ static void operations_are_exact(void **state)
     check_operations(*state);
 }
 
-// So are those of programs that round quotients and roots themselves, as on many a GPU: here what
-// the driver makes of them is right already, and must stay so.
+// Programs that round quotients and roots themselves, as on many GPUs, are exact as well. Here the
+// driver's results are right already, and must stay so.
 static void operations_rounded_by_programs_are_exact(void **state)
 {
     if (!((struct rg_device *)*state)->backend->rough)
@@ -45,7 +45,7 @@ static void operations_rounded_by_programs_are_exact(void **state)
     assert_true(rg_device_close(device));
 }
 
-// What a GPU is asked when it is opened: software drivers blend as C does, whoever asks them.
+// Runs the check that a GPU gets when it is opened. Software drivers pass it: they blend as C does.
 static void drivers_blend_as_c_does(void **state)
 {
     (void)state;
@@ -78,7 +78,7 @@ static void check_scan(struct rg_device *device)
     rg_buf_destroy(sums);
 }
 
-// `cpu` holds its kernels once an instruction set, which RG_CPU_LEVEL picks.
+// `cpu` holds its kernels once for each instruction set, and RG_CPU_LEVEL picks one.
 static void every_cpu_level_gives_the_same(void **state)
 {
     (void)state;

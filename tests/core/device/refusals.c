@@ -55,7 +55,7 @@ static void images_refuse_bad_shapes(void **state)
     assert_int_equal(rg_device_work(device)->live_images, before.live_images);
 }
 
-// Larger than any memory: the line says how large.
+// Larger than any memory; the line names the size.
 static void images_refuse_to_be_vast(void **state)
 {
     static const enum rg_format formats[] = {RG_R16F, RG_RGBA32F};
@@ -93,7 +93,7 @@ static void unknown_kernels_are_refused(void **state)
     assert_refused(rg_pass_create(*state, ""), "''");
 }
 
-// A run that is right; each refusal below spoils one thing of it.
+// A correct run; each refusal below spoils one part of it.
 struct rig {
     struct rg_buf *source, *target;
     struct rg_pass *copy;

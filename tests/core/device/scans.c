@@ -58,7 +58,7 @@ static void check_compact(struct rg_scan *scan, struct rg_buf *flags, struct rg_
     rg_buf_destroy(found);
 }
 
-// One in `period` flags is set, to anything but 0.
+// One flag in `period` is set, to any value but 0.
 static void compacted_indices_equal_the_hosts(void **state)
 {
     static const uint32_t periods[] = {1, 2, 97, 1000000000};
@@ -91,7 +91,7 @@ static void scans_refuse_what_does_not_fit(void **state)
     struct rg_buf *values = filled_buf(*state, 1, 100, "values");
     struct rg_buf *sums = filled_buf(*state, 1, 101, "sums");
     struct rg_buf *small = filled_buf(*state, 1, 99, "small");
-    struct rg_buf *short_by_one = filled_buf(*state, 1, 100, "short by one"); // the total's place
+    struct rg_buf *short_by_one = filled_buf(*state, 1, 100, "short by one"); // lacks the total
     assert_non_null(scan);
     assert_refused(rg_scan_sum(scan, values, short_by_one, 100), "101 are needed");
     assert_refused(rg_scan_sum(scan, values, sums, 101), "101 elements");

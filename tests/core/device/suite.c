@@ -1,4 +1,4 @@
-// What every device must do: device_suite DEVICE [PART] runs the same tests on any of them.
+// Every device must pass these tests: device_suite DEVICE [PART] runs the same ones on any device.
 #include "core/base/log.h"
 #include "tests/core/device/suite.h"
 
@@ -18,7 +18,7 @@ static int close_device(void **state)
     return rg_device_close(*state) ? 0 : -1;
 }
 
-// 77: this machine has no such device.
+// 77 means that this machine has no such device.
 static int device_is_missing(void)
 {
     struct rg_device *device = rg_device_open(suite_device);
@@ -27,7 +27,7 @@ static int device_is_missing(void)
     return rg_failure_take().outcome == RG_UNSUPPORTED ? EXIT_UNSUPPORTED : 1;
 }
 
-// The parts of the suite, which can run side by side.
+// The parts of the suite, which may run side by side.
 static const struct part {
     const char *name;
     const struct suite_tests *files[8];
@@ -40,7 +40,7 @@ static const struct part {
     {"targets", {&target_tests, &light_tests, &layer_tests}},
 };
 
-// Adds the tests of a part to an array of so many, which may move.
+// Appends a part's tests to an array of this many, which may move.
 static void add_part(const struct part *part, struct CMUnitTest **tests, size_t *count)
 {
     for (int f = 0; part->files[f]; f++) {

@@ -1,4 +1,4 @@
-// What the files of the device suite share. A test's *state is the open device.
+// Shared by the files of the device suite. A test's *state is the open device.
 #ifndef RG_TESTS_CORE_DEVICE_SUITE_H
 #define RG_TESTS_CORE_DEVICE_SUITE_H
 
@@ -18,7 +18,7 @@
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
-extern const char *suite_device; // as the command line says it
+extern const char *suite_device; // as on the command line
 
 // Each file's tests.
 struct suite_tests {
@@ -31,20 +31,21 @@ extern const struct suite_tests buffer_tests, image_tests, texel_tests, kernel_t
 
 // Seeded words that look random.
 uint32_t noise(uint32_t i);
-uint32_t *noise_words(int count, uint32_t seed); // to be freed
+uint32_t *noise_words(int count, uint32_t seed); // the caller frees them
 
 struct rg_buf *make_buf(struct rg_device *device, const void *words, int count, const char *name);
 // A buffer of `count` words set to `value`.
 struct rg_buf *filled_buf(struct rg_device *device, uint32_t value, int count, const char *name);
-uint32_t *read_words(struct rg_buf *buf, int count); // to be freed
+uint32_t *read_words(struct rg_buf *buf, int count); // the caller frees them
 
-// Collects messages from here on instead of printing them. heard() stops and returns the line that
-// came since; more than one fails the test. heard_all() returns any number, one below the other.
+// listen() collects messages from then on instead of printing them. heard() ends that and returns
+// the line that came; more than one line fails the test. heard_all() returns any number of lines,
+// one below the other.
 void listen(void);
 const char *heard(void);
 const char *heard_all(void);
 
-// The call fails and says so in one line that contains `part`, which names the object.
+// The call must fail with one line that contains `part`, which names the object.
 #define assert_refused(call, part)                                                                 \
     do {                                                                                           \
         listen();                                                                                  \
@@ -55,7 +56,7 @@ const char *heard_all(void);
                      line_, part);                                                                 \
     } while (0)
 
-// As assert_refused, because the device lacks it.
+// As assert_refused, and the device must lack it: the fault is nobody's.
 #define assert_lacks(call, part)                                                                   \
     do {                                                                                           \
         assert_refused(call, part);                                                                \

@@ -1,4 +1,4 @@
-// The tiers of pictures that are a few pixels of rain on grey: each figure can be counted by hand.
+// The tiers of small pictures, a few pixels of rain on grey: each figure can be counted by hand.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 #include "core/image/srgb.h"
 #include "tests/tools/expect.h"
 
-// Tiles of 16 pixels do not fit: the last are 8 wide and 4 high.
+// Tiles of 16 pixels do not fit: the last ones are 8 wide and 4 high.
 enum { WIDTH = 40, HEIGHT = 20, GREY = 100 };
 
 // Codes of two pictures, and the light that they stand for.
@@ -37,7 +37,7 @@ static void begin(struct pair *pair)
         }
 }
 
-// Rain of this code in both, over so many pixels of a row.
+// Rain of this code in both pictures, over so many pixels of a row.
 static void rain(struct pair *pair, int y, int pixels, int code)
 {
     for (int x = 0; x < pixels; x++) {
@@ -107,8 +107,8 @@ static void test_mask(void **state)
     assert_int_equal(judge(&pair).mask_pixels, 2);
 }
 
-// Unless a screen is named it is 3,840 pixels and 0.7 m wide and seen from 0.7 m, and errors are
-// those that are seen there.
+// By default the screen is 3,840 pixels and 0.7 m wide, seen from 0.7 m; errors are those seen
+// there.
 static void test_usual_screen(void **state)
 {
     (void)state;
@@ -154,7 +154,7 @@ static void test_differences(void **state)
     }
 }
 
-// Of the mask alone, and with its sign; darker is as wrong as brighter.
+// The bias counts the mask alone and keeps its sign; darker is as wrong as brighter.
 static void test_bias(void **state)
 {
     (void)state;
@@ -173,7 +173,7 @@ static void test_bias(void **state)
     }
 }
 
-// A colour is looked for a pixel around, in each picture.
+// A colour may lie up to one pixel away, in either picture.
 static void test_matches(void **state)
 {
     (void)state;
@@ -199,7 +199,7 @@ static void test_matches(void **state)
     }
 }
 
-// Each tile counts by the pixels that it has.
+// A tile's mean is over the pixels that it has.
 static void test_tiles(void **state)
 {
     (void)state;

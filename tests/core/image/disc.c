@@ -24,7 +24,7 @@ static float *texel(const struct rg_picture *p, int x, int y)
     return p->texels + ((int64_t)y * p->width + x) * p->channels;
 }
 
-// The area of a texel inside the disc by a fine grid, over the disc's area.
+// The area of a texel inside the disc, counted on a fine grid, over the disc's area.
 static double share_inside(double dx, double dy, double radius)
 {
     int inside = 0;
@@ -34,8 +34,8 @@ static double share_inside(double dx, double dy, double radius)
     return inside / 1600.0 / (M_PI * radius * radius);
 }
 
-// A row has one chord, so that texels on the disc's edge are off by up to half of what a whole
-// one gets.
+// The blur draws one chord for each row. Texels on the disc's edge may thus be off by half of a
+// whole texel's share.
 static void a_point_becomes_a_disc(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void a_point_becomes_a_disc(void **state)
     }
 }
 
-// A disc far larger than the picture sees it mirrored again and again: its mean.
+// A disc far larger than the picture sees it mirrored again and again, so that it shows its mean.
 static void beyond_its_edges_a_picture_is_mirrored(void **state)
 {
     (void)state;
@@ -73,7 +73,7 @@ static void beyond_its_edges_a_picture_is_mirrored(void **state)
         assert_below(fabs((double)p.texels[i] - 3.5), 0.01);
     rg_picture_destroy(&p);
 
-    // At a corner a quarter of the disc is its own, and the rest the same quarter mirrored.
+    // At a corner a quarter of the disc is inside the picture, and the rest mirrors that quarter.
     p = dark(12, 12, 1);
     texel(&p, 0, 0)[0] = 1;
     assert_true(rg_picture_blur(&p, 7));

@@ -200,8 +200,8 @@ static void fill_noise(uint8_t *codes, uint32_t seed, int blocks)
     }
 }
 
-// Single pixels whose filtered colours nearly agree may be off by more than the mean: there the
-// power of 0.7 is steep, and enlarges the rounding of L*, which is around 1e-5.
+// Single pixels whose filtered colours nearly agree may be off by more than the mean. The power of
+// 0.7 is steep there and enlarges the rounding of L*, which is around 1e-5.
 static void map_equals_the_paper(void **state)
 {
     (void)state;
@@ -237,14 +237,14 @@ static void rain_equals_the_paper(void **state)
 
 // --- high dynamic range ---
 
-// ACES as it is published, of what an exposure of 0.6 leaves of a colour.
+// ACES as published, applied to a colour at an exposure of 0.6.
 static double aces(double x)
 {
     x *= 0.6;
     return fmin(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 1);
 }
 
-// What is mapped to 0.85, by halving.
+// The light that ACES maps to 0.85, found by halving.
 static double bright(void)
 {
     double low = 0, high = 100;
@@ -268,7 +268,7 @@ static void luminances(const struct rg_picture *picture, double *median, double 
         y[i] = 0.2126 * (double)t[0] + 0.7152 * (double)t[1] + 0.0722 * (double)t[2];
     }
     qsort(y, PIXELS, sizeof(double), ascending_doubles);
-    *median = y[PIXELS / 2]; // of an odd count
+    *median = y[PIXELS / 2]; // the count is odd
     *largest = y[PIXELS - 1];
 }
 
@@ -282,7 +282,7 @@ static void see(const struct rg_picture *picture, double exposure, struct vec *s
     }
 }
 
-// Light of a dozen stops, in blocks; `more` of it.
+// Light over a dozen stops, in blocks, times `more`.
 static struct rg_picture wide_picture(uint32_t seed, float more)
 {
     struct rg_picture picture;
@@ -346,7 +346,8 @@ static void hdr_in_closed_form(void **state)
     assert_true(rg_hdr_flip_map(&light, &light, 67, map, &hdr));
     for (int i = 0; i < PIXELS; i++)
         assert_equals(map[i], 0.0f);
-    // Even light, before black: one exposure, at which it is 0.85, differs in L* alone.
+    // Even light against black has one exposure, which maps the light to 0.85; it differs in L*
+    // alone.
     for (int i = 0; i < PIXELS * 3; i++)
         light.texels[i] = 512;
     struct vec green = {{0, 1, 0}}, blue = {{0, 0, 1}};
@@ -358,14 +359,14 @@ static void hdr_in_closed_form(void **state)
     assert_equals(hdr.start_exposure, hdr.stop_exposure);
     for (int i = 0; i < PIXELS; i++)
         assert_below(fabs((double)map[i] - due), 1e-5);
-    // A black reference, and values that are none, have a number, too.
+    // A black reference and values that are not finite give a number, too.
     light.texels[0] = INFINITY;
     light.texels[1] = NAN;
     light.texels[2] = -5;
     assert_true(rg_hdr_flip_map(&black, &light, 67, map, &hdr));
     for (int i = 0; i < PIXELS; i++)
         assert_true(map[i] > 0 && map[i] <= 1);
-    // Of what is below zero, or no number, nothing is seen.
+    // Negative light and NaN are seen as black.
     for (int i = 0; i < PIXELS * 3; i++)
         light.texels[i] = i % 2 ? -0.5f : NAN;
     assert_true(rg_hdr_flip_map(&black, &light, 67, map, &hdr));
@@ -385,7 +386,7 @@ static void known_values(void **state)
     assert_true(rg_flip_map(noise, noise, WIDTH, HEIGHT, 67, map));
     for (int i = 0; i < PIXELS; i++)
         assert_equals(map[i], 0.0f);
-    // Black to white is a difference of 100 in L* alone: closed form 0.9674.
+    // Black to white differs by 100 in L* alone; the closed form is 0.9674.
     struct vec green = {{0, 1, 0}}, blue = {{0, 0, 1}};
     double cmax = pow(hyab(hunt(green), hunt(blue)), 0.7);
     double expected = 0.95 + (pow(100, 0.7) - 0.4 * cmax) / (0.6 * cmax) * 0.05;
@@ -394,7 +395,7 @@ static void known_values(void **state)
     assert_true(rg_flip_map(black, white_codes, WIDTH, HEIGHT, 67, map));
     for (int i = 0; i < PIXELS; i++)
         assert_below(fabs((double)map[i] - expected), 1e-5);
-    // Green to blue is the largest difference there is.
+    // Green to blue is the largest possible difference.
     for (int i = 0; i < PIXELS; i++) {
         memcpy(black + i * 4, (uint8_t[]){0, 255, 0, 255}, 4);
         memcpy(white_codes + i * 4, (uint8_t[]){0, 0, 255, 255}, 4);
@@ -447,7 +448,7 @@ static void pooling_equals_sorting(void **state)
     qsort(in_mask, (size_t)masked, sizeof(float), ascending);
     for (int i = 0; i < COUNT; i++)
         sum += (double)sorted[i];
-    int quarter[3] = {0}; // ranks at which a quarter of the sum is passed, two, and three
+    int quarter[3] = {0}; // ranks at which one, two and three quarters of the sum are passed
     for (int i = 0; i < COUNT; i++) {
         for (int q = 0; q < 3; q++)
             quarter[q] += running + (double)sorted[i] <= sum * (q + 1) / 4;

@@ -1,5 +1,5 @@
 #define _DEFAULT_SOURCE // mkstemps
-// EXR files as other programs write them: without compression, which raingauge's own never are.
+// EXR files as other programs write them: without compression, which raingauge always uses.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -75,8 +75,8 @@ static void comes_back(const char *names, int channels, exr_pixel_type_t type)
     unlink(path);
 }
 
-// Of one channel of floats, the library puts the file's bytes right into the picture, and there is
-// nothing to unpack.
+// With one channel of floats the library reads straight into the picture, and there is nothing to
+// unpack.
 static void one_channel_of_floats(void **state)
 {
     (void)state;

@@ -68,14 +68,14 @@ static void closed_form(void **state)
         assert_int_equal(m.values_above[t], 1);
         assert_int_equal(m.pixels_above[t], 1);
     }
-    b.texels[(4 * 4 + 1) * 3] = 0.75f; // as large, in the row below: the first is told
-    b.texels[(3 * 4 + 3) * 3] = 0.75f; // and in its own
+    b.texels[(4 * 4 + 1) * 3] = 0.75f; // as large, in the row below: the first counts
+    b.texels[(3 * 4 + 3) * 3] = 0.75f; // and in the same pixel
     assert_true(rg_metrics_compute(&a, &b, &m));
     assert_equals(m.max, 0.5);
     assert_equals(m.max_x, 2);
     assert_equals(m.max_y, 3);
     assert_equals(m.max_channel, 1);
-    b.texels[(3 * 4 + 3) * 3 + 2] += 1e-5f; // less, behind the pixel's worst
+    b.texels[(3 * 4 + 3) * 3 + 2] += 1e-5f; // less, after the pixel's largest difference
     assert_true(rg_metrics_compute(&a, &b, &m));
     assert_int_equal(m.values_above[RG_ABOVE_COUNT - 1], 3);
     assert_int_equal(m.pixels_above[RG_ABOVE_COUNT - 1], 3);
@@ -93,7 +93,7 @@ static void nonfinite_values_are_counted(void **state)
     assert_true(rg_metrics_compute(&a, &b, &m));
     assert_equals(m.max, 0);
     assert_equals(m.mean, 0);
-    assert_true(isinf(m.psnr_db)); // they agree
+    assert_true(isinf(m.psnr_db)); // the pictures agree
     assert_int_equal(m.nonfinite_a, 2);
     assert_int_equal(m.nonfinite_mismatches, 0);
     a.texels[40 * 4 + 9] = -INFINITY;
@@ -153,7 +153,7 @@ static void openimageio_agrees(void **state)
             agree_up_to(oiio, most[i], channels);
 }
 
-// Colours are told as codes, alpha as it is: 20 against 10 of 255, and alpha 0.5 against 0.25.
+// Colours count as codes, alpha as it is: 20 against 10 of 255, and alpha 0.5 against 0.25.
 static void codes_in_closed_form(void **state)
 {
     (void)state;
@@ -175,9 +175,9 @@ static void codes_in_closed_form(void **state)
     assert_true(c.has_codes);
     assert_true(!c.has_hdr_flip);
     assert_equals(c.code_metrics.rms, m.rms);
-    assert_differs(c.metrics.rms, m.rms); // of light
+    assert_differs(c.metrics.rms, m.rms); // this one is of light
     rg_comparison_destroy(&c);
-    b.decoded = false; // of one of which there are no codes
+    b.decoded = false; // without codes in one picture there are no code metrics
     assert_true(rg_compare(&a, "a", &b, "b", NULL, &options, &c));
     assert_true(!c.has_codes && !c.has_hdr_flip);
     rg_comparison_destroy(&c);

@@ -1,5 +1,4 @@
-// Pictures in memory: their limits, their alpha, half the size; and the codes on either side of
-// each threshold.
+// Pictures in memory: limits, alpha, half the size, and the codes on either side of each threshold.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -45,7 +44,7 @@ static void test_limits(void **state)
     rg_picture_destroy(&picture);
 }
 
-// Alpha goes where all of it is 1, and nowhere else.
+// Alpha is dropped only if all of it is 1.
 static void test_alpha(void **state)
 {
     (void)state;
@@ -68,7 +67,7 @@ static void test_alpha(void **state)
         }
 }
 
-// Of odd sizes the last row and column go; whether codes were made linear is kept.
+// Odd sizes lose the last row and column; the flag `decoded` is kept.
 static void test_half(void **state)
 {
     (void)state;

@@ -12,7 +12,7 @@
 
 struct rain_look {
     int streaks;
-    int skip_every; // leave out each such streak; 0: none
+    int skip_every; // leaves out every n-th streak; 0: none
     int shift_px, shifted_streak, shifted_streak_px;
     float alpha_scale;
 };

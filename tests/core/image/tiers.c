@@ -1,4 +1,4 @@
-// The tiers accept what they are for and reject mutants of the rain, each by the tier named here.
+// The tiers accept honest rain and reject mutants of it, each by the tier named here.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,7 +56,7 @@ static struct rg_tiers judge(const struct rg_picture *b)
     return tiers;
 }
 
-// "holds" as a word of the tiers that hold, for messages that show all at once.
+// Compares all three tiers at once, so that a message shows each with its reason.
 static void assert_holds(const struct rg_tiers *t, bool t0, bool t1, bool t2)
 {
     if (t->of[RG_T0].holds != t0 || t->of[RG_T1].holds != t1 || t->of[RG_T2].holds != t2)
@@ -120,7 +120,7 @@ static void a_shift_by_one_is_geometry(void **state)
     struct rg_tiers t = judge(&mutant);
     assert_false(t.of[RG_T1].holds);
     assert_above(t.coverage_mismatches, 1000);
-    // The block's edge and tiles of few streaks apart, every streak is found again.
+    // Every streak is found again, except at the block's edge and in tiles of few streaks.
     assert_above(t.matched_a, 0.97);
     assert_above(t.matched_b, 0.97);
 }
@@ -136,7 +136,7 @@ static void a_streak_two_pixels_off_is_caught_by_t1(void **state)
     assert_false(t.of[RG_T1].holds);
     assert_above(t.coverage_mismatches, 10);
     assert_below(t.matched_a, 1);
-    assert_below(t.matched_b, 1); // seen by T2 too, below its share here
+    assert_below(t.matched_b, 1); // T2 sees it, too, but less than its threshold
 }
 
 static void stronger_rain_is_caught_by_t1_and_t2(void **state)
@@ -165,7 +165,7 @@ static void swapped_colours_are_caught(void **state)
     }
     struct rg_tiers t = judge(&mutant);
     assert_holds(&t, false, false, false);
-    assert_above(fabs(t.bias_codes), 5); // of one colour; over all of them it would cancel
+    assert_above(fabs(t.bias_codes), 5); // in one colour; over all of them it would cancel
 }
 
 static void a_flip_is_caught(void **state)
@@ -222,7 +222,7 @@ static void nan_in_one_picture_fails(void **state)
     assert_holds(&t, false, false, false);
 }
 
-// The true picture or the other: a value that is not finite in either is left out of the mean.
+// A value that is not finite, in either picture, is left out of the mean.
 static void values_that_are_not_finite_are_left_out(void **state)
 {
     (void)state;
@@ -240,7 +240,7 @@ static void values_that_are_not_finite_are_left_out(void **state)
     }
 }
 
-// Rain so dim that it is black when encoded is in no mask; the exposure brings it back.
+// Rain so dim that its code is black is in no mask; a higher exposure brings it into the mask.
 static void exposure_reveals_dim_rain(void **state)
 {
     (void)state;
@@ -273,8 +273,8 @@ static int bar_of(int i)
     return i / CHANNELS % WIDTH / BAR_PX;
 }
 
-// Bars of lamps before the honest rain, each brighter than the one before, and one of light below
-// black.
+// Bars of lamps in front of the honest rain, each brighter than the one before; the last bar is
+// light below black.
 static bool is_lamp(int i)
 {
     return i / CHANNELS % WIDTH % BAR_PX < 8 && i % CHANNELS < 3;
@@ -289,7 +289,7 @@ static void draw_lamps(struct rg_picture *picture)
                 bar_of(i) == BELOW_BLACK ? -3.0f : 1.2f * powf(2.5f, (float)bar_of(i));
 }
 
-// Of `mutant` before the lamps, over the whole picture.
+// Compares the lamps with `mutant` over the whole picture.
 static struct rg_tiers judge_lamps(float exposure)
 {
     struct rg_comparison c;
@@ -304,7 +304,7 @@ static struct rg_tiers judge_lamps(float exposure)
     return tiers;
 }
 
-// The lamps of some bars times a factor.
+// Judges the lamps with some bars multiplied by a factor.
 static struct rg_tiers scale_lamps(float factor, int first, int last)
 {
     draw_lamps(&mutant);
@@ -340,12 +340,12 @@ static void what_halves_round_is_arithmetic(void **state)
     assert_below(t.clamped_max, 6e-4);
 }
 
-// Each within the bound of all others.
+// Each case exceeds at most one bound of its tier.
 static void each_bound_beyond_white_decides(void **state)
 {
     (void)state;
     struct rg_tiers t =
-        scale_lamps(1.003f, 0, BELOW_BLACK); // a quarter of the picture, below a code
+        scale_lamps(1.003f, 0, BELOW_BLACK); // a quarter of the picture, by less than a code
     assert_holds(&t, false, true, true);
     assert_above(t.clamped_bias, 5e-4);
     assert_below(t.clamped_bias, 1e-3);
@@ -375,7 +375,7 @@ static void a_value_that_clips_on_one_side_is_told_apart(void **state)
     assert_holds(&t, false, false, false);
 }
 
-// A lamp of 1.2 is no light beyond white at a tenth of the exposure, and one of 117 still is.
+// At a tenth of the exposure a lamp of 1.2 no longer clips, and one of 117 still does.
 static void the_exposure_decides_what_clips(void **state)
 {
     (void)state;
@@ -392,8 +392,7 @@ static void the_exposure_decides_what_clips(void **state)
     assert_false(judge_lamps(0.1f).of[RG_T1].holds);
 }
 
-// Two lights below white that four times the exposure makes white are told apart, though nothing in
-// the pictures is beyond white as it stands.
+// Four times the exposure makes two lights below white clip: they must still be told apart.
 static void light_that_the_exposure_clips_is_compared(void **state)
 {
     (void)state;
@@ -436,7 +435,7 @@ static void infinite_lamps_agree_with_themselves_alone(void **state)
     rg_picture_destroy(&other);
 }
 
-// One lamp's pixel, off by a factor from 1.02 to 1000 either way, where it clips all the same.
+// A pixel of a lamp is off by a factor from 1.02 to 1000, either way, and still clips.
 static void seeded_mutants_of_lamps_are_rejected(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Frames of a clip: the codes that BT.709 gives colours, in closed cases and beside its formula in
+// Frames of a clip: the codes that BT.709 gives colours, in closed cases and against its formula in
 // double precision.
 #include <math.h>
 #include <setjmp.h>
@@ -26,7 +26,7 @@ static struct rg_picture picture_of(int width, int height, const uint8_t *codes)
     return picture;
 }
 
-// The frame of such a picture; behind it nothing is written.
+// The frame of such a picture; nothing may be written past its end.
 static void encode(int width, int height, const uint8_t *codes, uint8_t yuv[MOST_BYTES])
 {
     struct rg_picture picture = picture_of(width, height, codes);
@@ -49,7 +49,7 @@ static void expect_colour(uint8_t red, uint8_t green, uint8_t blue, int y, int c
     assert_int_equal(yuv[2], cr);
 }
 
-// The codes of colour bars of 100 %, as test signals have them.
+// The codes of colour bars of 100 %, as in test signals.
 static void colour_bars_have_their_codes(void **state)
 {
     (void)state;
@@ -63,7 +63,7 @@ static void colour_bars_have_their_codes(void **state)
     expect_colour(255, 0, 255, 78, 214, 230);
 }
 
-// The nearest code to a value, or either where it lies amid two.
+// The nearest code to a value; either neighbour if it lies halfway.
 static void expect_nearest(int code, double value)
 {
     assert_at_most(fabs(code - value), 0.5 + 1e-9);
@@ -86,8 +86,8 @@ static void every_code_is_the_nearest_to_the_formula(void **state)
     }
 }
 
-// 3 x 3 pixels: one square is whole, one has a column, one a row, and one a pixel alone. Red stands
-// in each square for as much as its pixels count.
+// 3 x 3 pixels make one whole square, one of a column, one of a row, and one of a single pixel. A
+// square's red is its share of the pixels that it has.
 static void squares_have_the_mean_of_their_pixels(void **state)
 {
     (void)state;
@@ -96,7 +96,7 @@ static void squares_have_the_mean_of_their_pixels(void **state)
         0,   0, 0, 0, 0, 0, 255, 0, 0, // black  black  red
         255, 0, 0, 0, 0, 0, 255, 0, 0, // red    black  red
     };
-    static const int red_pixels[] = {1, 2, 2, 4}; // of the four of each square
+    static const int red_pixels[] = {1, 2, 2, 4}; // in quarters of each square
     uint8_t yuv[MOST_BYTES];
     encode(3, 3, codes, yuv);
     assert_int_equal(rg_yuv_bytes(3, 3), 9 + 4 + 4);

@@ -37,7 +37,7 @@ static void test_corners_of_the_view(void **state)
     const double aspect = 1.5;
     float matrix[16];
     assert_true(rg_camera_matrix(&plain, (float)aspect, matrix));
-    // right on x, down on y: the upper right corner of the picture is (1, -1)
+    // x goes right and y down: the upper right corner of the picture is (1, -1).
     static const double distances[] = {2, 5, 50};
     for (int i = 0; i < 3; i++) {
         const double d = distances[i], point[3] = {aspect * d, d, 10 - d};
@@ -49,7 +49,8 @@ static void test_corners_of_the_view(void **state)
     }
 }
 
-// In double, straight from the definition: the camera's three axes, then the division by distance.
+// In double precision, straight from the definition: the camera's three axes, then the division by
+// distance.
 static void test_any_camera(void **state)
 {
     (void)state;
@@ -141,7 +142,7 @@ static void test_cameras_that_see_nothing(void **state)
 static void test_placements(void **state)
 {
     (void)state;
-    // of size 2 by 4 by 8, about (2, 3, 5)
+    // A box of size 2 by 4 by 8, about (2, 3, 5).
     static const float low[3] = {1, 1, 1}, high[3] = {3, 5, 9};
     struct rg_placement placement = {4, {0, 0, 0}, {10, 20, 30}};
     static const double corner[3] = {3, 5, 9};
@@ -150,7 +151,7 @@ static void test_placements(void **state)
     rg_place(low, high, &placement, matrix);
     apply(matrix, corner, result);
     expect_near(result, (const double[4]){10.5, 21, 32, 1}, 4, 1e-5);
-    // the half diagonal is (0.5, 1, 2): about x, y goes to z; about y, z to x; about z, x to y
+    // The half diagonal is (0.5, 1, 2). About x, y goes to z; about y, z to x; about z, x to y.
     static const struct {
         float turn[3];
         double expected[4];

@@ -1,5 +1,5 @@
-// The procedural city: its numbers, its bounds, that it is closed to whoever walks it, and that a
-// seed makes one city.
+// The procedural city: its numbers and bounds, no holes for walkers to see through, and one city
+// from one seed.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -94,7 +94,7 @@ static void the_full_city_is_of_the_same_plan(void **state)
     city_destroy(small);
 }
 
-// A face's corners turn counter-clockwise about its surface's normal, and lie in one plane.
+// A face's corners turn counter-clockwise about its surface's normal and lie in one plane.
 static void check_face(const struct city_faces *f, int i)
 {
     double u[3], v[3], w[3], n[3], area = 0, along = 0, off = 0;
@@ -111,7 +111,7 @@ static void check_face(const struct city_faces *f, int i)
         off += n[c] * w[c];
     }
     area = sqrt(area);
-    // Leaves are lit as the round crown that they stand for.
+    // Leaves have the normals of their round crown, not their own.
     const double least = is_leaf(f, i) ? 0.4 : 0.98;
     if (!(area > 0) || !(along > least * area) || !(fabs(off) <= 2e-3 * area))
         fail_msg("face %d: area %g, along its normal %g, out of its plane %g m", i, area / 2,
@@ -168,7 +168,8 @@ static void chunks_hold_the_faces(void **state)
 
 // --- rays ---
 
-// Where a ray meets a triangle, in lengths of `way`, from the front (1) or the back (-1); 0: not.
+// The side from which a ray meets a triangle: 1 the front, -1 the back, 0 neither. `distance` is in
+// lengths of `way`.
 static int meet(const double from[3], const double way[3], const float *a, const float *b,
                 const float *c, double *distance)
 {
@@ -194,7 +195,7 @@ static int meet(const double from[3], const double way[3], const float *a, const
     return det > 0 ? 1 : -1;
 }
 
-// Whether a ray comes within a millimetre of the chunk's bounds, which hold all its faces.
+// Whether a ray comes within a millimetre of a chunk's bounds, which hold all its faces.
 static bool comes_near(const struct city_chunk *chunk, const double from[3], const double way[3])
 {
     double in = 0, out = INFINITY;
@@ -212,7 +213,7 @@ static bool comes_near(const struct city_chunk *chunk, const double from[3], con
 }
 
 // The nearest face along a ray: 1 its front, -1 its back, 0 none. Leaves stand loosely: their backs
-// are not drawn, and what lies behind is seen.
+// are not drawn, and a ray goes on through them.
 static int first_met(const struct city_faces *f, const double from[3], const double way[3])
 {
     double nearest = INFINITY, distance;
@@ -240,7 +241,7 @@ static double chance(uint32_t *x)
     return (*x >> 8) * 0x1p-24;
 }
 
-// Whoever looks from the streets sees fronts of faces or the sky: no wall is missing or turned in.
+// From the streets one sees only fronts of faces or the sky: no wall is missing or turned inwards.
 static void no_wall_is_seen_from_behind(void **state)
 {
     (void)state;
@@ -250,7 +251,7 @@ static void no_wall_is_seen_from_behind(void **state)
         uint32_t x = 7;
         int behind = 0, sky = 0;
         for (int i = 0; i < rays; i++) {
-            // from above the avenue or the street across it, to all sides
+            // From above the avenue or the street across it, in all directions.
             const bool avenue = chance(&x) < 0.5;
             const double along = 380 * chance(&x) - 190, beside = 6 * chance(&x) - 3;
             const double from[3] = {avenue ? beside : along, 3 + 30 * chance(&x),
@@ -266,7 +267,7 @@ static void no_wall_is_seen_from_behind(void **state)
     }
 }
 
-// Rain that falls anywhere meets something, the ground at the least.
+// A vertical ray anywhere meets a front: the ground at the latest.
 static void the_ground_has_no_gap(void **state)
 {
     (void)state;
@@ -299,7 +300,7 @@ static void buildings_rise_towards_the_middle(void **state)
     city_destroy(city);
 }
 
-// Lamps stand in the streets, street lamps over the road, within the city.
+// Lamps are within the city, in the streets; street lamps are over the road.
 static void lamps_stand_in_the_streets(void **state)
 {
     (void)state;
@@ -376,7 +377,7 @@ static void textures_are_painted(void **state)
         for (int k = 0; k < i; k++)
             assert_int_not_equal(sums[i], sums[k]);
     }
-    // of 96 facades' texels, some tenth
+    // About a tenth of the texels of the 96 facades are lit.
     assert_in_range(lit, 96 * 64 * 64 / 20, 96 * 64 * 64 / 3);
     city_painter_destroy(painter);
 }

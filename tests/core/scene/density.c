@@ -1,4 +1,5 @@
-// Density maps: codes as they stand, sums against brute force, and what is no map.
+// Density maps: codes taken literally, sums against brute force, and refusal of files that are no
+// maps.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +20,7 @@
 #include "tests/oracle/streaks/packets.h"
 #include "tests/tools/expect.h"
 
-// A PNG of these bytes, of 8 or 16 bits (the more significant byte first) a channel.
+// A PNG of these bytes, with 8 or 16 bits a channel (the more significant byte first).
 static const char *write_png(int width, int height, int bits, int colour, const uint8_t *bytes)
 {
     const char *path = in_folder("map.png");
@@ -57,7 +58,7 @@ static void expect_near(double actual, double expected, double within)
 
 // --- values ---
 
-// All codes of 8 bits, then of 16: densities are codes, not the light that they encode.
+// All codes of 8 bits, then of 16: a density is the code, not the light that it encodes.
 static void test_codes_stand_as_they_are(void **state)
 {
     (void)state;
@@ -101,7 +102,7 @@ static void test_colours_and_alpha(void **state)
     rg_density_destroy(density);
 }
 
-// A file of floats is divided by its largest.
+// Floats are divided by the file's largest value.
 static void test_floats(void **state)
 {
     (void)state;
@@ -120,7 +121,7 @@ static void test_gradient(void **state)
     (void)state;
     struct rg_density *density = rg_density_gradient();
     assert_non_null(density);
-    // a cone of height 1 over a circle of radius 1 in a square of side 2
+    // A cone of height 1 over a circle of radius 1 in a square of side 2.
     expect_near(rg_density_mean(density), acos(-1) / 12, 1e-6);
     const int side = density->width;
     assert_int_equal(side, density->height);
@@ -162,7 +163,7 @@ static void test_mass_against_brute_force(void **state)
     struct rg_density *density = rig_map(WIDE, HIGH, texels);
     for (int i = 0; i < 3000; i++) {
         double x[2], y[2];
-        for (int k = 0; k < 2; k++) { // whole numbers, too
+        for (int k = 0; k < 2; k++) { // whole numbers among them
             x[k] = oracle_uniform(&random, 0, WIDE);
             y[k] = oracle_uniform(&random, 0, HIGH);
             if (i % 3 == 0)
@@ -178,7 +179,7 @@ static void test_mass_against_brute_force(void **state)
                 (double)texels[t] * overlap(left, right, t % WIDE) * overlap(top, bottom, t / WIDE);
         const double mass = rg_density_mass(density, left, top, right, bottom);
         expect_near(mass, expected, 1e-12);
-        assert_true(expected > 0 || mass == 0); // black is nothing at all
+        assert_true(expected > 0 || mass == 0); // the sum over black is exactly 0
     }
     rg_density_destroy(density);
 }
@@ -203,9 +204,9 @@ static void test_wrong_maps(void **state)
     expect_refused(2, 2, 1, (const float[]){1, -0.5f, 0, 0});
     expect_refused(2, 2, 1, (const float[]){1, NAN, 0, 0});
     expect_refused(2, 2, 1, (const float[]){1, 0, INFINITY, 0});
-    expect_refused(2, 1, 2, (const float[]){1, 0, 1, 0}); // transparent
+    expect_refused(2, 1, 2, (const float[]){1, 0, 1, 0}); // all of it transparent
     expect_refused(0, 0, 1, NULL);
-    expect_refused(65536, 1025, 1, NULL); // too large, found before a texel is read
+    expect_refused(65536, 1025, 1, NULL); // too large: refused before a texel is read
     rig_listen();
     assert_null(rg_density_read(in_folder("absent.png")));
     assert_int_equal(rig_errors(), 1);
@@ -219,7 +220,7 @@ static void test_wrong_maps(void **state)
     rg_density_destroy(NULL);
 }
 
-// One grey everywhere is rain that is the same everywhere.
+// A map of one grey means the same rain everywhere.
 static void test_constant_map(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// The dioramas: their published numbers, that their faces look outwards and enclose what is solid,
-// that their normals fit their faces, and that every machine builds the same.
+// The dioramas: their published numbers; faces that look outwards and enclose solids; normals that
+// fit their faces; the same build on every machine.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -45,7 +45,7 @@ static struct vector area_of(const struct rg_mesh *mesh, int face)
     return cross(minus(at(mesh->positions, k[1]), a), minus(at(mesh->positions, k[2]), a));
 }
 
-// --- places: vertices that lie together are one ---
+// --- places: vertices at the same point are one place ---
 
 struct places {
     int *of_vertex; // the first vertex at the same place
@@ -164,7 +164,7 @@ static void no_face_is_degenerate(void **state)
     }
 }
 
-// A normal is of unit length, and on its face's outer side, or beside it on a thin rim.
+// A normal has unit length, and lies on the outer side of its face. Few, on thin rims, may not.
 static void normals_fit_their_faces(void **state)
 {
     (void)state;
@@ -193,8 +193,8 @@ static int count_like(const struct edge *edges, int count, const struct edge *li
     return found;
 }
 
-// Two faces that meet in an edge go along it in opposite ways; where two solids touch in one, four
-// do, two each way.
+// Two faces that share an edge run along it in opposite directions. If two solids touch in an edge,
+// four faces do, two in each direction.
 static void faces_turn_alike(void **state)
 {
     (void)state;
@@ -214,7 +214,7 @@ static void faces_turn_alike(void **state)
     }
 }
 
-// What is closed encloses space, so that its faces look outwards; most of a scene is closed.
+// A closed part has a positive volume, so that its faces look outwards. Most of a scene is closed.
 static void solids_look_outwards(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Environment maps: files that are damaged are refused in one line, and cube maps have no seams.
+// Environment maps: damaged files are refused in one line, and cube maps have no seams.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -68,7 +68,7 @@ static void listen(enum rg_log_level level, const char *line, void *user)
     snprintf(lines->last, sizeof(lines->last), "%s", line);
 }
 
-// The environment is refused in exactly one line, which names the file and says this.
+// The environment is refused in exactly one line, which names the file and holds `why`.
 static void expect_refused(const char *path, const char *why)
 {
     struct lines lines = {0};
@@ -202,14 +202,14 @@ static void test_locating_inverts_direction(void **state)
     }
 }
 
-// Axes, edges and corners of the cube fall on some texel of a face.
+// Axes, edges and corners of the cube each fall on a texel of a face.
 static void test_seams_are_on_a_face(void **state)
 {
     (void)state;
     for (int i = 0; i < 27; i++) {
         const v3 d = v3_make((float)(i % 3 - 1), (float)(i / 3 % 3 - 1), (float)(i / 9 - 1));
         if (i == 13)
-            continue; // no direction
+            continue; // not a direction
         const cube_point c = cube_locate(d, SIZE);
         const float along[6] = {d.x, -d.x, d.y, -d.y, d.z, -d.z};
         assert_in_range(c.face, 0, 5);
@@ -219,7 +219,7 @@ static void test_seams_are_on_a_face(void **state)
     }
 }
 
-// Light that tells every direction from every other, and changes by 1 a radian at most.
+// Light that differs in every direction and changes by at most 1 a radian.
 static void unit_light(const double d[3], const void *user, double light[3])
 {
     (void)user;
@@ -228,7 +228,7 @@ static void unit_light(const double d[3], const void *user, double light[3])
         light[i] = 2 + d[i] / length;
 }
 
-// As a file brings it: faces alone, then borders from the neighbours.
+// Made as a file is read: faces alone, then borders from the neighbours.
 static struct rg_environment *make_closed(void)
 {
     struct rg_environment *environment = rg_environment_create(SIZE);
@@ -252,7 +252,7 @@ static void test_borders_come_from_the_neighbour(void **state)
                 double d[3], light[3];
                 rg_cube_direction(face, x, y, SIZE, d);
                 unit_light(d, NULL, light);
-                // A border's texel is its neighbour's nearest: at most a texel away, 2 / SIZE.
+                // A border's texel is the neighbour's nearest one, at most a texel away: 2 / SIZE.
                 for (int c = 0; c < 3; c++)
                     assert_below(
                         fabs((double)rg_environment_texel(environment, face, x, y)[c] - light[c]),
@@ -269,7 +269,7 @@ static double red_of(uint32_t texel)
 }
 
 // The outermost texels of a packed face hold the light of the cube's edge itself, so that both
-// faces hold the same: half a texel beside it, light differs by up to 1/PX.
+// faces agree. Half a texel beside it the light differs by up to 1/PX.
 static void test_packed_faces_end_on_the_edges(void **state)
 {
     (void)state;
@@ -280,7 +280,7 @@ static void test_packed_faces_end_on_the_edges(void **state)
     assert_true(rg_environment_pack(environment, PX, faces[0]));
     for (int face = 0; face < 6; face++) {
         for (int i = 0; i < PX * PX; i++) {
-            // From the centres of a face of four texels.
+            // Extrapolates from the centres of a face of four texels.
             double corner[3], next[3], down[3], d[3], light[3];
             const double x = (double)(i % PX) / (PX - 1), y = (double)(i / PX) / (PX - 1);
             rg_cube_direction(face, 0, 0, 2, corner);
@@ -290,7 +290,7 @@ static void test_packed_faces_end_on_the_edges(void **state)
                 d[c] = corner[c] + (next[c] - corner[c]) * (2 * x - 0.5) +
                        (down[c] - corner[c]) * (2 * y - 0.5);
             unit_light(d, NULL, light);
-            // 6 bits of red, dithered; and the mean of a few texels of the map.
+            // Red has 6 bits, dithered, and is the mean of a few texels of the map.
             if (fabs(red_of(faces[face][i]) - light[0]) > 1.0 / 32 + 0.01)
                 fail_msg("face %d, texel %d: %g, not %g", face, i, red_of(faces[face][i]),
                          light[0]);
@@ -300,7 +300,7 @@ static void test_packed_faces_end_on_the_edges(void **state)
     rg_environment_destroy(environment);
 }
 
-// Walks along all 12 edges and reads both sides: as near as neighbours within a face are.
+// Along all 12 edges, texels on both sides are as near to the light as any within a face.
 static void test_light_is_smooth_across_edges(void **state)
 {
     (void)state;
@@ -309,7 +309,7 @@ static void test_light_is_smooth_across_edges(void **state)
     uint32_t(*faces)[PX * PX] = malloc(6 * sizeof(*faces));
     rg_environment_pack(environment, PX, faces[0]);
     for (int edge = 0; edge < 12; edge++) {
-        const int axis = edge % 3; // along which the edge runs
+        const int axis = edge % 3; // the edge runs along it
         for (int i = 0; i < 200; i++) {
             for (int side = 0; side < 2; side++) {
                 float d[3];
@@ -334,7 +334,7 @@ static void test_light_is_smooth_across_edges(void **state)
 
 // --- out of focus ---
 
-// One half of all directions is lit: those on this side of a plane.
+// Half of all directions is lit: those on one side of a plane.
 static void half_light(const double d[3], const void *user, double light[3])
 {
     const double *axis = user;
@@ -350,8 +350,8 @@ static double beyond_chord(double distance)
     return (acos(at) - at * sqrt(1 - at * at)) / M_PI;
 }
 
-// Each direction sees what its disc has on the lit side, over edges and corners of the cube too.
-// A disc is 29 to 256 places, each between four texels: that is 1 in 29 off, and half a texel.
+// Each direction sees the lit part of its disc, also over edges and corners of the cube. A disc has
+// 29 to 256 samples, each between four texels: the error is up to 1 in 29, and half a texel.
 static void test_a_disc_around_each_direction(void **state)
 {
     (void)state;
@@ -386,14 +386,14 @@ static void test_a_disc_around_each_direction(void **state)
 
 // --- lat-long pictures ---
 
-// What a face shows in its middle.
+// The light in the middle of a face.
 static void middle_of(const struct rg_environment *environment, int face, float light[3])
 {
     const int half = environment->size / 2;
     memcpy(light, rg_environment_texel(environment, face, half, half), 3 * sizeof(float));
 }
 
-// The middle of the picture looks along -z, its right half lies towards +x, its top towards +y.
+// The picture's middle is at -z, its right half towards +x, its top towards +y.
 static void test_a_lat_long_lies_as_it_should(void **state)
 {
     (void)state;
@@ -424,7 +424,7 @@ static void test_a_lat_long_lies_as_it_should(void **state)
     assert_int_equal(unlink(path), 0);
 }
 
-// The picture goes on behind its edges, and its rows lie evenly about the horizon.
+// The picture wraps around at its sides, and its rows lie evenly about the horizon.
 static void test_a_lat_long_is_read_between_texels(void **state)
 {
     (void)state;
@@ -442,7 +442,7 @@ static void test_a_lat_long_is_read_between_texels(void **state)
     struct rg_environment *environment = rg_environment_load(path);
     assert_non_null(environment);
     const int half = environment->size / 2;
-    // Towards +z lies the edge: a texel beside it is of both columns.
+    // The picture's sides meet at +z: a texel beside that edge mixes both columns.
     for (int x = half - 1; x <= half; x++) {
         const float red = rg_environment_texel(environment, 4, x, half)[0];
         assert_above(red, 0.05f);
@@ -460,8 +460,8 @@ static void test_a_lat_long_is_read_between_texels(void **state)
 
 // --- packing ---
 
-// Light between two codes is one or the other so often that the mean is right: half a code is
-// 0.004 here.
+// Light between two codes is dithered to one or the other, so that the mean is right. Half a code
+// is 0.004 here.
 static void test_packing_is_right_on_average(void **state)
 {
     (void)state;

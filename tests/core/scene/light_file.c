@@ -1,4 +1,4 @@
-// Files of lights, good and bad, and the lights that a scene has without one.
+// Files of lights, good and bad, and the lights of a scene without a file.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,7 +49,7 @@ static void a_mark_is_no_part_of_a_file(void **state)
                           "\"position_m\": [0, 1, 2], \"colour\": [1, 1, 1]}]}",
                           &lights));
     assert_int_equal(lights.count, 1);
-    assert_false(read_text("\xef\xbb", &lights)); // half of it
+    assert_false(read_text("\xef\xbb", &lights)); // half of the mark
 }
 
 static void a_file_says_all_of_its_lights(void **state)
@@ -186,7 +186,8 @@ static void there_are_sixteen_lights_at_most(void **state)
     }
 }
 
-// A file is not parsed where no lights can take so much: a sound one with white space behind it.
+// Sixteen lights never need 256 KiB, so that a larger file is not parsed. Here white space follows
+// a sound one.
 static void files_are_of_256_kib_at_most(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Matrices: products against plain sums, and inverses against what they must undo.
+// Matrices: products against plain sums, and inverses undo their matrices.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 
 static uint32_t state_of_noise = 7;
 
-// Between -1 and 1.
+// A number from -1 to 1.
 static double noise(void)
 {
     state_of_noise = state_of_noise * 1664525u + 1013904223u;
@@ -28,7 +28,7 @@ static struct rg_matrix any_matrix(void)
     return m;
 }
 
-// A turn about x, then about y, and a way.
+// A rotation about x, then about y, then a translation.
 static struct rg_matrix any_motion(void)
 {
     const double a = 3 * noise(), b = 3 * noise();
@@ -62,7 +62,7 @@ static void test_products(void **state)
             double sum = 0;
             for (int k = 0; k < 4; k++)
                 sum += (double)a[4 * row + k] * (double)b[4 * k + column];
-            assert_equals((double)product[4 * row + column], sum); // small integers
+            assert_equals((double)product[4 * row + column], sum); // exact, being small integers
             assert_equals(exact.rows[row][column], sum);
         }
     }
@@ -87,7 +87,7 @@ static void test_turns(void **state)
             double sum = 0;
             for (int k = 0; k < 3; k++)
                 sum += left[row][k] * right[k][column];
-            assert_equals(product[row][column], sum); // small integers
+            assert_equals(product[row][column], sum); // exact, being small integers
         }
 }
 
@@ -103,7 +103,7 @@ static void test_inverses(void **state)
         assert_below(off_unit(&there), 1e-9);
         assert_below(off_unit(&back), 1e-9);
     }
-    // Its diagonal has nothing to divide by.
+    // Its diagonal is 0, so that elimination must exchange rows.
     const struct rg_matrix turned = {{{0, 0, 1, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}, {0, 1, 0, 0}}};
     struct rg_matrix inverse;
     assert_true(rg_matrix_inverse(&turned, &inverse));
@@ -177,7 +177,7 @@ static void test_what_kernels_read(void **state)
     assert_memory_equal(again, rows, sizeof(rows));
 }
 
-// Of pixels, counted from the left and from the top, where clip space is -1, to places, through a
+// From pixels, counted from the left and from the top (-1 in clip space), back to places, through a
 // matrix that scales, moves and divides.
 static void test_from_pixel(void **state)
 {

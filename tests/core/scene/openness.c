@@ -1,4 +1,4 @@
-// How much of the sky is seen beside a wall that has no end: geometry bounds it from both sides.
+// How much of the sky is seen beside an endless wall: geometry bounds it from both sides.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@ enum { SIDE = SCENERY_OPEN_SIDE, LEVELS = SCENERY_OPEN_LEVELS, MIDDLE = SIDE / 2
 
 static const double WALL_M = 40, FAR_M = 1000, CELL_M = 4;
 
-// The words of a city of these boxes, for the caller to free.
+// The words of a city of these boxes; the caller frees them.
 static uint32_t *words_of(struct city_box *boxes, int count)
 {
     const struct city city = {.boxes = boxes, .box_count = count};
@@ -41,8 +41,8 @@ static void a_field_is_open(void **state)
     free(words);
 }
 
-// What a wall leaves of the sky whose foot is so many cells away along the shortest way; `extra`
-// cells are added on every way.
+// The part of the sky that a wall leaves open. Its foot is so many cells away along the shortest
+// way; `extra` cells are added to each way.
 static double open_beside(double cells, double extra, int level)
 {
     double open = 0;
@@ -55,8 +55,8 @@ static double open_beside(double cells, double extra, int level)
     return open;
 }
 
-// Points are looked up each cell of a way, up to 30, and stand for half a cell to each side: the
-// wall is met half a cell before it begins, or up to a cell later.
+// The city samples a way at each cell, up to 30; a sample stands for half a cell to each side. Thus
+// it meets the wall half a cell early, or up to a cell later.
 static void a_wall_hides_what_it_must(void **state)
 {
     (void)state;
@@ -75,7 +75,7 @@ static void a_wall_hides_what_it_must(void **state)
                              rounding = 0.5 / 255 + 1e-6;
                 assert_at_least(open, open_beside(cells - 0.5, 0, level) - rounding);
                 assert_at_most(open, open_beside(cells - 0.5, 1, level) + rounding);
-                // A word holds its neighbours' points too.
+                // A word holds its neighbours' points as well.
                 for (int corner = 1; corner < 4; corner++)
                     assert_int_equal(point(words, x, z, level, corner),
                                      point(words, x + (corner & 1), z + (corner >> 1), level, 0));

@@ -1,5 +1,5 @@
-// The rain space: its frame and matrices, what a camera sees of it, and that drops stay where they
-// are when the local space moves.
+// The rain space: its frame and matrices, a camera's view of it, and drops that stay in place when
+// the local space moves.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,7 +46,7 @@ static void test_straight_down(void **state)
     expect_near(rain, expected, 3, 1e-12);
 }
 
-// Any direction of fall: the frame is the oracle's, there and back again, by points and by
+// For any direction of fall the frame is the oracle's, in both directions, for points and by
 // matrices.
 static void test_any_fall(void **state)
 {
@@ -63,7 +63,7 @@ static void test_any_fall(void **state)
             rain[k] = oracle_uniform(&random, -100, 100);
         }
         if (fabs(settings.fall[0]) > 0.98 * sqrt(length))
-            continue; // along x there is no x axis across the fall; see below
+            continue; // along x the frame differs; see below
         struct rg_rain_space space;
         assert_true(rg_rain_space_make(&settings, &space));
         for (int k = 0; k < 3; k++)
@@ -85,13 +85,13 @@ static void test_any_fall(void **state)
         expect_near(back, rain, 3, 1e-4);
         assert_equals(there[3], 1);
         assert_equals(back[3], 1);
-        rg_rain_to_clip(&space, to_rain, to_world); // there and back: nothing
+        rg_rain_to_clip(&space, to_rain, to_world); // there and back is the identity
         for (int k = 0; k < 16; k++)
             assert_below(fabs((double)to_world[k] - (k % 5 == 0)), 1e-4);
     }
 }
 
-// Rain that falls along x still has a frame: of length 1, at right angles, x cross y being s.
+// Rain that falls along x still has a frame: unit axes at right angles, with x cross y = s.
 static void test_fall_along_x(void **state)
 {
     (void)state;
@@ -120,8 +120,8 @@ static void test_slant(void **state)
     expect_near(fall, (const double[]){0, -sqrt(0.75), 0.5}, 3, 1e-12);
 }
 
-// The frustum's corners project into the picture's corners, near ones to depth 0; the far ones lie
-// beyond all of the rain space.
+// The frustum's corners project into the picture's corners, the near ones to depth 0. The far ones
+// lie beyond all of the rain space.
 static void test_view_corners(void **state)
 {
     (void)state;
@@ -160,15 +160,15 @@ static void test_view_corners(void **state)
 
 // --- the local space ---
 
-// Where a drop is in the world, s in the rain frame.
+// A drop's place in the world: s in the rain frame.
 static double place(double start, double time_s, double top_m, double height_m)
 {
     const double turns = start + rg_rain_run(8.16, time_s, top_m, height_m);
     return top_m + height_m * (turns - floor(turns));
 }
 
-// The local space moves up and down with the observer; drops do not, but for whole local spaces
-// where they leave it.
+// The local space moves up and down with the observer, and drops do not. A drop that leaves it
+// returns a whole local space away.
 static void test_drops_stay_where_they_are(void **state)
 {
     (void)state;
@@ -190,7 +190,7 @@ static void test_drops_stay_where_they_are(void **state)
             assert_below(fabs(other - s), 1e-6);
         stayed += inside;
         came_in_again += !inside;
-        // and it falls at its speed
+        // The drop falls at its speed.
         const double later = place(start, time + 0.25, top, height);
         const double fallen = (later - s - 8.16 * 0.25) / height;
         assert_below(fabs(fallen - rint(fallen)), 1e-9);
@@ -199,9 +199,8 @@ static void test_drops_stay_where_they_are(void **state)
     assert_above(came_in_again, 1000);
 }
 
-// Against the thesis's way, which adds to the run position frame by frame: time over (height over
-// speed), and (h'_o - h_o) / h_l in clip coordinates, h_o being the observer's distance from the
-// top.
+// Against the thesis, which adds to the run position frame by frame. It adds time / (height /
+// speed) and, in clip coordinates, (h'_o - h_o) / h_l; h_o is the observer's distance from the top.
 static void test_run_is_the_thesis_sum(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Surfaces of the city: where textures lie upon them, how wet they get, their tint; and chunks of
-// faces that are made here.
+// Surfaces of the city: where their textures lie, how wet they get, their tint; and chunks of
+// made-up faces.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,7 +31,7 @@ static const uint32_t *words_of(const struct city_builder *b, uint32_t surface)
     return b->city->faces.surfaces + (size_t)surface * SCENERY_SURFACE_WORDS;
 }
 
-// 16 bits, with a sign for scales and without for offsets.
+// 16 bits: signed for scales, unsigned for offsets.
 static int scale(uint32_t word, int upper)
 {
     return (int16_t)(word >> (upper ? 16 : 0) & 0xffff);
@@ -44,7 +44,7 @@ static int offset(uint32_t word, int upper)
 
 static const point east = {1, 0, 0}, up = {0, 1, 0};
 
-// A texture is 4 m wide unless the look says otherwise. Its row 0 is its top: on walls v runs
+// A texture is 4 m wide unless the look says otherwise, and its row 0 is its top. On walls v runs
 // against y, on the ground along z.
 static void test_upon_the_world(void **state)
 {
@@ -55,7 +55,7 @@ static void test_upon_the_world(void **state)
     const uint32_t wall = city_surface(&b, &brick, east, NULL);
     const uint32_t ground = city_surface(&b, &brick, up, NULL);
     const uint32_t fine = city_surface(&b, &tiles, east, NULL);
-    assert_int_equal(city_surface(&b, &brick, east, NULL), wall); // equal ones are one
+    assert_int_equal(city_surface(&b, &brick, east, NULL), wall); // equal ones are shared
     assert_int_equal(b.city->faces.surface_count, 3);
     assert_int_equal(scale(words_of(&b, wall)[SCENERY_SCALES], 0), 8192 / 4);
     assert_int_equal(scale(words_of(&b, wall)[SCENERY_SCALES], 1), -8192 / 4);
@@ -66,7 +66,7 @@ static void test_upon_the_world(void **state)
     end(&b);
 }
 
-// Where a texture begins, it is 0: at 1 m with half a texture a metre, half of one lies before.
+// A texture is 0 where it begins: at 1 m and half a texture a metre, half a texture lies before it.
 static void test_mapped(void **state)
 {
     (void)state;
@@ -100,7 +100,7 @@ static void test_looks(void **state)
         assert_int_equal(words[SCENERY_LOOK] & 255, 9);
         assert_int_equal(scenery_kind(words[SCENERY_LOOK]), kinds[i].kind);
         assert_int_equal(words[SCENERY_LOOK] >> SCENERY_GLOW_BIT & 7, 5);
-        // 255 of red, 128 of green and 64 of blue, in 5, 6 and 5 bits
+        // 255 of red, 128 of green and 64 of blue in 5, 6 and 5 bits.
         const uint32_t tint = words[SCENERY_LOOK] >> SCENERY_TINT_BIT;
         assert_int_equal(tint & 31, 31);
         assert_int_equal(tint >> 5 & 63, 32);
@@ -109,8 +109,8 @@ static void test_looks(void **state)
     end(&b);
 }
 
-// A chunk has a way to look that all its faces have; leaves, lit as the crown that they stand for,
-// have none.
+// A chunk has a normal if all its faces share it. Leaves have none, since they are lit as their
+// crown.
 static void test_ways(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Parameters by name, of a table that is made here: what is taken, what is refused and why, and
-// how a value prints; and the ranges of all techniques' parameters.
+// Parameters by name, in a made-up table: accepted and refused values, the reasons, and how a value
+// prints. Also the ranges of all techniques' parameters.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@ struct settings {
     int drops, look, size;
     double slope;
     char model[RG_PATH_SIZE];
-    int behind; // is written by nobody
+    int behind; // nothing may write it
 };
 
 #define AT(field) offsetof(struct settings, field)
@@ -71,7 +71,7 @@ static void assert_takes(struct settings *settings, const char *assignment)
         fail_msg("%s: %s", assignment, rg_last_error());
 }
 
-// It is refused for a reason that holds these words, and changes nothing.
+// The assignment is refused for a reason that contains `words`, and changes nothing.
 static void assert_refuses(const char *assignment, const char *words)
 {
     struct settings settings = defaults(), before = settings;
@@ -117,7 +117,7 @@ static void test_numbers(void **state)
     assert_refuses("slope=2.01", "out of range; -2 to 2 deg");
 }
 
-// A number as it prints in a list of parameters, assigned to one of them.
+// Assigns a number, printed with so many digits, to a parameter.
 static bool takes_number(const struct rg_param_table *params, void *settings, const char *name,
                          double value, int digits)
 {
@@ -143,7 +143,7 @@ static void assert_range_holds(const struct rg_param_table *params, const struct
                  param->min, param->max);
 }
 
-// Every number of every technique takes both ends of its range as they print, and nothing beyond.
+// Every number of every technique accepts both ends of its range as printed, and nothing beyond.
 static void test_ranges(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void test_choices(void **state)
     assert_refuses("size=small smaller", "is none of");
 }
 
-// What is assigned behind a preset stands over it.
+// An assignment after a preset overrides it.
 static void test_presets(void **state)
 {
     (void)state;
@@ -221,7 +221,7 @@ static void test_names(void **state)
     assert_refuses("=1", "KEY=VALUE");
 }
 
-// A value prints as it can be given again.
+// A printed value can be assigned again.
 static void test_texts(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// What a technique is said to need is what it takes; and what is more than is allowed is refused in
-// one line with the numbers, and leaves nothing.
+// A technique takes exactly the memory that it says it needs. A request above the limit is refused
+// in one line with the numbers, and leaves nothing behind.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,8 +18,8 @@
 #include "core/techniques/technique.h"
 #include "tests/tools/expect.h"
 
-// Settings that change what is taken: of images, buffers, textures and meshes. Those of scenes are
-// small, for opening one takes seconds; they stand last.
+// Settings that change the use of memory: images, buffers, textures and meshes. Scenes are small
+// and come last, since opening one takes seconds.
 static const struct subject {
     const char *technique, *set;
     int width, height;
@@ -57,7 +57,7 @@ static void *settings_of(const struct rg_technique *technique, const char *set)
     return settings;
 }
 
-// Bytes that one frame took on the device at most.
+// The most bytes that one frame took on the device.
 static int64_t taken_by(const struct subject *s, struct rg_device *device, const void *settings)
 {
     const struct rg_technique *technique = rg_technique_find(s->technique);
@@ -94,7 +94,8 @@ static void what_is_counted_is_what_is_taken(void **state)
     }
 }
 
-// One byte less than is needed is refused; all of it is enough. Whatever was taken is given back.
+// Too little memory is refused, and exactly enough is accepted. A refused instance gives all memory
+// back.
 static void what_exceeds_what_is_allowed_is_refused(void **state)
 {
     (void)state;
@@ -106,7 +107,7 @@ static void what_exceeds_what_is_allowed_is_refused(void **state)
         char text[RG_MEMORY_TEXT];
         const int64_t needed = rg_instance_bytes(technique, device, settings, s->width, s->height);
         const int64_t target = (int64_t)s->width * s->height * 8;
-        rg_memory_allow(target); // the first image alone
+        rg_memory_allow(target); // only the first image fits
         logged = 0;
         rg_log_listen(count_lines, NULL);
         assert_null(rg_instance_open(technique, device, settings, s->width, s->height));
@@ -129,8 +130,8 @@ static long most_resident_kib(void)
     return usage.ru_maxrss;
 }
 
-// A large picture is counted before anything of it is taken, so that refusing it takes no time. It
-// runs first, while this process is small.
+// A large picture is counted before any of its memory is taken, so that a refusal takes no time.
+// The test runs first, while this process is small.
 static void large_pictures_are_refused_before_anything_is_taken(void **state)
 {
     (void)state;
@@ -146,7 +147,7 @@ static void large_pictures_are_refused_before_anything_is_taken(void **state)
     free(settings);
 }
 
-// A picture's file takes what it is said to take at least, and at most twenty times that.
+// A picture's file takes at least the bytes that were announced, and at most twenty times as many.
 static void files_take_what_they_are_said_to_take(void **state)
 {
     (void)state;

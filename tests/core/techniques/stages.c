@@ -1,4 +1,4 @@
-// Stages and assets: bound by name, refused at opening where a name is wrong.
+// Stages and assets are bound by name; opening refuses a wrong name.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 
 enum { WORDS = 64 };
 
-// A technique of one kernel, which copies words and turns some of their bits.
+// A technique of one kernel, which copies words and flips some of their bits.
 struct copier {
     struct rg_instance base;
     struct probe_copy_params copy, again;
@@ -48,7 +48,7 @@ static void read(struct copier *c, const char *name, uint32_t words[WORDS])
 
 #define AT(field) offsetof(struct copier, field)
 
-// Opens one row, which is refused in one line that holds each of the words.
+// Opens one row, which must be refused in one line that holds both words.
 static void expect_refused(const struct rg_stage *row, const char *one, const char *two)
 {
     struct copier c;
@@ -149,7 +149,7 @@ static void swapped_assets_are_each_other(void **state)
     rg_swap(rg_asset_find(&c.base, "copied"), rg_asset_find(&c.base, "kept"));
     read(&c, "kept", kept);
     assert_memory_equal(kept, before, sizeof(kept));
-    c.copy.salt = 1; // the stage writes what is called so now
+    c.copy.salt = 1; // the stage writes the asset that has the name now
     assert_true(rg_stage(&c.base, 0));
     read(&c, "copied", copied);
     read(&c, "kept", kept);

@@ -17,7 +17,7 @@ struct way {
     bool scissor, counted;
 };
 
-// What a draw left.
+// The results of a draw.
 struct drawn {
     uint32_t *colour, *depth, *samples;
     int colour_words;
@@ -163,7 +163,7 @@ static uint32_t word_at(int at, enum rg_format format)
     return (low | high << 16) & finite;
 }
 
-// A row of the target in one colour: magnitudes from 1e-9 to 1e6, or eighths of a byte's steps.
+// A row of the target in one colour, from 1e-9 to 1e6, or in eighths of a byte's steps.
 static void fill_row(float *quad, int row, enum rg_format format)
 {
     const float top = 2.0f * (float)row / ROWS - 1, bottom = 2.0f * (float)(row + 1) / ROWS - 1;

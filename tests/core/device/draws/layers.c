@@ -1,5 +1,5 @@
-// Light that gathers in a layer of floats from black and then meets what lies behind it
-// (core/techniques/stages/layer.h), against double precision.
+// Light gathers in a layer of floats, from black, and then meets the picture behind it
+// (core/techniques/stages/layer.h). Checked against double precision.
 #include <math.h>
 #include <stdio.h>
 
@@ -22,8 +22,8 @@ static double value_of(uint32_t half)
     return half & 0x8000 ? -size : size;
 }
 
-// The half nearest to a number, of two as near the even one. Subnormal ones are not stored: 0 and
-// the least normal half are neighbours.
+// The half nearest to a number; of two as near, the even one. Subnormal halves are not stored, so
+// that 0 and the smallest normal half are neighbours.
 static uint32_t half_nearest(double value)
 {
     uint32_t best = 0;
@@ -76,7 +76,7 @@ static void meet(const struct layer *l, uint16_t halves[4 * TEXELS])
     rg_pass_destroy(pass);
 }
 
-// Blends so many layers of one light and alpha over all of the layer.
+// Blends this many layers over the whole layer, which share one light and alpha.
 static void gather(const struct layer *l, int layers, double light, double alpha)
 {
     static const float corners[16] = {-1, -1, 0, 1, 1, -1, 0, 1, 1, 1, 0, 1, -1, 1, 0, 1};
@@ -102,7 +102,7 @@ static void gather(const struct layer *l, int layers, double light, double alpha
     free(quads);
 }
 
-// What layers leave of a pixel, by the sum of a geometric series.
+// The light that layers leave in a pixel, by the sum of a geometric series.
 static double due_of(int drawn, int layers, double light, double alpha, double behind)
 {
     const double kept = pow(1 - alpha / layers, drawn);
@@ -110,7 +110,7 @@ static double due_of(int drawn, int layers, double light, double alpha, double b
     return gathered + behind * kept;
 }
 
-// Layers that the kernel of quads leaves out at a pixel.
+// How many layers the kernel of quads draws at a pixel; it leaves some out.
 static int drawn_at(int layers, int x, int y)
 {
     int drawn = 0;
@@ -152,7 +152,7 @@ static void faint_layers_add_up(void **state)
         }
 }
 
-// --- a loop in C, and what devices draw: formats, ways to blend, depth ---
+// --- a loop in C against devices: formats, ways to blend, depth ---
 
 enum { PANES = 300 };
 
@@ -165,7 +165,7 @@ static float unit(uint32_t i)
     return (float)(noise(i) >> 8) / (1 << 24);
 }
 
-// From faint to opaque; each tenth hides all.
+// From faint to opaque; every tenth pane is opaque.
 static struct pane pane_of(int i)
 {
     const uint32_t at = 8 * (uint32_t)i;
@@ -174,7 +174,8 @@ static struct pane pane_of(int i)
                          unit(at + 5)};
 }
 
-// Panes over all of the target, whose pixels leave some out (tests/kernels/drawing/quads.h).
+// Panes over the whole target. The kernel leaves some of their pixels out
+// (tests/kernels/drawing/quads.h).
 static void write_panes(float *quads)
 {
     static const float beside[4] = {-1, 1, 1, -1}, below[4] = {-1, -1, 1, 1};
@@ -191,15 +192,15 @@ static void write_panes(float *quads)
     }
 }
 
-// A number as a format holds it once it is blended.
+// A number as a format stores it after blending.
 static float kept_in(enum rg_format format, float value)
 {
     int exponent;
     if (format == RG_RGBA32F)
         return value;
     frexp((double)value, &exponent);
-    const double step = ldexp(1, (exponent > -13 ? exponent : -13) - 11); // between halves
-    return (float)(floor((double)value / step) * step);                   // cut off
+    const double step = ldexp(1, (exponent > -13 ? exponent : -13) - 11); // the distance of halves
+    return (float)(floor((double)value / step) * step);                   // rounds down
 }
 
 static int code_of(float value)
@@ -213,7 +214,7 @@ static int kept_code(int target, int rest)
     return (t + (t >> 8) + 128) >> 8;
 }
 
-// One channel: source + target (1 - alpha), or their sum; multiplied and added apart.
+// One channel: source + target (1 - alpha), or source + target. Product and sum round separately.
 static float blend_one(enum rg_format format, enum rg_blend blend, const struct pane *pane, int c,
                        float target)
 {
@@ -307,9 +308,10 @@ static void every_format_is_blended_as_a_loop_in_c_does(void **state)
                                formats[f]);
 }
 
-// --- a layer that meets what lies behind it ---
+// --- a layer meets the picture behind it ---
 
-// Numbers between halves, halves, the least and the largest, and what no half holds.
+// Halves, numbers between halves, the smallest and the largest half, and numbers that no half
+// holds.
 static float number(int i)
 {
     static const float odd[] = {0.0f,     -0.0f,  6.103515625e-05f, 3.0517578e-05f, 3.06e-05f,
@@ -322,7 +324,7 @@ static float number(int i)
                                    (i & 1 ? -1.0f : 1.0f);
 }
 
-// What meets a clear background is rounded to the nearest half, once.
+// On a clear background a layer is rounded to the nearest half, once.
 static void they_are_rounded_to_the_nearest_half(void **state)
 {
     static const uint16_t black[4 * TEXELS] = {0};
@@ -340,7 +342,7 @@ static void they_are_rounded_to_the_nearest_half(void **state)
     free_layer(&l);
 }
 
-// Where no rain is, a background stays as it is.
+// Without rain a background stays as it is.
 static void a_clear_layer_changes_nothing(void **state)
 {
     uint16_t back[4 * TEXELS], halves[4 * TEXELS];

@@ -1,4 +1,5 @@
-// DRAW programs with lights: every device as cpu:reference, to the last bit, and lights add up.
+// DRAW programs with lights: every device draws as cpu:reference to the last bit, and lights add
+// up.
 #include <stdio.h>
 
 #include "tests/core/device/draws/quads.h"
@@ -19,7 +20,7 @@ struct way {
     bool plain;
 };
 
-// What draws take, on one device.
+// A draw's objects on one device.
 struct rig {
     struct rg_pass *pass;
     struct rg_buf *quads, *lights;
@@ -97,7 +98,7 @@ static void destroy_rig(struct rig *rig)
     rg_image_destroy(rig->gobos);
 }
 
-// Colour, then depth; to be freed.
+// Colour, then depth; the caller frees them.
 static uint32_t *draw(const struct rig *rig, const struct way *way, size_t *words)
 {
     struct rg_device *device = rig->pass->device;
@@ -164,8 +165,8 @@ static void programs_with_lights_draw_alike(void **state)
     assert_true(rg_device_close(reference));
 }
 
-// What a device keeps for an item and a light is what a pixel would reckon there: a program that
-// has records draws the picture of the one that has none.
+// A device may store records for an item and a light, which pixels would compute anyway. Thus
+// programs with and without records draw the same picture.
 static void records_of_lights_change_nothing(void **state)
 {
     struct rig due = make_rig(*state, "test_lights");
@@ -187,7 +188,7 @@ static void check_sum(const struct rig *rig, int lights, const float *sums)
     free(together);
 }
 
-// All lights together leave the float sum of what each leaves alone, in their order.
+// All lights together give the float sum of each light alone, in their order.
 static void lights_add_up_in_order(void **state)
 {
     struct rig rig = make_rig(*state, "test_lights");

@@ -99,7 +99,7 @@ void quads_fill(float *quads, int count, int width, int height, enum quad_kind o
         enum quad_kind kind = only;
         if (only == QUAD_KINDS) {
             kind = (enum quad_kind)((uint32_t)i % QUAD_KINDS);
-            // Few of what covers much.
+            // Keep large kinds rare, since they cover much.
             if ((kind == QUAD_LARGE || kind == QUAD_HUGE || kind == QUAD_BEHIND) && i % 8)
                 kind = QUAD_STREAK;
         }

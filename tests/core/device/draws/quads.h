@@ -1,4 +1,4 @@
-// Seeded quads of every kind that a rasteriser may stumble over, for tests of DRAW passes.
+// Seeded quads of every kind that a rasteriser may get wrong, for tests of DRAW passes.
 #ifndef RG_TESTS_CORE_DEVICE_DRAWS_QUADS_H
 #define RG_TESTS_CORE_DEVICE_DRAWS_QUADS_H
 
@@ -17,8 +17,8 @@ enum quad_kind {
     QUAD_KINDS
 };
 
-// Fills `count` quads of TEST_QUAD_WORDS floats for a target of width x height. Kind `only`, or all
-// of them mixed where it is QUAD_KINDS.
+// Fills `count` quads of TEST_QUAD_WORDS floats for a target of width x height. All are of kind
+// `only`, or a mix of all kinds if it is QUAD_KINDS.
 void quads_fill(float *quads, int count, int width, int height, enum quad_kind only, uint32_t seed);
 
 #endif

@@ -1,19 +1,19 @@
-// The API's own occlusion queries, against samples that fragments count on cpu:reference.
+// The API's own occlusion queries, against the samples that fragments count on cpu:reference.
 #include "tests/core/device/draws/quads.h"
 #include "tests/core/device/suite.h"
 #include "tests/tools/expect.h"
 
 enum { WIDTH = 333, HEIGHT = 217, QUADS = 20000, FEW = 96 };
 
-// One way to ask.
+// One way to query.
 struct way {
     enum rg_depth_mode depth;
     enum rg_cull cull;
     bool scissor;
-    int items_a_query, first; // the item that the run begins with
+    int items_a_query, first; // the run's first item
 };
 
-// Depth that differs from pixel to pixel, so that queries see some of their quads.
+// Depth that differs between pixels, so that queries see only some of their quads.
 static struct rg_image *make_depth(struct rg_device *device)
 {
     const struct rg_image_desc desc = {RG_D32F, WIDTH, HEIGHT, 1, 1};
@@ -26,7 +26,7 @@ static struct rg_image *make_depth(struct rg_device *device)
     return depth;
 }
 
-// What a draw of `way` takes, on one device.
+// The objects that a draw of `way` needs, on one device.
 struct rig {
     struct rg_pass *pass;
     struct rg_buf *quads, *samples;
@@ -79,7 +79,7 @@ static bool draw(const struct rig *rig, const struct way *way)
                                                    .draw = &to});
 }
 
-// By item, as fragments of cpu:reference count.
+// Samples by item, as fragments of cpu:reference count them.
 static uint32_t *counted(const struct way *way)
 {
     struct rg_device *reference = rg_device_open("cpu:reference");
@@ -103,7 +103,7 @@ static uint32_t sum_of(const uint32_t *samples, const struct way *way, int query
     return sum;
 }
 
-// Twice, because answers do not add up.
+// Draws twice, because answers must not add up.
 static void check_way(struct rg_device *device, const struct way *way)
 {
     const int queries = (QUADS + way->items_a_query - 1) / way->items_a_query;
@@ -133,7 +133,7 @@ static void queries_count_what_fragments_count(void **state)
         {RG_DEPTH_TEST, RG_CULL_NONE, false, 64, 0},
         {RG_DEPTH_TEST, RG_CULL_BACK, true, 160, 0},
         {RG_DEPTH_TEST, RG_CULL_FRONT, false, 96, 9600},
-        {RG_DEPTH_TEST, RG_CULL_NONE, false, 32768, 0}, // all in one
+        {RG_DEPTH_TEST, RG_CULL_NONE, false, 32768, 0}, // all in one query
     };
     for (int i = 0; i < COUNT_OF(ways); i++)
         check_way(*state, &ways[i]);
@@ -148,7 +148,7 @@ static void queries_that_make_no_sense_are_refused(void **state)
     assert_refused(draw(&rig, &(struct way){.items_a_query = 64, .first = 32}), "from item 32");
     assert_refused(draw(&rig, &(struct way){.items_a_query = 32}), "2 counters for 3 queries");
     rg_buf_destroy(rig.samples);
-    rig.samples = filled_buf(device, 0, 1, "one counter"); // the second query is not a whole one
+    rig.samples = filled_buf(device, 0, 1, "one counter"); // too few: the second query is partial
     assert_refused(draw(&rig, &(struct way){.items_a_query = 64}), "1 counters for 2 queries");
     rg_buf_destroy(rig.samples);
     rig.samples = NULL;

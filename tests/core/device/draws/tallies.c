@@ -1,4 +1,4 @@
-// What a run comes to, against closed forms, on every device alike.
+// A run's tally, against closed forms, on every device alike.
 #include "core/device/work.h"
 
 #include "tests/core/device/draws/quads.h"
@@ -7,16 +7,16 @@
 #include "tests/kernels/drawing/lights_params.h"
 #include "tests/tools/expect.h"
 
-// Powers of two: corners on pixels' corners stay there.
+// Powers of two, so that corners on corners of pixels stay there.
 enum { WIDTH = 256, HEIGHT = 128 };
 
-// Of each light of a fragment: a texel of the shadow's map, and four of two levels of the gobo's.
+// For each light, a fragment fetches a texel of the shadow map, and four of two levels of the gobo.
 enum { TEXELS_A_LIGHT = 9 };
 
 // A rectangle of whole pixels, which may reach off the target.
 struct rect {
     int x0, y0, x1, y1;
-    float z_left, z_right; // clipped where it is negative
+    float z_left, z_right; // clipped where negative
 };
 
 static void put_corner(float *corner, int x, int y, float z)
@@ -42,7 +42,7 @@ static struct rg_buf *make_quads(struct rg_device *device, const struct rect *re
     return buf;
 }
 
-// What a draw takes, on one device.
+// A draw's objects on one device.
 struct rig {
     struct rg_pass *pass;
     struct rg_buf *quads, *lights;
@@ -103,7 +103,7 @@ static bool is_reference(const struct rg_device *device)
     return !strcmp(device->info.name, "cpu:reference");
 }
 
-// The test's program leaves out some pixels of each 16 x 16.
+// How many pixels of a rectangle the test's program keeps; it leaves out some of each 16 x 16.
 static int kept_in(int x0, int y0, int x1, int y1)
 {
     int kept = 0;
@@ -153,7 +153,7 @@ static void a_draw_comes_to_what_its_items_cover(void **state)
     destroy_rig(&rig);
 }
 
-// More than a batch of items on any device, and more primitives than are read at once.
+// More items than a batch on any device, and more primitives than are read at once.
 static void long_draws_are_counted_whole(void **state)
 {
     enum { ITEMS = 10000 };
@@ -161,7 +161,7 @@ static void long_draws_are_counted_whole(void **state)
     struct rect *rects = calloc(ITEMS, sizeof(*rects));
     int fragments = 0;
     for (int i = 0; i < ITEMS; i++) {
-        const int x = i % WIDTH, y = i / WIDTH, side = i % 3; // none of a third
+        const int x = i % WIDTH, y = i / WIDTH, side = i % 3; // a third of them are empty
         rects[i] = (struct rect){x, y, x + side, y + side, 0.5f, 0.5f};
         fragments += side * (x + side > WIDTH ? WIDTH - x : side);
     }
@@ -179,7 +179,7 @@ static void long_draws_are_counted_whole(void **state)
     free(rects);
 }
 
-// What is run before or behind a tally is not in it, and GRID kernels have no records.
+// Runs before or after a tally do not count, and GRID kernels have no records.
 static void grids_are_counted_by_their_items(void **state)
 {
     struct rg_device *device = *state;

@@ -1,5 +1,4 @@
-// What DRAW passes draw to: targets of any shape, layer and level, depth alone, and what is
-// refused.
+// Targets of DRAW passes: any shape, layer and level, depth alone, and refusals.
 #include "tests/core/device/suite.h"
 
 #include <stdio.h>
@@ -9,16 +8,16 @@
 #include "tests/kernels/texels/params.h"
 #include "tests/kernels/drawing/triangles_params.h"
 
-// Where and how a case draws. Both images have the same shape.
+// The target of a case, and how the case draws. Both images have the same shape.
 struct place {
     const char *name;
-    struct rg_image_desc colour; // of RG_FORMAT_NONE: depth alone
+    struct rg_image_desc colour; // RG_FORMAT_NONE: depth alone
     int layer, level;
     enum rg_depth_mode depth_mode;
     bool counted;
 };
 
-// All that the draws of a case may have changed, and the device that holds it.
+// Everything that a case's draws may change, and its device.
 struct rig {
     struct rg_device *device;
     struct rg_pass *pass;
@@ -47,7 +46,7 @@ static struct rg_image *cleared(struct rg_device *device, struct rg_image_desc d
     return image;
 }
 
-// Depth that differs from texel to texel, layer to layer and level to level.
+// Depth that differs between texels, layers and levels.
 static struct rg_image *uneven(struct rg_device *device, struct rg_image_desc desc)
 {
     desc.format = RG_D32F;
@@ -127,7 +126,7 @@ static void compare(const char *name, const char *what, const uint32_t *due, con
                  name, differing, words, what, first, (unsigned)drawn[first], (unsigned)due[first]);
 }
 
-// Every layer and level, so that what was not to be touched is seen too.
+// Compares every layer and level, so that changes outside the target are seen as well.
 static void compare_images(const char *name, struct rg_image *due, struct rg_image *drawn)
 {
     const struct rg_image_desc *desc = &due->desc;
@@ -160,7 +159,7 @@ static void compare_rigs(const char *name, const struct rig *due, const struct r
     free(b);
 }
 
-// Draws items first to first + count of `total` on the device and on cpu:reference.
+// Draws items first to first + count of `total`, on the device and on cpu:reference.
 static void check_place(struct rg_device *device, const struct place *place, const float *quads,
                         int total, int first, int count)
 {
@@ -220,7 +219,7 @@ static void items_off_the_target_draw_nothing(void **state)
     free(quads);
 }
 
-// The same images, drawn to again and again in ways that need other pipelines.
+// One pair of images is drawn to again and again, in ways that need other pipelines.
 static void draws_follow_one_another(void **state)
 {
     float *quads = scene(&plain, QUAD_KINDS, 900);
@@ -253,7 +252,7 @@ static void runs_begin_at_their_origin(void **state)
     free(quads);
 }
 
-// More items than their primitives fit one buffer, so that devices that pack draw several batches.
+// More items than have room in one buffer of primitives: devices that pack draw several batches.
 static void long_ranges_are_drawn_in_order(void **state)
 {
     enum { ITEMS = 600000, SEEN = 1500 };
@@ -306,7 +305,7 @@ static void kernels_fetch_what_depth_was_drawn(void **state)
     assert_true(rg_device_close(reference));
 }
 
-// Triangles that read the depth which the quads before them left: a shadow map.
+// Triangles read the depth that the quads left: a shadow map.
 static struct rg_image *draw_shadowed(struct rig *rig, int count)
 {
     const test_triangles_params params = {1, 0};
@@ -322,7 +321,7 @@ static struct rg_image *draw_shadowed(struct rig *rig, int count)
                                            .slots = {[1].buf = rig->quads, [2].image = rig->depth},
                                            .extent = {count, 1, 1},
                                            .draw = &to}));
-    assert_true(draw(rig, 0, count)); // writes what the triangles have read
+    assert_true(draw(rig, 0, count)); // overwrites what the triangles have read
     rg_pass_destroy(pass);
     return picture;
 }
@@ -347,7 +346,8 @@ static void programs_fetch_what_depth_was_drawn(void **state)
 
 // --- lifetimes ---
 
-// Images take one another's places in memory: what a device keeps of a target goes with it.
+// Images take each other's places in memory. A device must drop what it keeps of a target along
+// with the target.
 static void targets_come_and_go(void **state)
 {
     float *quads = scene(&plain, QUAD_LARGE, 20);

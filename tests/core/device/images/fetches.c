@@ -70,11 +70,11 @@ static void kernels_fetch_every_format(void **state)
     }
 }
 
-// Every half that is a number, among neighbours of every kind: rows are odd, so that pairs in a
-// word change from row to row.
+// All finite halves, among neighbours of every kind: with odd rows, the pairs that share a word
+// change from row to row.
 static void kernels_fetch_every_half(void **state)
 {
-    enum { WIDTH = 255, HEIGHT = 257, HALVES = WIDTH * HEIGHT }; // of 65,536; the last is no number
+    enum { WIDTH = 255, HEIGHT = 257, HALVES = WIDTH * HEIGHT }; // 65,536 but for the last, a NaN
     uint16_t *halves = malloc(HALVES * sizeof(*halves));
     for (uint32_t i = 0; i < HALVES; i++)
         halves[i] = (uint16_t)((i & 0x7c00) == 0x7c00 ? i & ~0x4000u : i);
@@ -100,7 +100,7 @@ static void kernels_fetch_every_half(void **state)
     rg_image_destroy(image);
 }
 
-// Colours inside and outside of what a format holds, with halves' and bytes' ties among them.
+// Colours inside and outside a format's range, with ties of halves and of bytes among them.
 static float random_channel(uint32_t n)
 {
     const float unit = (float)(noise(n) >> 8) * 0x1p-24f;
@@ -164,7 +164,7 @@ static void kernels_store_every_storable_format(void **state)
     free(channels);
 }
 
-// A store, a fetch and another store in a row: each pass sees what the one before it wrote.
+// Store, fetch, store: each pass sees the previous pass's writes.
 static void passes_read_what_passes_wrote(void **state)
 {
     enum { WIDTH = 65, HEIGHT = 31, TEXELS = WIDTH * HEIGHT };

@@ -1,5 +1,5 @@
-// Kernels read images between their texels: every device as cpu:reference does, to the last bit,
-// and that as double precision says.
+// Kernels read images between their texels. Every device reads as cpu:reference does to the last
+// bit, which is checked against double precision.
 #include <math.h>
 #include <stdio.h>
 
@@ -14,14 +14,14 @@ static const char *const kernels[] = {"test_filter_rgba8", "test_filter_rgba16f"
                                       "test_filter_r16f", "test_filter_rg11b10f"};
 static const char *const filterings[TEST_FILTERS] = {"nearest", "linear", "trilinear"};
 
-// Where an image is read: u and v across it, the layer and the level.
+// A place where an image is read: u and v across it, its layer and level.
 struct read {
     float u, v, layer, level;
 };
 
 // --- images ---
 
-// Seeded texels between -1 and 1, so that one bound serves all.
+// Seeded texels between -1 and 1, so that one bound holds for all.
 static void fill(enum rg_format format, uint32_t seed, int count, uint32_t *texels)
 {
     const uint32_t below_one = 14; // exponent of 0.5 to 1
@@ -40,7 +40,7 @@ static void fill(enum rg_format format, uint32_t seed, int count, uint32_t *texe
     }
 }
 
-// The same on the host and on a device.
+// The same texels on the host and on a device.
 struct source {
     enum rg_format format;
     int width, height;
@@ -89,7 +89,7 @@ static struct rg_image *upload(struct rg_device *device, const struct source *s)
 
 // --- reads ---
 
-// Inside and far beyond; on edges, on borders between texels and on their centres.
+// Coordinates inside and far outside; on edges, on borders between texels and on centres.
 static float coordinate(uint32_t n, int size)
 {
     const float unit = (float)(noise(n) >> 8) * 0x1p-24f;
@@ -183,7 +183,7 @@ static double trilinear_at(const struct source *s, const struct read *r, int cha
            linear_at(s, r, coarse, channel) * (level - fine);
 }
 
-// Whether `got` is a texel that a coordinate lies in: two, where it is a border but for rounding.
+// Whether `got` is the texel at a coordinate; near a border rounding allows both neighbours.
 static bool is_nearest(const struct source *s, const struct read *r, int channel, double got)
 {
     const int level = (int)r->level;
@@ -198,8 +198,9 @@ static bool is_nearest(const struct source *s, const struct read *r, int channel
     return false;
 }
 
-// A coordinate in texels is rounded twice, to 2^-24 of the image's 67 texels at most, and moves the
-// value by as much of twice the largest texel, 1; each of seven blends rounds three times.
+// The image has 67 texels. A coordinate in texels is rounded twice, each time by 2^-24 of 67 at
+// most. The value moves by as much, times twice the largest texel, 1. Each of seven blends rounds
+// three times.
 static const double BOUND = 2 * 2 * 2 * 67 * 0x1p-24 + 21 * 0x1p-24;
 
 static void check_reads(const struct source *s, int filtering, const struct read *reads,
@@ -254,8 +255,8 @@ static void images_are_read_between_texels(void **state)
     assert_true(rg_device_close(reference));
 }
 
-// At the centre of a texel every filter gives the texel itself, to the bit, where sizes are powers
-// of 2: there coordinates are exact.
+// At a texel's centre every filter gives the texel itself, to the bit, if sizes are powers of 2,
+// for which coordinates are exact.
 static void a_texels_centre_shows_the_texel(void **state)
 {
     struct source s;

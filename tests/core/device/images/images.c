@@ -12,7 +12,7 @@ static size_t level_size(const struct rg_image_desc *desc, int level)
                     rg_format_size(desc->format));
 }
 
-// The texels that a test writes to a layer of a level; to be freed.
+// The texels that a test writes to a layer of a level; the caller frees them.
 static void *layer_texels(const struct rg_image_desc *desc, int layer, int level)
 {
     const size_t size = level_size(desc, level);

@@ -1,10 +1,10 @@
-// Images of hundreds of megabytes: an atlas of streaks, a city's textures, a map of depth.
+// Images of hundreds of megabytes: an atlas of streaks, a city's textures, a depth map.
 #include "tests/core/device/images/texels.h"
 #include "tests/core/device/suite.h"
 #include "tests/kernels/drawing/quads_params.h"
 #include "tests/kernels/texels/filter/params.h"
 
-enum { READS = 4096, APART = 96 }; // texels between where layers and levels begin in the pool
+enum { READS = 4096, APART = 96 }; // texels between starts of layers and levels in the pool
 
 static const struct {
     struct rg_image_desc desc;
@@ -14,7 +14,7 @@ static const struct {
     {{RG_RGBA8, 624, 624, 149, 10}, "test_filter_rgba8"},
 };
 
-// Where a layer of a level has its texels from.
+// The texels of a layer's level, in the pool.
 static const char *source_of(const struct rg_image_desc *desc, const char *pool, int layer,
                              int level)
 {
@@ -33,7 +33,7 @@ struct place {
     int x, y, layer, level;
 };
 
-// Anywhere, the last texel of all among them.
+// A random place; some are the last texel of the last layer.
 static struct place place_of(const struct rg_image_desc *desc, int i)
 {
     const uint32_t n = noise((uint32_t)i);
@@ -47,7 +47,7 @@ static struct place place_of(const struct rg_image_desc *desc, int i)
                           layer, level};
 }
 
-// At texels' centres.
+// Reads at centres of texels.
 static struct colour *read_places(struct rg_image *image, const char *kernel)
 {
     const struct rg_image_desc *desc = &image->desc;
@@ -126,7 +126,7 @@ static void large_images_keep_and_show_what_was_written(void **state)
 
 enum { DEPTH_PX = 8192, QUADS = 4 };
 
-// A quad of 200 x 200 pixels in each corner of the target, and what its pixels' depth is.
+// A quad of 200 x 200 pixels in each corner of the target, with the depth of its pixels.
 static void fill_quads(float *quads)
 {
     memset(quads, 0, QUADS * TEST_QUAD_WORDS * sizeof(*quads));

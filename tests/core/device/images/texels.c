@@ -5,7 +5,7 @@
 
 #include "tests/core/device/suite.h"
 
-// A float of `mantissa` bits, an exponent of five and perhaps a sign: any but infinity and NaN.
+// A float with `mantissa` bits, five bits of exponent and perhaps a sign; never infinity or NaN.
 static uint32_t random_small_float(uint32_t noise_bits, int mantissa, bool is_signed)
 {
     const uint32_t magnitude = (noise_bits >> 8) % (31u << mantissa);
@@ -100,7 +100,7 @@ static unsigned char encode_unorm8(float v)
     return (unsigned char)floorf(inside * 255.0f + 0.5f);
 }
 
-// Toward zero, with what is too large at the largest half and what is too small at zero.
+// Rounds toward zero: too large numbers become the largest half, and too small ones zero.
 static uint16_t encode_half(float v)
 {
     const float magnitude = fabsf(v);

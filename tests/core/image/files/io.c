@@ -326,7 +326,7 @@ static void a_crash_of_the_library_is_one_line(void **state)
     unlink(path_of("cmyk.tif"));
 }
 
-// Several files, several of them bad: one line, about the first.
+// Several bad files leave one line, about the first.
 static void one_line_for_many_files(void **state)
 {
     (void)state;

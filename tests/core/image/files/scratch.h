@@ -1,4 +1,4 @@
-// A folder of files for tests of pictures that are read and written, and the lines that these log.
+// A folder for tests that read and write pictures, and the lines that they log.
 #ifndef RG_TESTS_CORE_IMAGE_FILES_SCRATCH_H
 #define RG_TESTS_CORE_IMAGE_FILES_SCRATCH_H
 

@@ -1,5 +1,4 @@
-// Files of pictures that are written: whole or not at all, whatever ends the program or fills the
-// disk.
+// A picture file is written whole or not at all, whatever ends the program or fills the disk.
 #define _GNU_SOURCE // unshare
 #include <setjmp.h>
 #include <stdarg.h>
@@ -47,7 +46,7 @@ static void what_cannot_be_written_leaves_nothing(void **state)
     rg_picture_destroy(&picture);
 }
 
-// A full disk: files may grow to one block only. What was there before stays.
+// On a full disk, here a limit of one block, the old file stays.
 static void a_full_disk_leaves_the_old_file(void **state)
 {
     (void)state;
@@ -56,7 +55,7 @@ static void a_full_disk_leaves_the_old_file(void **state)
     assert_true(rg_picture_create(&picture, 300, 200, 3, "noise"));
     for (int64_t i = 0; i < rg_picture_values(&picture); i++)
         picture.texels[i] = (float)(rain_noise((uint32_t)i) >> 8) * 0x1p-24f;
-    for (int i = 0; i < 4; i++) // loads what writes, which needs no limit
+    for (int i = 0; i < 4; i++) // loads the writers before the limit holds
         assert_true(rg_picture_write(path_of(names[i]), &picture, &(struct rg_write_options){0}));
     signal(SIGXFSZ, SIG_IGN);
     struct rlimit before, small;
@@ -83,7 +82,7 @@ static bool hide_proc(void)
     return !unshare(CLONE_NEWUSER | CLONE_NEWNS) && !mount("none", "/proc", "tmpfs", 0, NULL);
 }
 
-// How a child ends that works so and then raises a signal; with 1 where it does not come to that.
+// How a child ends that does this work and then raises a signal; status 1 if it raises none.
 static int status_of(void (*work)(int), int number)
 {
     int status = 0;
@@ -108,7 +107,7 @@ static void end_with_a_name(int number)
         raise(number);
 }
 
-// Such a file goes with the signals that ask to end.
+// A signal that asks to end removes the named file as well.
 static void a_signal_takes_the_name(void **state)
 {
     (void)state;
@@ -131,7 +130,7 @@ static void end_within(int number)
         raise(number);
 }
 
-// Whatever ends the program while it writes, nothing is left, and what was there stays.
+// The program may end in any way while it writes: the old file stays, and nothing else is left.
 static void a_signal_leaves_nothing(void **state)
 {
     (void)state;
@@ -144,7 +143,7 @@ static void a_signal_leaves_nothing(void **state)
     unlink(path_of("kept.png"));
 }
 
-// As a shell's redirection does.
+// A shell's redirection follows links, too.
 static void a_link_is_followed(void **state)
 {
     (void)state;
@@ -166,7 +165,7 @@ static void a_link_is_followed(void **state)
     unlink(target);
 }
 
-// What is small lies in a buffer until the file is closed: that fails as well.
+// A small picture stays in a buffer until the file is closed; the close must fail as well.
 static void a_full_disk_is_noticed_at_the_close(void **state)
 {
     (void)state;

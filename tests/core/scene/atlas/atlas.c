@@ -1,5 +1,4 @@
-// The atlas as a whole: its sizes are the thesis's, its cells keep apart, its levels keep the
-// light.
+// The whole atlas: sizes of the thesis, cells without leaks, levels that keep the light.
 //
 //     atlas FOLDER_OF_PUBLISHED_TABLES
 #include <setjmp.h>
@@ -74,7 +73,7 @@ static FILE *open_table(const char *name)
     return file;
 }
 
-// Tables 5.1 and 5.2, and the numbers of pixels that the thesis gives for them.
+// Tables 5.1 and 5.2 and the numbers of pixels that the thesis gives.
 static void test_published_sizes(void **state)
 {
     (void)state;
@@ -125,7 +124,7 @@ static void test_rows(void **state)
     }
 }
 
-// Every cell reaches 1 and goes no further, has a factor, and of oscillation 0 a dark margin.
+// Every cell's largest value is 1 and has a factor. Cells of oscillation 0 have a dark margin.
 static void test_cells(void **state)
 {
     (void)state;
@@ -144,13 +143,13 @@ static void test_cells(void **state)
                                    : edge;
                     }
                 assert_int_equal(largest, 0x3c00); // 1
-                assert_true(edge == 0 || k > 0);   // others swing into the margin
+                assert_true(edge == 0 || k > 0);   // other oscillations swing into the margin
                 assert_above((&small->point_factor[k][view][0][0])[cell], 1e-5f);
                 assert_below((&small->point_factor[k][view][0][0])[cell], 10);
             }
 }
 
-// Light from straight above or below has no azimuth: nine cells of one picture.
+// Light from straight above or below has no azimuth, so that its nine cells hold one picture.
 static void test_poles(void **state)
 {
     (void)state;
@@ -165,7 +164,7 @@ static void test_poles(void **state)
             }
 }
 
-// The mean of a cell, over its height in level 0.
+// The mean of a cell at a level, over its height in level 0.
 static double mean_of(enum rg_atlas_part part, int layer, int view, int cell, int level)
 {
     const int first = rg_atlas_row_start(view, level + 2), width = 8 >> level;
@@ -177,7 +176,7 @@ static double mean_of(enum rg_atlas_part part, int layer, int view, int cell, in
     return sum / (rows * width);
 }
 
-// Each level of a cell holds the light of the first: nothing comes in from other cells.
+// Each level of a cell holds the light of the first: other cells do not leak in.
 static void test_levels_keep_light(void **state)
 {
     (void)state;
@@ -190,7 +189,7 @@ static void test_levels_keep_light(void **state)
                     fail_msg("view %d, cell %d, level %d: %g of %g", view, cell, level, here,
                              first);
             }
-    // and so do the levels below those, over all cells
+    // the smallest levels keep the light of all cells together
     double means[2] = {0, 0};
     for (int i = 0; i < 90 * 112; i++)
         means[0] += (double)rg_half_value(rg_atlas_texels(small, RG_ATLAS_POINT, 6, 3)[i]);
@@ -198,21 +197,21 @@ static void test_levels_keep_light(void **state)
     assert_below(fabs(means[0] / (90 * 112) / means[1] - 1), 5e-3);
 }
 
-// Of oscillation 0, seen from the front.
+// The mean light of a cell of oscillation 0, seen from the front.
 static double scaled_mean(int light, int phi)
 {
     return mean_of(RG_ATLAS_POINT, 0, 0, light * RG_ATLAS_PHIS + phi, 0) *
            (double)small->point_factor[0][0][light][phi];
 }
 
-// Brightest against the light, and with the viewer's own light far darker.
+// A streak is brightest against the light, and far darker with the light at the viewer.
 static void test_factors(void **state)
 {
     (void)state;
     const float(*front)[RG_ATLAS_PHIS] = small->point_factor[0][0];
     assert_above(front[5][8], 30 * front[5][0]);
     assert_above(front[5][1], 2 * front[5][3]); // the primary rainbow's glow
-    for (int light = 0; light < 10; light++)    // of a sphere seen from the front
+    for (int light = 0; light < 10; light++)    // a sphere mirrors light from above and below
         for (int phi = 0; phi < 9; phi++)
             assert_below(fabs(scaled_mean(light, phi) / scaled_mean(9 - light, phi) - 1), 0.02);
     for (int view = 0; view < RG_ATLAS_VIEWS; view++)
@@ -236,8 +235,8 @@ static double splash_mean(int material, int frame)
     return sum / (48 * 32);
 }
 
-// A furnace: lights from all directions, each as strong as its part of an even sky of radiance 1,
-// make of a streak what that sky does. Their parts are cut out anew here, ring by ring.
+// A furnace: lights from all directions make a streak as bright as an even sky of radiance 1 does.
+// Each light is as strong as its part of the sky, which the test computes itself, ring by ring.
 static void test_furnace(void **state)
 {
     (void)state;
@@ -272,11 +271,11 @@ static void test_splashes(void **state)
         assert_above(splash_mean(material, 0), 0.005);
         assert_below(splash_mean(material, RG_ATLAS_FRAMES - 1), 0.02 * highest);
     }
-    assert_above(splash_mean(1, 5), 3 * splash_mean(2, 5)); // a puddle's crown, and asphalt's
+    assert_above(splash_mean(1, 5), 3 * splash_mean(2, 5)); // a puddle's crown against asphalt's
 }
 
-// R = D (2 / (3 h))^(1/4) sqrt(v t / D) at first, of a drop of 3.2 mm at 8.16 m/s, and the sheet
-// rises and falls.
+// At first R = D (2 / (3 h))^(1/4) sqrt(v t / D), here for a drop of 3.2 mm at 8.16 m/s. The sheet
+// rises, then falls.
 static void test_crown(void **state)
 {
     (void)state;
@@ -296,8 +295,8 @@ static void test_crown(void **state)
 
 // --- from the cache ---
 
-// A damaged file is made anew, with one line, and by one thread the same as by many; then it is
-// read in silence.
+// A damaged file is computed again, with one line, and one thread computes the same as many. Later
+// loads are silent.
 static void test_damaged_cache(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// What is kept of the atlas: read back as it was written, refused when it is damaged.
+// The atlas' cache file reads back as written, and is refused when damaged.
 #define _DEFAULT_SOURCE // truncate
 #include <setjmp.h>
 #include <stdarg.h>
@@ -50,10 +50,10 @@ static int teardown(void **state)
     unlink(path);
     snprintf(name, sizeof(name), "%s/raingauge", folder);
     rmdir(name);
-    return rmdir(folder); // fails when something was left behind
+    return rmdir(folder); // fails if a test left a file
 }
 
-// An atlas of numbers that mean nothing: nothing here traces.
+// An atlas of arbitrary numbers: nothing here traces.
 static struct rg_atlas *make(uint32_t seed)
 {
     struct rg_atlas *atlas = rg_atlas_allocate(RG_ATLAS_SMALL);
@@ -131,7 +131,8 @@ static void flip(long offset, int whence, unsigned char bits)
     assert_int_equal(fclose(file), 0);
 }
 
-// One bit anywhere: in the magic, the version, the size, the sample, the hash, a factor, a texel.
+// One flipped bit anywhere is noticed: in the magic, version, size, sample, hash, a factor or a
+// texel.
 static void test_flipped_bits(void **state)
 {
     (void)state;
@@ -170,7 +171,7 @@ static void test_wrong_lengths(void **state)
     expect_state(RG_ATLAS_SOUND);
 }
 
-// What is no file at all neither hangs nor harms.
+// Reading things that are not regular files neither hangs nor does harm.
 static void test_other_things(void **state)
 {
     (void)state;
@@ -194,7 +195,7 @@ static void test_other_things(void **state)
     rg_atlas_destroy(atlas);
 }
 
-// On a full disk what was there stays, and nothing is left beside it.
+// On a full disk the old file stays, and no other is left beside it.
 static void test_full_disk(void **state)
 {
     (void)state;
@@ -227,7 +228,7 @@ static int files_beside(void)
     return count;
 }
 
-// What ends a process while it writes leaves nothing beside what was there.
+// A process that is killed while it writes leaves the old file and no other.
 static void test_killed(void **state)
 {
     (void)state;
@@ -273,7 +274,7 @@ static void test_where(void **state)
     setenv("XDG_CACHE_HOME", folder, 1);
 }
 
-// Two processes that write all the time: whoever reads finds one or the other, whole.
+// While two processes write all the time, a reader finds one of their files, whole.
 static void test_writers_at_once(void **state)
 {
     (void)state;
@@ -303,7 +304,7 @@ static void test_writers_at_once(void **state)
     expect_state(RG_ATLAS_SOUND);
 }
 
-// The original database is not made: one line says how to pack it.
+// raingauge cannot compute the original database: one line says how to pack it.
 static void test_unpacked_database(void **state)
 {
     (void)state;

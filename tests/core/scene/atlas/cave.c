@@ -1,5 +1,5 @@
-// A small tree with the original database's names, of pictures that tell where they belong, packed.
-// Whole pictures are shared between names by hard links: 7,500 names, 20 files.
+// Packing a small tree with the original database's names. Its pictures encode the place where they
+// belong. Hard links share them between names: 7,500 names, 20 files.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -50,13 +50,13 @@ static void in_root(char path[PATH_SIZE], const char *format, ...)
     va_end(args);
 }
 
-// The code of a pixel: the row in the picture's thirds, and what the picture is of.
+// The code of a pixel tells its third of the picture, its view and its part.
 static int code_of(int view, bool env, int row, int height)
 {
     return 4000 * view + (env ? 30000 : 0) + 6000 * (row * 3 / height) + 100;
 }
 
-// What the brighter half of a picture has more.
+// The brighter half of a picture has this much more.
 enum { BRIGHTER = 300 };
 
 static void write_png(const char *path, int width, int height, int view, bool env, bool is_left)
@@ -97,7 +97,7 @@ static void write_factors(int view)
     fprintf(file, "cv%d\n", 20 * view);
     for (int light = 0; light < 10; light++) {
         fprintf(file, "v%d\n", 20 * light - 90);
-        for (int phi = light % 9 ? 0 : 8; phi < 9; phi++) { // at the poles one azimuth alone
+        for (int phi = light % 9 ? 0 : 8; phi < 9; phi++) { // the poles have one azimuth only
             fprintf(file, "h%d", 20 * phi + 10);
             for (int k = 0; k < 10; k++)
                 fprintf(file, " %.6f", factor_of(view, light, phi, k));
@@ -181,7 +181,7 @@ static void expect_cell(const struct rg_atlas *atlas, enum rg_atlas_part part, i
     const uint16_t *texels = rg_atlas_texels(atlas, part, layer, level) +
                              rg_atlas_row_start(view, level + 2) * pitch + column * width;
     for (int third = 0; third < 3; third++) {
-        // in the middle of each third of the height, whatever the height was resampled to
+        // In the middle of each third of the height, whatever height it was resampled to.
         const int r = (2 * third + 1) * rows / 6;
         const int dark = code_of(view, part == RG_ATLAS_ENV, 2 * third + 1, 6);
         for (int c = 0; c < width; c++) {
@@ -207,7 +207,7 @@ static void test_packed(void **state)
             for (int level = 0; level < 2; level++)
                 expect_cell(atlas, RG_ATLAS_ENV, k, view, 0, level, false);
             for (int cell = 0; cell < 90; cell++) {
-                // where there is one azimuth, it serves all nine
+                // At a pole the one azimuth serves all nine cells.
                 const int light = cell / 9, phi = light % 9 ? cell % 9 : 8;
                 const double wanted = factor_of(view, light, phi, k) * (double)RG_CAVE_POINT_SCALE;
                 const double factor = (double)atlas->point_factor[k][view][light][cell % 9];
@@ -219,8 +219,7 @@ static void test_packed(void **state)
     rg_atlas_destroy(atlas);
 }
 
-// In a copy whose light stands on the left all pictures are taken as in a mirror. One picture
-// tells.
+// A database with its light on the left is packed mirrored. The packer finds that from one picture.
 static void test_mirrored(void **state)
 {
     (void)state;
@@ -239,7 +238,7 @@ static void test_mirrored(void **state)
     rg_atlas_destroy(atlas);
 }
 
-// Packing fails with one line that names the file, and works again when it is back.
+// Packing fails with one line, which names the file and the fault.
 static void expect_refused(const char *named, const char *said)
 {
     lines = 0;
@@ -312,7 +311,7 @@ static struct rg_instance *open_rain(struct rg_device *device)
     return instance;
 }
 
-// The ends of a view's rows are joined to each other when they are loaded; between, they stay.
+// Loading joins the ends of a view's rows to each other; the texels in between stay.
 static void expect_texels(const struct streaks *s, const struct rg_atlas *atlas)
 {
     const struct rg_atlas_image *image = &atlas->images[RG_ATLAS_POINT];
@@ -330,7 +329,7 @@ static void expect_texels(const struct streaks *s, const struct rg_atlas *atlas)
     free(texels);
 }
 
-// Before it is packed, one line says which command does it.
+// Without a packed atlas one line names the command that packs it.
 static void test_drawn_with(void **state)
 {
     (void)state;

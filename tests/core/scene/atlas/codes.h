@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-// A grey PNG of 16 bits a pixel. Fails the test where it cannot be written.
+// Writes a grey PNG of 16 bits a pixel; on failure it fails the test.
 void write_codes(const char *path, int width, int height, const uint16_t *codes);
 
 #endif

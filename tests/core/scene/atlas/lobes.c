@@ -31,7 +31,7 @@ static void assert_direction(double elevation, double azimuth, double x, double 
     assert_below(fabs((double)d[2] - z), 1e-6);
 }
 
-// The viewer is at +z, its right at +x, up at +y.
+// The viewer is at +z; the viewer's right is +x, and up is +y.
 static void test_directions(void **state)
 {
     (void)state;
@@ -42,7 +42,7 @@ static void test_directions(void **state)
     assert_direction(-30, 90, sqrt(0.75), -0.5, 0);
 }
 
-// 74 lobes for 90 cells: those at both ends have no azimuth.
+// 74 lobes for 90 cells: the lights at both poles have no azimuth.
 static void test_cells(void **state)
 {
     (void)state;
@@ -71,7 +71,7 @@ static void test_shares(void **state)
     assert_below(fabs(rg_lobe_share_sr(0) - 2 * M_PI * (1 - cos(M_PI / 18))), 1e-9);
 }
 
-// A lobe's radiance over the sphere is an irradiance of 1, and falls as a Gaussian of 3 degrees.
+// A lobe's radiance has an irradiance of 1 over the sphere, and falls as a Gaussian of 3 degrees.
 static void test_radiance(void **state)
 {
     (void)state;
@@ -88,7 +88,7 @@ static void test_radiance(void **state)
     assert_below(fabs(at_3 / (double)lobes.peak - exp(-0.5)), 2e-3);
 }
 
-// Every light that a direction can look into is in its square's list.
+// A square's list holds every light that its directions can look into.
 static void test_lists(void **state)
 {
     (void)state;
@@ -117,7 +117,7 @@ static void test_lists(void **state)
 
 // --- smaller pictures ---
 
-// A pixel is the mean of what it covers, whole or in part.
+// A pixel is the mean of the pixels that it covers, whole or in part.
 static void test_shrinking(void **state)
 {
     (void)state;
@@ -132,7 +132,7 @@ static void test_shrinking(void **state)
     assert_below(fabsf(to[1] - 5), 1e-6f);
 }
 
-// Halves are rounded to the nearest: 11 bits of a number.
+// Halves round to the nearest and keep 11 bits of a number.
 static void test_halves(void **state)
 {
     (void)state;

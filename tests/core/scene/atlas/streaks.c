@@ -1,4 +1,4 @@
-// Streaks against what is known of the original database: brightness, widths, heights, swings.
+// Streaks against published figures of the original database: brightness, widths, heights, swings.
 // Seen from the front, row by row, unless said otherwise.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 
 #define PI 3.14159265358979323846
 
-// The drop's diameter and the fall in an exposure, in columns of a cell of 32, as measured in the
+// The drop's diameter and its fall in an exposure, in columns of a cell of 32. Measured in the
 // published pictures: 0.742 of the width, and 42.5 diameters.
 #define DIAMETER_PX (0.742 * 32)
 #define FALL_PX     (42.5 * DIAMETER_PX)
@@ -32,8 +32,8 @@ static int setup(void **state)
 
 // --- brightness ---
 
-// Published: the mean over the drop's width, in the middle rows, of oscillation 0; lights at
-// elevations 10 and 50 degrees, azimuths 10 to 170.
+// Published means over the drop's width in the middle rows, for oscillation 0. Lights at elevations
+// 10 and 50 degrees, azimuths 10 to 170.
 static const double published[2][9] = {
     {6.0e-4, 1.5e-3, 3.7e-4, 1.45e-4, 1.9e-4, 5.5e-4, 6.2e-3, 2.6e-2, 6.7e-2},
     {3.8e-4, 3.4e-4, 1.5e-4, 1.6e-4, 1.7e-4, 2.8e-4, 1.1e-3, 3.3e-3, 5.8e-3}};
@@ -58,7 +58,7 @@ static void test_published_brightness(void **state)
     for (int i = 0; i < 18; i++) {
         const int lobe = rg_lobe_of_cell(i < 9 ? 5 : 7, i % 9);
         logs[i] = log(mean_of_middle(&streaks, lobe) / published[i / 9][i % 9]);
-        mean += logs[i] / 18; // the one scale: least squares of the logarithms
+        mean += logs[i] / 18; // one scale for all: least squares of the logarithms
     }
     for (int i = 0; i < 18; i++)
         print_message("%.2f%s", exp(logs[i] - mean), i % 9 < 8 ? " " : "\n"); // for docs/atlas.md
@@ -73,7 +73,8 @@ static void test_published_brightness(void **state)
 
 // --- shape ---
 
-// The mean over column c of a half circle's height above a diameter of 2 radii about `middle`.
+// The mean, over column c, of the height of a half circle of this radius about `middle`, over the
+// radius.
 static double chord_in_column(int c, double middle, double radius)
 {
     double sum = 0;
@@ -84,8 +85,8 @@ static double chord_in_column(int c, double middle, double radius)
     return sum / 256;
 }
 
-// The uniform environment shows for how long the drop is in a column: its chord. Where the drop
-// covers a pixel all the time that it takes to pass, that is a diameter in 42.5.
+// The uniform environment shows how long the drop covers a column: its chord there. In the middle
+// that is one diameter of the 42.5 that the drop falls.
 static void test_environment_is_the_chord(void **state)
 {
     (void)state;
@@ -104,8 +105,8 @@ static void test_environment_is_the_chord(void **state)
     rg_streaks_free(&s);
 }
 
-// The heights of the five rows, and the ends of the streak in them: the drop's image begins and
-// ends half a diameter beyond the fall, which is foreshortened, in the middle of the cell.
+// The heights of the five rows, and the ends of the streaks. A streak is in the middle of its cell.
+// It reaches half a diameter beyond each end of the fall, which is foreshortened.
 static void test_heights(void **state)
 {
     (void)state;
@@ -128,16 +129,15 @@ static void test_heights(void **state)
     }
 }
 
-// An oscillation as the published pictures show it, whose light stands on the left: here it stands
-// on the right, as in a mirror. The width changes by A20 / 2, 60 times a second and narrowing
-// first; the middle swings by 3/2 A31, 120 times a second, first away from phi_drop, which is at
-// the right (1) or the left (-1).
+// An oscillation as in the published pictures, mirrored: their light is on the left, ours on the
+// right. The width changes by A20 / 2, 60 times a second, narrowing first. The middle swings by 3/2
+// A31, 120 times a second, first away from phi_drop, which is right (1) or left (-1).
 struct seen {
     int oscillation;
     double a20, a31, side;
 };
 
-// Whether the drop covers a place in its own picture, in radii, at a time.
+// Whether the drop covers a place of its own picture, in radii, at a time.
 static bool covers(const struct seen *seen, double x, double y, double time)
 {
     const double w2 = 2 * PI * 60, w3 = 2 * w2;
@@ -147,7 +147,7 @@ static bool covers(const struct seen *seen, double x, double y, double time)
                       seen->a31 * sin(w3 * time) * 1.5 * s * (5 * c * c - 1) * side;
 }
 
-// For how much of the exposure the drop covers a pixel.
+// The part of the exposure in which the drop covers a pixel.
 static double covered(const struct seen *seen, int row, int column)
 {
     enum { TIMES = 160, ACROSS = 12 };
@@ -193,7 +193,7 @@ static void lobes_at(double elevation, double azimuth, struct rg_lobes *pair)
     rg_lobes_fill(pair, 2, directions);
 }
 
-// The largest difference of one picture from the other's mirror image, over the largest value.
+// The largest difference between one picture and the other's mirror image, over the largest value.
 static double mirror_difference(const float *a, const float *b, int width, int height)
 {
     double largest = 0, difference = 0;
@@ -207,8 +207,8 @@ static double mirror_difference(const float *a, const float *b, int width, int h
     return difference / largest;
 }
 
-// Light from the left is the mirror image of light from the right: of an upright drop, and of two
-// that swing against each other (2 and 4, 6 and 8).
+// Light from the left mirrors light from the right. That holds for an upright drop, and for two
+// drops that swing against each other (2 and 4, 6 and 8).
 static void test_mirror_images(void **state)
 {
     (void)state;
@@ -224,7 +224,7 @@ static void test_mirror_images(void **state)
             mirror_difference(a.point, b.point + a.width * a.height, a.width, a.height);
         if (!(difference < 2e-3))
             fail_msg("oscillations %d and %d: %g", pairs[i / 3][0], pairs[i / 3][1], difference);
-        // and that is no matter of both being the same to the left and to the right
+        // A symmetric picture would pass as well, so that none may be symmetric.
         assert_above(mirror_difference(a.point, a.point, a.width, a.height), 0.1);
         rg_streaks_free(&a);
         rg_streaks_free(&b);
@@ -233,7 +233,7 @@ static void test_mirror_images(void **state)
 
 // --- light ---
 
-// A lobe brings an irradiance of 1, and is dark where its squares do not list it.
+// A lobe has an irradiance of 1, all of it in the squares that list it.
 static void test_lobes(void **state)
 {
     (void)state;
@@ -259,9 +259,8 @@ static void test_lobes(void **state)
             fail_msg("lobe %d: an irradiance of %g", l, sums[l]);
 }
 
-// Lights all around a sphere add up to what it scatters: each of them sends 1/sr, so their sum over
-// a ring of directions about the viewer's axis is the ring's share of the light, and the light that
-// a drop sends out is what falls on it.
+// Lights all around a sphere add up to the light that it scatters, which is all that falls on it.
+// Each light sends 1/sr: a sum over a ring about the viewer's axis is that ring's share.
 static void test_scattered_light(void **state)
 {
     (void)state;
@@ -278,7 +277,7 @@ static void test_scattered_light(void **state)
             total += mean_of_middle(&s, i) * 2 * PI * sin((first + i + 0.5) * PI / 180) * PI / 180;
         rg_streaks_free(&s);
     }
-    // the mean over the width of the chord is pi / 4 of its middle
+    // The mean of a chord over the width is pi / 4 of its middle.
     assert_below(fabs(total / (PI / 4 / 42.5) - 0.997), 0.01);
 }
 

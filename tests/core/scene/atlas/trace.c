@@ -1,4 +1,4 @@
-// Rays through the drop: against closed form where it is a sphere, against an oracle elsewhere.
+// Rays through the drop: against closed forms for a sphere, against an oracle for other shapes.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,13 +23,13 @@ static void trace_sphere(float first_u, float step_u, int count)
     rg_drop_trace(&sphere, &view, 0, first_u, step_u, count, &row);
 }
 
-// The angle between the light's way and the way to the viewer, who stands at +z.
+// The angle between the light's direction and the direction to the viewer, who is at +z.
 static double deviation_of(int way, int i)
 {
     return acos(fmax(-1, fmin(1, -(double)row.z[way][i])));
 }
 
-// Unpolarised, from the angles in and out.
+// The reflected share of unpolarised light, from the angles in and out.
 static double fresnel(double in, double out)
 {
     const double across = sin(in - out) / sin(in + out), plane = tan(in - out) / tan(in + out);
@@ -74,7 +74,7 @@ static void test_rainbows(void **state)
     double primary = PI, secondary = 0;
     for (int i = COUNT / 2; i < COUNT; i++) {
         primary = fmin(primary, deviation_of(2, i));
-        secondary = fmax(secondary, deviation_of(3, i)); // it has turned beyond half a circle
+        secondary = fmax(secondary, deviation_of(3, i)); // it has turned by more than half a circle
     }
     assert_below(fabs(primary - rainbow(1)), 1e-3);
     assert_below(fabs(secondary - (2 * PI - rainbow(2))), 1e-3);
@@ -93,7 +93,8 @@ static void test_normal_incidence(void **state)
         assert_below(fabs((double)row.x[way][0]), 1e-6);
 }
 
-// What is not reflected a fourth time leaves the drop: of a sphere all but t r^4.
+// All light leaves the drop except that which is reflected inside a fourth time: t r^4 for a
+// sphere.
 static void test_energy(void **state)
 {
     (void)state;
@@ -155,7 +156,7 @@ static void expect_oracle(const struct oracle_drop *drop, const double start[3],
     }
 }
 
-// Every oscillation at two moments, from all views. Rays that touch the rim are left out.
+// Every oscillation at two moments, from all views, without the rays that touch the rim.
 static void test_oscillating(void **state)
 {
     (void)state;
@@ -186,7 +187,7 @@ static void test_oscillating(void **state)
     assert_above(compared, 5000);
 }
 
-// What is seen left and right of an upright drop's middle is mirrored.
+// The ways left and right of an upright drop's middle mirror each other.
 static void test_mirrored(void **state)
 {
     (void)state;

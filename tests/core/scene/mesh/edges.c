@@ -1,5 +1,5 @@
-// Edges of meshes that are made here: of faces that go round one way, of one that is inside out, of
-// three that meet, and of one that is halved.
+// Edges of made-up meshes: faces that turn the same way, one turned inside out, three that meet in
+// an edge, and one that is halved.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,12 +12,12 @@
 #include "core/scene/mesh/mesh.h"
 #include "tests/tools/expect.h"
 
-// A roof along z from (0, 0, 0) to (0, 0, 1), the eaves at x = -1 and 1 and y = -1, and a third
-// face that stands upright on the ridge.
+// A roof whose ridge runs from (0, 0, 0) to (0, 0, 1); its eaves are at x = -1 and 1, y = -1. A
+// third face stands upright on the ridge.
 static const float places[] = {0, 0, 0, 0, 0, 1, 1, -1, 0, -1, -1, 0, 0, 1, 0};
 static const double outwards = 0.70710678118654752;
 
-// The normals of the two faces of the edge along the ridge that has both.
+// The normals of the two faces beside the ridge.
 static void ridge_of(const struct rg_edges *edges, double first[3], double second[3])
 {
     int found = 0;
@@ -43,7 +43,7 @@ static void assert_vector(const double v[3], double x, double y, double z)
         fail_msg("(%g, %g, %g), not (%g, %g, %g)", v[0], v[1], v[2], x, y, z);
 }
 
-// Both normals are on the outer side of the first face, whichever way round the second goes.
+// Both normals are on the outer side of the first face, whichever way the second face turns.
 static void test_two_faces(void **state)
 {
     (void)state;
@@ -63,7 +63,7 @@ static void test_two_faces(void **state)
     }
 }
 
-// Of three faces the first goes with the one that goes the other way round.
+// With three faces at an edge, the first pairs with the one that turns the other way round.
 static void test_three_faces(void **state)
 {
     (void)state;
@@ -81,7 +81,8 @@ static void test_three_faces(void **state)
     rg_mesh_destroy(mesh);
 }
 
-// The longest edge is halved, from the ridge to an eave; what is in its middle leans half as far.
+// Refining halves the longest edge, from the ridge to an eave. The normal in its middle leans half
+// as far.
 static void test_a_middle(void **state)
 {
     (void)state;

@@ -29,7 +29,7 @@ static const char *normal_fault(const struct rg_mesh *mesh)
     return NULL;
 }
 
-// Vertices are numbered as faces first use them: so each is used, and none is out of range.
+// Faces number vertices by first use: thus each vertex is used, and no index is out of range.
 static const char *index_fault(const struct rg_mesh *mesh)
 {
     uint32_t next = 0;

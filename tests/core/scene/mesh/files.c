@@ -1,5 +1,4 @@
-// Meshes from files: one box is the same in every format, and damaged files are refused in one
-// line.
+// Meshes from files: a box is the same in every format, and damaged files are refused in one line.
 #include "tests/core/scene/mesh/rig.h"
 
 #include <dirent.h>
@@ -22,8 +21,8 @@ static bool same_corner(const float *a, const float *b)
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-// Is a mesh's face this one of the box, whichever corner comes first? With `turned`, the box as
-// Assimp turns 3DS files: their z points up, ours y.
+// Whether a mesh's face is this face of the box, whichever corner comes first. `turned` is for 3DS,
+// whose z points up where our y does, and which Assimp turns.
 static bool is_face(const struct rg_mesh *mesh, int face, int box_face, bool turned)
 {
     float box[3][3];
@@ -74,7 +73,7 @@ static void test_one_box_in_every_format(void **state)
 static void test_polygons_points_and_lines(void **state)
 {
     (void)state;
-    // a quad, a pentagon that bends inwards, a line, a point; a vertex that no face uses
+    // A quad, a pentagon that bends inwards, a line, a point, and a vertex without a face.
     struct rg_mesh *mesh =
         load_text("polygons.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 0.5 0\nv 9 9 9\n"
                                   "f 1 2 3 4\nf 1 2 3 5 4\nl 1 3\np 2\n");
@@ -88,7 +87,7 @@ static void test_polygons_points_and_lines(void **state)
 static void test_normals_of_the_file_are_kept(void **state)
 {
     (void)state;
-    // of length 2, absent (of length 0), and no number
+    // Normals of length 2, of length 0 (absent), and not a number.
     struct rg_mesh *mesh =
         load_text("normals.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 2 0 0\nvn 0 0 0\n"
                                  "vn nan 0 0\nf 1//1 2//2 3//3\n");
@@ -97,7 +96,7 @@ static void test_normals_of_the_file_are_kept(void **state)
     rg_mesh_destroy(mesh);
 }
 
-// Two nodes place one mesh: turned round and made larger, and mirrored.
+// Two nodes place one mesh: rotated and enlarged, and mirrored.
 static void test_nodes_place_meshes(void **state)
 {
     (void)state;
@@ -119,7 +118,8 @@ static void test_nodes_place_meshes(void **state)
     write_file(buffer, triangle, sizeof(triangle));
     struct rg_mesh *mesh = load_bytes("nodes.gltf", &file);
     unlink(buffer);
-    // about y by 90 degrees: x goes to -z, z to x; then mirrored, with its corners turned round
+    // Rotated about y by 90 degrees: x goes to -z, z to x. Then mirrored, with its corners in
+    // reverse.
     static const float expected[18] = {10, 0, 0, 10, 0, -2, 10, 2, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0};
     assert_int_equal(mesh->face_count, 2);
     for (int i = 0; i < 6; i++) {
@@ -143,7 +143,7 @@ static void test_the_hash_is_the_geometrys(void **state)
     struct rg_mesh *mesh = load_text("a.obj", text), *again = load_text("b.obj", text);
     struct rg_mesh *moved = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1.0000001 0\nf 1 2 3\n");
     struct rg_mesh *turned = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 3 2 1\n");
-    // XXH3 of nine floats and the indices 0, 1, 2, by the xxhsum program
+    // XXH3 of nine floats and the indices 0, 1, 2, by the program xxhsum.
     assert_equals(mesh->hash, UINT64_C(0xa28a642a01fc25be));
     assert_equals(again->hash, mesh->hash);
     assert_differs(moved->hash, mesh->hash);
@@ -178,7 +178,7 @@ static void test_what_is_no_file(void **state)
     unlink(path);
 }
 
-// What reading a file takes is held against what is allowed before it is read.
+// The memory to read a file is checked against the limit before the read.
 static void test_no_memory_to_read_it(void **state)
 {
     (void)state;
@@ -265,7 +265,7 @@ static void test_indices_out_of_range(void **state)
     for (size_t i = 0; i < COUNT_OF(indices); i++) {
         snprintf(text, sizeof(text), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 %s%s\n",
                  *indices[i] == '-' ? "-" : "", *indices[i] == '3' ? "4" : indices[i]);
-        if (*indices[i] != '-') // counts from the end in OBJ
+        if (*indices[i] != '-') // OBJ counts it from the end
             expect_text_refused("index.obj", text, "");
         snprintf(text, sizeof(text), "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 %s\n", indices[i]);
         expect_text_refused("index.off", text, "line 6 names vertex");
@@ -274,7 +274,7 @@ static void test_indices_out_of_range(void **state)
     }
 }
 
-// Fifty million faces, promised in a few bytes: refused by the header, before memory is taken.
+// Fifty million faces, promised in a few bytes, are refused by the header before memory is taken.
 static void test_fifty_million_faces(void **state)
 {
     (void)state;
@@ -292,7 +292,7 @@ static void test_fifty_million_faces(void **state)
     put_bytes(&stl, header, sizeof(header));
     put_bytes(&stl, &faces, sizeof(faces));
     expect_bytes_refused("many.stl", &stl, why);
-    // and the other numbers that a header may hold
+    // Other numbers in a header.
     expect_text_refused("vertices.off", "OFF\n4000000000 1 0\n", "4000000000 vertices");
     expect_text_refused("negative.off", "OFF\n3 -1 0\n0 0 0\n", "line 2 does not count");
     expect_text_refused("endless.ply",
@@ -301,7 +301,7 @@ static void test_fifty_million_faces(void **state)
                         "");
 }
 
-// OBJ has no header: the lines of its faces are counted. Twelve million, eight bytes each.
+// OBJ has no header, so that lines of faces are counted. Twelve million, eight bytes each.
 static void test_too_many_faces_without_a_header(void **state)
 {
     (void)state;
@@ -325,8 +325,8 @@ static void test_too_many_faces_without_a_header(void **state)
     "property list uchar int vertex_indices\nend_header\n"
 #define PLY_BODY "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n"
 
-// Assimp passes over any line that stands before the elements, but not over an element that is
-// indented: that would not be counted here.
+// Assimp passes over any line before the elements, but not over an indented element, which our
+// count would miss.
 static void test_free_lines_of_a_ply_header(void **state)
 {
     (void)state;
@@ -371,7 +371,7 @@ static void test_half_a_file(void **state)
 
 // --- any damage ---
 
-// Loaded or refused; never more than a line, and what is loaded keeps its promises.
+// A file loads or is refused. It logs at most one line, and a loaded mesh keeps its promises.
 static void expect_sound(const char *name, const struct bytes *file)
 {
     const char *path = in_folder(name);
@@ -387,7 +387,7 @@ static void expect_sound(const char *name, const struct bytes *file)
     rg_mesh_destroy(mesh);
 }
 
-// The fuzzers' seeds and finds.
+// The seeds and findings of the fuzzers.
 static void test_the_corpus(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Meshes in memory and by name: joining and normals, other numbers of faces, what packages bring.
+// Meshes in memory and by name: joining, normals, other numbers of faces, and models of packages.
 #include "tests/core/scene/mesh/rig.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@
 static void test_equal_vertices_are_joined(void **state)
 {
     (void)state;
-    // two triangles of their own corners; -0 is 0, and 1e-40 too small to be kept
+    // Two triangles with corners of their own; -0 counts as 0, and 1e-40 is too small to keep.
     static const float positions[18] = {0,     0, 0, 1, 0,      0, 0, 1, 0,
                                         -0.0f, 1, 0, 1, 1e-40f, 0, 1, 1, 0};
     static const uint32_t indices[6] = {0, 1, 2, 3, 4, 5};
@@ -28,7 +28,7 @@ static void test_equal_vertices_are_joined(void **state)
     assert_int_equal(mesh->vertex_count, 4);
     assert_memory_equal(mesh->indices, joined, sizeof(joined));
     rg_mesh_destroy(mesh);
-    // with normals that differ they stay apart, until the mesh is made smooth
+    // Vertices with different normals stay apart until the mesh is made smooth.
     static const float normals[18] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0};
     mesh = rg_mesh_create("two", 6, 2, positions, normals, indices);
     check_mesh(mesh);
@@ -40,7 +40,7 @@ static void test_equal_vertices_are_joined(void **state)
     rg_mesh_destroy(smooth);
 }
 
-// A corner of three faces with areas 1, 2 and 3 halves, along the axes.
+// A corner of three faces along the axes, with areas of 1, 2 and 3 halves.
 static void test_normals_weigh_areas(void **state)
 {
     (void)state;
@@ -79,7 +79,8 @@ static void test_arrays_that_are_refused(void **state)
 
 // --- computed models ---
 
-// Each side of a face has one neighbour, which runs along it the other way: no holes, no seams.
+// Each side of a face has one neighbour, which runs along it in the other direction: no holes, no
+// seams.
 static void expect_closed(const struct rg_mesh *mesh, int euler)
 {
     assert_int_equal(mesh->vertex_count - mesh->face_count / 2, euler);
@@ -117,7 +118,7 @@ static void test_computed_models(void **state)
     expect_closed(torus, 0);
     assert_int_equal(sphere->face_count, 27648);
     assert_int_equal(torus->face_count, 32768);
-    // the faces look outwards, and lie just inside the curved surface
+    // The faces look outwards and lie just inside the curved surface.
     assert_below(volume(sphere), 4 * pi / 3);
     assert_above(volume(sphere), 0.999 * 4 * pi / 3);
     assert_below(volume(torus), 2 * pi * pi * 0.7 * 0.09);
@@ -141,8 +142,8 @@ static void test_decimation(void **state)
         struct rg_mesh *coarse = rg_mesh_decimate(sphere, wanted[i]);
         struct rg_mesh *again = rg_mesh_decimate(sphere, wanted[i]);
         check_mesh(coarse);
-        assert_int_equal(coarse->face_count, wanted[i] / 2 * 2); // a closed surface's is even
-        // 10 divided by the faces is what regular subdivision of an icosahedron loses
+        assert_int_equal(coarse->face_count, wanted[i] / 2 * 2); // even, being closed
+        // Regular subdivision of an icosahedron loses 10 divided by the number of faces.
         assert_below(fabs(volume(coarse) / whole - 1), 20.0 / wanted[i]);
         assert_equals(coarse->hash, again->hash);
         snprintf(name, sizeof(name), "sphere, decimated to %d faces", wanted[i] / 2 * 2);
@@ -156,9 +157,9 @@ static void test_decimation(void **state)
     rg_mesh_destroy(sphere);
 }
 
-// Books of four pages, which share a spine: none of their edges can collapse without tearing one,
-// so this is done the sloppy way, which loses whole books. They lie all over a square, larger and
-// larger, since those that are smallest are lost first.
+// Books of four pages that share a spine. No edge can collapse without tearing a page, so that the
+// sloppy method must do it, which loses whole books. They are spread over a square and grow in
+// size, since the smallest are lost first.
 static void test_decimation_against_the_topology(void **state)
 {
     (void)state;
@@ -233,20 +234,20 @@ static void test_refinement(void **state)
         struct rg_mesh *fine = rg_mesh_refine(box, wanted[i]);
         check_mesh(fine);
         assert_int_equal(fine->face_count, wanted[i] / 2 * 2);
-        expect_closed(fine, 2); // no face's side ends in the middle of another's
-        // coordinates are halves of halves, so that nothing is rounded
+        expect_closed(fine, 2); // no side ends in the middle of another face's
+        // Coordinates are halves of halves, so that nothing is rounded.
         assert_below(fabs(volume(fine) - 198), 1e-9);
         assert_below(fabs(surface(fine) - 234), 1e-9);
         rg_mesh_destroy(fine);
     }
     struct rg_mesh *fine = rg_mesh_refine(box, 5000);
-    // As long as a side of equal halvings would be, and twice that at most: none was forgotten.
+    // At most twice a side of equal halvings: no edge was forgotten.
     assert_below(longest_side(fine), 2 * sqrt(4 * 234.0 / 5000));
     rg_mesh_destroy(fine);
     rg_mesh_destroy(box);
 }
 
-// A surface with a border reaches odd numbers too.
+// A surface with a border reaches odd numbers as well.
 static void test_refinement_of_an_open_surface(void **state)
 {
     (void)state;
@@ -262,8 +263,8 @@ static void test_refinement_of_an_open_surface(void **state)
     rg_mesh_destroy(open);
 }
 
-// A face that is a line to and fro has the longest edge of all, which cannot be halved. It holds
-// nothing up: one edge a round, instead of half of them, would take hours here.
+// A face that is a line to and fro has the longest edge, which cannot be halved. It must not hold
+// up the others: one edge a round, instead of half of them, would take hours here.
 static void test_refinement_beside_a_line(void **state)
 {
     (void)state;
@@ -298,12 +299,12 @@ static void test_numbers_that_are_refused(void **state)
     rg_mesh_destroy(torus);
 }
 
-// Several pieces are more than is allowed, and the first alone is told.
+// Several allocations exceed the limit; only the first is reported.
 static void test_no_memory_is_one_line(void **state)
 {
     (void)state;
     struct rg_mesh *torus = rg_mesh_load("torus");
-    const struct rg_mesh large = {.face_count = RG_MESH_MAX_FACES}; // its arrays are not looked at
+    const struct rg_mesh large = {.face_count = RG_MESH_MAX_FACES}; // its arrays are not read
     struct rg_edges edges;
     rg_memory_allow((int64_t)100 << 20);
     expect_count_refused(torus, RG_MESH_MAX_FACES, "of --memory are left");
@@ -339,7 +340,7 @@ static void test_packaged_models(void **state)
     expect_model("cow", "cow.off", 0, 5804); // not in the table
 }
 
-// A cat lies, a head stands: which of the bounds' sides is the longest, and which the shortest.
+// The head is taller than deep, and the cat is its file's model turned by 90 degrees.
 static void test_packaged_models_are_upright(void **state)
 {
     (void)state;
@@ -348,7 +349,7 @@ static void test_packaged_models_are_upright(void **state)
     check_mesh(cat);
     check_mesh(head);
     assert_above(head->high[1] - head->low[1], 1.1f * (head->high[2] - head->low[2]));
-    // about x by a quarter: y became z, z became -y
+    // Rotated about x by 90 degrees: y became z, z became -y.
     assert_int_equal(cat->vertex_count, as_it_lies->vertex_count);
     for (int i = 0; i < 3 * cat->vertex_count; i += 3) {
         assert_equals(cat->positions[i], as_it_lies->positions[i]);
@@ -361,7 +362,7 @@ static void test_packaged_models_are_upright(void **state)
     rg_mesh_destroy(as_it_lies);
 }
 
-// The numbers of faces of Stuppacher and Supan's scenes.
+// The numbers of faces in Stuppacher and Supan's scenes.
 static void test_stand_ins_have_the_published_counts(void **state)
 {
     (void)state;
@@ -393,7 +394,7 @@ static void test_names(void **state)
     assert_null(rg_model_at(-1));
     expect_no_model("", "no model is named");
     expect_no_model("unicorn", "holds no data/meshes/unicorn.off");
-    // a folder of the user's own comes first
+    // The user's own folder comes first.
     char path[256];
     snprintf(path, sizeof(path), "%s", in_folder("dragon.obj"));
     const char *text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

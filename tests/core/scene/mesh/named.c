@@ -1,5 +1,5 @@
-// Files of meshes as editors and exporters leave them: texts that begin with a byte order mark, and
-// buffers of glTF by any name.
+// Meshes as editors and exporters leave them: texts that begin with a byte order mark, and glTF
+// buffers with any name.
 #include "tests/core/scene/mesh/rig.h"
 #include "tests/tools/expect.h"
 
@@ -9,8 +9,8 @@
 
 // --- marks ---
 
-// A text with the mark is the same mesh as without: in OBJ Assimp took it for a part of the first
-// word, and lost a vertex.
+// A text with a mark gives the same mesh as without. In OBJ Assimp took the mark as part of the
+// first word and lost a vertex.
 static void test_texts_with_a_mark(void **state)
 {
     (void)state;
@@ -35,7 +35,7 @@ static void test_texts_with_a_mark(void **state)
     assert_int_equal(found, COUNT_OF(texts));
 }
 
-// An OBJ whose first line counts: with its vertex lost, the others would be another mesh.
+// An OBJ whose first line is a vertex: without it the mesh would be another.
 static void test_a_mark_before_a_vertex(void **state)
 {
     (void)state;
@@ -51,8 +51,8 @@ static void test_a_mark_before_a_vertex(void **state)
 
 static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-// A triangle whose corners are in the file that `uri` names, as it stands in JSON, behind this many
-// other buffers of four bytes.
+// A triangle whose corners are in the file `uri`, as JSON writes it, after this many other buffers
+// of four bytes.
 static void put_triangle_behind(struct bytes *file, int others, const char *uri)
 {
     put_text(file,
@@ -77,7 +77,7 @@ static void put_word(struct bytes *file, size_t value)
     put_bytes(file, &word, 4);
 }
 
-// The same in a GLB, whose own chunk is the first buffer.
+// The same triangle in a GLB, whose own chunk is the first buffer.
 static void put_glb(struct bytes *file, const char *uri)
 {
     struct bytes scene = {0};
@@ -95,7 +95,7 @@ static void put_glb(struct bytes *file, const char *uri)
 }
 
 static const struct {
-    const char *uri, *file; // as JSON has it, and as the folder does
+    const char *uri, *file; // as JSON writes it, and as the folder has it
 } named[] = {
     {"plain.bin", "plain.bin"},
     {"no%20gap.bin", "no gap.bin"},
@@ -106,8 +106,8 @@ static const struct {
     {"corners.f32", "corners.f32"},
     {"a \\\"b\\\".bin", "a \"b\".bin"},
     {"50%.bin", "50%.bin"},             // no code follows
-    {"%41%42.bin", "%41%42.bin"},       // nobody has AB.bin: some programs code nothing
-    {"a.bin\\u002epart", "a.bin.part"}, // more behind .bin
+    {"%41%42.bin", "%41%42.bin"},       // no AB.bin: some programs encode nothing
+    {"a.bin\\u002epart", "a.bin.part"}, // more after .bin
     {".\\/here.bin", "here.bin"},
 };
 
@@ -132,7 +132,7 @@ static void test_buffers_by_any_name(void **state)
     }
 }
 
-// The decoded name comes first.
+// The decoded name is tried first.
 static void test_the_decoded_name_is_meant(void **state)
 {
     (void)state;
@@ -151,8 +151,7 @@ static void test_the_decoded_name_is_meant(void **state)
     unlink(coded);
 }
 
-// What is no file beside the mesh's is not opened, even where it is there; nor is a FIFO waited
-// for.
+// Only files beside the mesh's own are opened: not others, even if they exist.
 static void test_other_places_are_refused(void **state)
 {
     (void)state;

@@ -106,7 +106,7 @@ static const float *corner(int i)
     return box_positions + 3 * box_indices[i];
 }
 
-// Of a face: -z, -z, z, z, -y, -y, y, y, -x, -x, x, x.
+// The normal of a face: -z, -z, z, z, -y, -y, y, y, -x, -x, x, x.
 static void find_facet_normal(int face, float normal[3])
 {
     for (int c = 0; c < 3; c++)
@@ -146,7 +146,7 @@ static void write_binary_stl(struct bytes *file)
     }
 }
 
-// The scene of a glTF file, whose one buffer holds the positions, then the indices.
+// A glTF scene whose one buffer holds the positions, then the indices.
 static void put_gltf(struct bytes *file, const char *buffer_uri)
 {
     put_text(file,
@@ -202,7 +202,7 @@ static void write_glb(struct bytes *file)
     put_bytes(file, box_indices, sizeof(box_indices));
 }
 
-// Chunks within chunks; each begins with its kind and its size, itself included.
+// Nested chunks; each begins with its kind and its size, which includes this head.
 static void write_3ds(struct bytes *file)
 {
     const size_t vertices = 8 + sizeof(box_positions), faces = 8 + 8 * BOX_FACES;

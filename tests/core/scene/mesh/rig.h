@@ -1,4 +1,4 @@
-// What tests of meshes share: one box in every format, and what must hold of any mesh.
+// For tests of meshes: one box in every format, and a check of any mesh.
 #ifndef RG_TESTS_CORE_SCENE_MESH_RIG_H
 #define RG_TESTS_CORE_SCENE_MESH_RIG_H
 
@@ -23,7 +23,7 @@ struct bytes {
     unsigned char data[8192];
 };
 
-// The box in a format. `extension` is what the file has to be called.
+// The box in a format. `extension` is the ending that the file's name needs.
 struct box_format {
     const char *name, *extension;
     void (*write)(struct bytes *file);
@@ -41,7 +41,7 @@ extern char folder[];
 const char *in_folder(const char *name); // valid until the next call
 void write_file(const char *path, const void *data, size_t size);
 
-// Lines that were logged since the last listen_now.
+// The lines logged since the last listen_now.
 struct lines {
     int count;
     char last[1024];
@@ -49,16 +49,16 @@ struct lines {
 extern struct lines lines;
 void listen_now(void);
 
-// NULL, in exactly one line, which names the file and says this.
+// Loading must return NULL with exactly one line, which names the file and holds `why`.
 void expect_refused(const char *path, const char *why);
 void expect_bytes_refused(const char *name, const struct bytes *file, const char *why);
 void expect_text_refused(const char *name, const char *text, const char *why);
 
-// Loads a file that is all right; not one line.
+// Loads a sound file, without a line.
 struct rg_mesh *load_bytes(const char *name, const struct bytes *file);
 struct rg_mesh *load_text(const char *name, const char *text);
 
-// What mesh.h promises of every mesh.
+// Checks what mesh.h promises of every mesh.
 void check_mesh(const struct rg_mesh *mesh);
 
 #endif

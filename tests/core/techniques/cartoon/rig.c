@@ -76,7 +76,7 @@ struct scene_oracle rig_oracle(const struct cartoon *c)
     right[0] = -ahead[2] / length;
     right[1] = 0;
     right[2] = ahead[0] / length;
-    for (int i = 0; i < 3; i++) // right x ahead
+    for (int i = 0; i < 3; i++) // the product right x ahead
         up[i] = right[(i + 1) % 3] * ahead[(i + 2) % 3] - right[(i + 2) % 3] * ahead[(i + 1) % 3];
     return (struct scene_oracle){
         .face_count = mesh->face_count,

@@ -1,5 +1,5 @@
-// What drops draw by chance is spread as the paper has it: each mean, and each share, of thousands
-// within four of its standard deviations.
+// The random choices of drops are distributed as in the paper: over thousands, each mean and each
+// share is within four of its standard deviations.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,15 +26,15 @@ static void expect_mean(const char *what, double sum, double due, double deviati
         fail_msg("%s: %.6g, not %.6g", what, sum / MANY, due);
 }
 
-// A share of an even spread of `wide`: its deviation is wide / sqrt(12).
+// Expects a uniform distribution of width `wide`: its deviation is wide / sqrt(12).
 static void expect_even(const char *what, double sum, double squares, double due, double wide)
 {
     expect_mean(what, sum, due, wide / sqrt(12));
-    // Of squared distances from the mean, whose mean is wide^2 / 12 and variance wide^4 / 180.
+    // Squared distances from the mean have mean wide^2 / 12 and variance wide^4 / 180.
     expect_mean(what, squares, wide * wide / 12, wide * wide / sqrt(180));
 }
 
-// Drops land anywhere alike, at rest, and most are small (section 4.1).
+// Drops land uniformly, at rest, and most are small (section 4.1).
 static void drops_land_anywhere(void **state)
 {
     (void)state;
@@ -84,7 +84,7 @@ static void affinity_is_normal(void **state)
         assert_at_least(f, 0);
         assert_at_most(f, 1);
     }
-    const double beyond = 0.36944; // of a normal number, a third of its deviation from its mean
+    const double beyond = 0.36944; // of a normal distribution, beyond a third of its deviation
     expect_mean("no affinity", none, beyond, sqrt(beyond * (1 - beyond)));
     expect_mean("most affinity", most, beyond, sqrt(beyond * (1 - beyond)));
     expect_mean("less than half", half, 0.5, 0.5);
@@ -92,7 +92,7 @@ static void affinity_is_normal(void **state)
     rig_close(d);
 }
 
-// Many drops of one kind, slow ones on a dry pane that draws them nowhere.
+// Many drops of one kind, which are slow; the pane is dry and draws them nowhere.
 static struct drops *open_many(const char *settings, double mg, double since_s)
 {
     static drops_drop all[MANY];
@@ -115,7 +115,7 @@ static struct drops *open_many(const char *settings, double mg, double since_s)
 
 #define RUNS PANE "drops_s=0 merge=off substeps=1 max_drops=6000 trail=lines "
 
-// A drop that runs straight turns by an even angle, of theta at most, and is no slower for it.
+// A drop that runs straight turns by a uniform angle of at most theta, and keeps its speed.
 static void drops_meander(void **state)
 {
     (void)state;
@@ -138,8 +138,9 @@ static void drops_meander(void **state)
     rig_close(d);
 }
 
-// Eq. 6: of drops that have run for a part of tau_max without, so many leave another behind, which
-// weighs an even share of theirs, lies where they were, and is theirs.
+// Eq. 6: a drop that has run for a part of tau_max without shedding sheds with this chance. The
+// child has a uniform share of the parent's mass, starts where the parent was, and names it as its
+// parent.
 static void drops_shed(void **state)
 {
     (void)state;
@@ -184,7 +185,7 @@ static void drops_shed(void **state)
     }
 }
 
-// Drops that came first shed while there is room for a child of each.
+// The first drops shed, one child each, until there is no more room.
 static void drops_shed_while_there_is_room(void **state)
 {
     (void)state;
@@ -197,7 +198,7 @@ static void drops_shed_while_there_is_room(void **state)
     drops_drop *all = rig_drops(d, &count);
     assert_int_equal(count, MANY + ROOM);
     for (int i = 0; i < MANY; i++)
-        assert_equals(all[i].since_s, 0); // whether a child came about or not
+        assert_equals(all[i].since_s, 0); // whether it has a child or not
     for (int i = 0; i < ROOM; i++)
         assert_int_equal(all[MANY + i].parent, i + 1);
     free(all);

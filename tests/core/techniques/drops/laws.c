@@ -1,4 +1,4 @@
-// drops obeys its laws, and does in closed cases what the paper's equations say.
+// drops obeys its laws, and in closed cases the paper's equations.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -45,13 +45,13 @@ static void expect_near(double found, double due, double share)
 
 // --- motion ---
 
-// Eqs. 2 to 5: the speed rises by a dt in each substep, and the place follows it.
+// Eqs. 2 to 5: each substep adds a dt to the speed, and the place follows the speed.
 static void a_drop_falls_as_the_equations_say(void **state)
 {
     (void)state;
     static const struct {
         const char *settings;
-        double mg, along; // of gravity
+        double mg, along; // the part of gravity
     } cases[] = {{PANE "residual=off", 50, 1},
                  {PANE "residual=off substeps=2 step_s=0.02", 30, 1},
                  {PANE "residual=off tilt_deg=30", 60, 0.5}};
@@ -73,7 +73,7 @@ static void a_drop_falls_as_the_equations_say(void **state)
     }
 }
 
-// A pane holds drops up to the critical mass, a tilted one heavier ones.
+// A pane holds drops up to the critical mass, and a tilted pane heavier ones.
 static void light_drops_stay(void **state)
 {
     (void)state;
@@ -93,7 +93,7 @@ static void light_drops_stay(void **state)
     }
 }
 
-// A pane that is turned upside down in its plane runs the other way, and one on its side sideways.
+// On a pane turned upside down in its plane drops run the other way; on its side, sideways.
 static void drops_run_down_however_the_pane_is_turned(void **state)
 {
     (void)state;
@@ -117,7 +117,7 @@ static void drops_run_down_however_the_pane_is_turned(void **state)
 
 // --- water ---
 
-// A hemisphere of eq. 7 holds the drop's water: 2/3 pi r^3 is its volume.
+// The hemisphere of eq. 7 has the drop's volume, 2/3 pi r^3.
 static void water_is_as_much_as_the_drop(void **state)
 {
     (void)state;
@@ -138,8 +138,8 @@ static void water_is_as_much_as_the_drop(void **state)
     }
 }
 
-// What lands is on the pane, has left it or was removed, to the last quantum; every ID on the map
-// is one that a drop had; and no drop above the critical mass stands still.
+// To the last quantum, water that landed is on the pane, has left it or was removed. Every ID on
+// the map was a drop's, and no drop above the critical mass stands still.
 static void rain_obeys_its_laws(void **state)
 {
     (void)state;
@@ -147,7 +147,7 @@ static void rain_obeys_its_laws(void **state)
                                            RAINY "seed=3 erode=off", RAINY "seed=4 merge=off",
                                            RAINY "seed=5 residual=off tilt_deg=60",
                                            RAINY "seed=6 smooth=off remove_s=2",
-                                           // A step takes a drop farther than the pane is long.
+                                           // A step moves a drop farther than the pane's length.
                                            RAINY "seed=7 rows=16 columns=400 step_s=0.1"};
     for (int c = 0; c < 7; c++) {
         struct drops *d = rig_open(device, settings[c]);
@@ -180,7 +180,7 @@ static void rain_obeys_its_laws(void **state)
     }
 }
 
-// Work that is left out where nothing changes changes nothing.
+// Skipping work where nothing changes alters no bit.
 static void sleep_changes_no_bit(void **state)
 {
     (void)state;
@@ -205,7 +205,7 @@ static void sleep_changes_no_bit(void **state)
     rig_close(b);
 }
 
-// The height map converges once nothing moves, and without drops all water vanishes.
+// The height map converges once nothing moves. Without drops all water vanishes.
 static void water_comes_to_rest_and_vanishes(void **state)
 {
     (void)state;
@@ -226,8 +226,7 @@ static void water_comes_to_rest_and_vanishes(void **state)
 
 // --- merging ---
 
-// Drops whose waters meet become one, as heavy as all, as fast as their momentum, where the lowest
-// was.
+// Drops whose waters meet become one: it has their mass and momentum, at the place of the lowest.
 static void waters_that_meet_merge(void **state)
 {
     (void)state;
@@ -252,7 +251,7 @@ static void waters_that_meet_merge(void **state)
     rig_close(d);
 }
 
-// Of two drops whose waters are as high the older one owns them: cells halfway between.
+// The waters of two drops are equally high in cells halfway between: the older drop owns these.
 static void the_oldest_owns_what_is_as_high(void **state)
 {
     (void)state;
@@ -269,7 +268,7 @@ static void the_oldest_owns_what_is_as_high(void **state)
     rig_close(d);
 }
 
-// One that runs into one at rest: momentum is kept.
+// A drop that runs into one at rest keeps their momentum.
 static void momentum_is_kept(void **state)
 {
     (void)state;

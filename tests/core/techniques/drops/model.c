@@ -1,5 +1,5 @@
-// drops and the paper's own rule, one drop after the other in double precision, bring the same few
-// drops down a small pane, step by step.
+// The same few drops run down a small pane, step by step alike: as drops on a device, and by the
+// paper's own rule, one drop after the other in double precision.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 
 #include "tests/core/techniques/drops/scenes.h"
 
-// IDs that came about in a scene are other numbers in both, one for one.
+// IDs that arise in a scene differ between the two, but correspond one to one.
 static uint32_t of_model[256], of_ours[256];
 
 static bool is_same_id(uint32_t ours, uint32_t model)
@@ -46,8 +46,8 @@ static void compare_drops(const struct scene *s, int step, struct drops *d,
         const drops_drop *a = &all[i];
         if (a->id <= (i ? all[i - 1].id : 0) || a->id >= rig_tally(d, DROPS_NEXT_ID))
             fail_msg("%s, step %d: drop %u is out of order", s->about, step, a->id);
-        // By place: the IDs of those that merge in one step rise in another order. Momentum
-        // is whole steps of 1/4 mg mm/s.
+        // Compared by place, since IDs of drops that merge in one step rise in another order.
+        // Momentum is in whole steps of 1/4 mg mm/s.
         const struct oracle_drop *b = NULL;
         for (int k = 0; k < count; k++)
             if (is_near((double)a->x, o->drops[k].x_mm, 2e-3) &&
@@ -62,7 +62,7 @@ static void compare_drops(const struct scene *s, int step, struct drops *d,
     free(all);
 }
 
-// Heights are rounded in each step, which a mean of them does not enlarge.
+// Heights are rounded in each step; taking a mean of them does not enlarge the error.
 static void compare_maps(const struct scene *s, int step, struct drops *d,
                          const struct oracle_drops *o)
 {
@@ -108,8 +108,8 @@ static void a_few_drops_are_as_the_model_has_them(void **state)
     }
 }
 
-// A child merges with a stranger: the drop that they become is no kin of the child's parent, and
-// merges with it in a later step.
+// A child merges with a stranger. The new drop is no kin of the child's parent, and merges with it
+// in a later step.
 static void what_merges_is_nobodys_child(void **state)
 {
     (void)state;
@@ -130,7 +130,7 @@ static void what_merges_is_nobodys_child(void **state)
     rig_close(d);
 }
 
-// Tiles that are left out, since nothing changes in them, are as they would be.
+// Tiles skipped because nothing changes in them keep the right contents.
 static void sleep_changes_no_bit(void **state)
 {
     (void)state;

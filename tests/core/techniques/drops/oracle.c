@@ -1,5 +1,5 @@
-// drops and the paper's own rule, one drop after the other in double precision, bring the same rain
-// down a pane: not drop by drop, since chance is another, but in the mean over many seeds.
+// drops on a device and the paper's own rule (one drop after the other, in double precision) agree
+// in the mean over many seeds. Single drops differ, since their random numbers do.
 //
 // Equivalence (two one-sided tests at 5 %): the 90 % interval of the difference of two means lies
 // within a bound, a share of the model's mean.
@@ -25,7 +25,7 @@ static const char *const names[MEASURES] = {"drops",         "mass on the pane",
 
 static struct rg_device *device;
 
-// What all drops have run in a step, from the ways that they remember.
+// The distance that all drops ran in a step, from the paths that they remember.
 static double way_of_step(struct drops *d)
 {
     const int points = d->settings.substeps + 1;
@@ -130,7 +130,7 @@ static int compare(double drops_a_step, int most, const double *bounds)
 static void rain_is_as_the_paper_has_it(void **state)
 {
     (void)state;
-    // As large as the scatter of 30 runs lets one say, drops and their mass varying most.
+    // As tight as the scatter of 30 runs allows. The number of drops and their mass vary most.
     static const double bounds[MEASURES] = {
         [DROPS] = 0.2, [MASS] = 0.2,    [DRAINED] = 0.1,    [TRAIL] = 0.1,
         [WET] = 0.15,  [MERGES] = 0.12, [RESIDUALS] = 0.12,

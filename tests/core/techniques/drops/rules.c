@@ -1,5 +1,5 @@
-// By physical rules a drop is as large and as fast on cells of any width, and its water spreads and
-// thins as fast; by the paper's it is not (its section 5.1).
+// By the physical rules a drop has the same size and speed on cells of any width, and its water
+// spreads and thins as fast. By the paper's rules it does not (its section 5.1).
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,7 +27,7 @@ static drops_drop drop(double mg, double x_mm, double y_mm)
         .mass = (uint32_t)(mg * DROPS_QUANTA_MG), .x = (float)x_mm, .y = (float)y_mm};
 }
 
-// Wet area and volume of the water left or right of the pane's middle.
+// The wet area and the volume of the water left or right of the pane's middle.
 static void measure_water(struct drops *d, bool is_right, double *area_mm2, double *volume_mm3)
 {
     const double cell = d->settings.cell_mm;
@@ -44,7 +44,7 @@ static void measure_water(struct drops *d, bool is_right, double *area_mm2, doub
     free(height);
 }
 
-// A pane of 96 x 72 mm with a drop that runs, and one that rests.
+// A pane of 96 x 72 mm with one drop that runs and one at rest.
 static void run_on(const char *rules, double cell_mm, double *measures)
 {
     char settings[200];
@@ -67,7 +67,7 @@ static void run_on(const char *rules, double cell_mm, double *measures)
     rig_close(d);
 }
 
-// The largest share by which a measure differs from that on the paper's cells.
+// The largest share by which a measure differs from the paper's cells, over its bound.
 static double worst(const char *rules, double cell_mm, const double *bounds)
 {
     double due[MEASURES], found[MEASURES], most = 0;
@@ -92,7 +92,7 @@ static void size_and_speed_hold_across_resolutions(void **state)
     assert_above(worst("paper", 0.25, bounds), 1);
 }
 
-// With the paper's cells and steps both rules are the same, to the bit.
+// With the paper's cells and steps both rules agree to the bit.
 static void rules_agree_on_the_papers_cells(void **state)
 {
     (void)state;

@@ -154,7 +154,8 @@ const struct scene scenes[] = {
      6,
      {{0, 60, 16.1, 2.3, 0, 0}, {0, 22, 30.1, 2.3, 40, 40}},
      {{0}}},
-    // It loses two cells a step: first columns 29 and 30, then 31 and 32, and 32 is another tile's.
+    // The film loses two cells a step: first columns 29 and 30, then 31 and 32; column 32 is in
+    // another tile.
     {"a film as low as stays wet, which ends before a tile's last cell",
      "",
      6,
@@ -163,7 +164,7 @@ const struct scene scenes[] = {
     {0},
 };
 
-// Uneven, and the same for both; without ties.
+// Uneven, without ties, and the same for both.
 static double affinity_at(int column, int row)
 {
     return fmod(0.35 + 0.6180339887 * column + 0.7548776662 * row + 0.013 * column * row, 1);
@@ -252,7 +253,7 @@ void scene_open_model(struct oracle_drops *o, const struct scene *s)
         drop->vx_mm_s = a->vx;
         drop->vy_mm_s = -a->vy;
     }
-    while (o->next_id < SCENE_NEXT_ID) // the puddles' owners, which are no more
+    while (o->next_id < SCENE_NEXT_ID) // the puddles' owners, which no longer exist
         oracle_drops_end(o, &o->drops[oracle_drops_add(o, 1, 1, 1) - 1]);
     oracle_drops_clear_away(o);
 }

@@ -1,5 +1,5 @@
-// Scenes of a few drops and puddles on a small pane, opened alike as drops on a device and as the
-// model of the paper's rule: without chance, and where the order of drops does not matter.
+// Scenes of a few drops and puddles on a small pane, for drops on a device and for a model of the
+// paper's rule. They have no chance, and the order of drops does not matter.
 #ifndef RG_TESTS_CORE_TECHNIQUES_DROPS_SCENES_H
 #define RG_TESTS_CORE_TECHNIQUES_DROPS_SCENES_H
 
@@ -8,7 +8,7 @@
 
 enum { COLUMNS = 72, ROWS = 44, MOST = 8 };
 
-// The IDs below are the scene's own: drops have the first ones.
+// IDs below are the scene's own; drops have the first ones.
 enum { SCENE_NEXT_ID = 20 };
 
 #define CELL_MM 0.5
@@ -19,7 +19,7 @@ struct start {
     double mg, x, y, vx, vy;
 };
 
-// Water of a drop that is no more: so many cells of one height.
+// Water of a drop that no longer exists: a rectangle of cells of one height.
 struct puddle {
     uint32_t id;
     int column, row, columns, rows;
@@ -33,13 +33,13 @@ struct scene {
     struct puddle puddles[4];
 };
 
-// Ends with one without `about`. A scene has as few steps as keep heights further from a threshold
-// than rounding moves them.
+// The last scene has no `about`. A scene has so few steps that heights stay further from any
+// threshold than rounding moves them.
 extern const struct scene scenes[];
 
-// A setting's value in a scene's, or `otherwise`.
+// The value of a setting in a scene, or `otherwise`.
 double scene_setting(const struct scene *scene, const char *name, double otherwise);
-// With `more` settings. The caller closes each.
+// Adds the settings `more`. The caller closes both.
 struct drops *scene_open(struct rg_device *device, const struct scene *scene, const char *more);
 void scene_open_model(struct oracle_drops *model, const struct scene *scene);
 

@@ -1,4 +1,4 @@
-// flow's movement over the six panes of the box: what crosses an edge arrives where geometry says,
+// flow's water on the six panes of the box. Water that crosses an edge arrives where geometry says,
 // and none is lost. box DEVICE runs on it.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,7 @@ static const char *device = "cpu:reference";
 
 enum { SIZE = 24, UNIT = 65536, TEXELS = BOX_PANES * SIZE * SIZE };
 
-// No drops, noise 1, and a remainder of 1/4 wherever water moves at all.
+// No drops, noise 1, and a remainder of 1/4 wherever water moves.
 static const char *const plain = "view=box resolution_px=24 drops=0 rain_drops_s=0 noise_low=1 "
                                  "remainder_low=0.25 remainder_low_height=0 ";
 
@@ -39,15 +39,15 @@ static uint32_t noise(uint32_t i)
 
 // --- where water goes ---
 
-// One step of the box, reckoned texel by texel: what each holds then, and what has left.
+// One step of the box, computed for each texel: its water afterwards, and the water that left.
 struct expected {
     double water[TEXELS];
     double drained;
     int crossings[BOX_PANES][BOX_PANES]; // parts that went from one pane to another
-    int falls[BOX_PANES][BOX_PANES];     // and that fell off there
+    int falls[BOX_PANES][BOX_PANES];     // parts that fell off there
 };
 
-// How the settings share out.
+// The settings that divide water.
 struct rule {
     bool split;
     int reach;
@@ -69,8 +69,8 @@ static void give_part(struct expected *e, const struct box_oracle *box, struct b
         e->drained += droplets;
 }
 
-// What goes one way: r of what goes further goes a texel further still, up to the reach, each next
-// texel from M - L more water on.
+// Divides water along one direction. A share r of the water that reaches a texel goes on to the
+// next, up to the reach. Each further texel needs M - L more water.
 static void give_along(struct expected *e, const struct box_oracle *box, const struct rule *rule,
                        struct box_texel from, const int step[2], double water, double droplets)
 {
@@ -110,7 +110,7 @@ static void give(struct expected *e, const struct box_oracle *box, const struct 
     give_along(e, box, rule, from, step, water, second);
 }
 
-// Wet texels in no order, most of them near edges, with all amounts that thresholds tell apart.
+// Wet texels at random, most of them near edges, with amounts on both sides of every threshold.
 static int64_t *make_wet(uint32_t seed)
 {
     int64_t *water = calloc(TEXELS, sizeof(*water));
@@ -138,8 +138,8 @@ static void expect_step(struct rig *rig, const struct box_oracle *box, const str
         if (before[i])
             give(e, box, rule, (struct box_texel){i / (SIZE * SIZE), i % SIZE, i / SIZE % SIZE},
                  before[i]);
-    // Whole droplets are cut off in single precision here, in double there: a droplet a part, of
-    // which a texel takes 16 at most.
+    // The kernels round down to whole droplets in single precision, and the oracle in double. That
+    // makes one droplet a part, and a texel takes 16 parts at most.
     for (int i = 0; i < TEXELS; i++)
         if (fabs((double)after[i] - e->water[i]) > 16)
             fail_msg("pane %d, texel (%d, %d): %lld droplets, %g expected", i / (SIZE * SIZE),
@@ -151,8 +151,8 @@ static void expect_step(struct rig *rig, const struct box_oracle *box, const str
     free(after);
 }
 
-// The box stands on an edge or a corner, a little turned: each of its three axes near the vertical
-// in turn, either end up, and the other two up to 18 degrees off the horizontal, either way.
+// Poses of a box on an edge or a corner, slightly turned. Each axis in turn is near the vertical,
+// either end up; the other two are up to 18 degrees off the horizontal, either way.
 enum { STANDS = 24 };
 
 static void stand(int i, double *pitch_deg, double *roll_deg)
@@ -185,8 +185,8 @@ static void cross_edges(int reach, struct expected *e)
     rig_close(&rig);
 }
 
-// All of the 24 ways over an edge are gone, and at each of them water falls off, too, where the
-// pane beyond faces down too much.
+// Water takes all of the 24 ways over an edge. At each of them some falls off, too, where the pane
+// beyond faces down too much.
 static void expect_all_ways(const struct expected *e)
 {
     for (int from = 0; from < BOX_PANES; from++) {
@@ -212,7 +212,7 @@ static void test_water_crosses_every_edge(void **state)
     free(e);
 }
 
-// The panes' frames that kernels get are those of the oracle.
+// Kernels get the same frames of panes as the oracle.
 static void test_panes_stand_as_documented(void **state)
 {
     (void)state;
@@ -233,7 +233,7 @@ static void test_panes_stand_as_documented(void **state)
     }
 }
 
-// With run_on off, a pane's edge is the end.
+// With run_on off, water ends at a pane's edge.
 static void test_without_run_on_edges_drain(void **state)
 {
     (void)state;
@@ -257,8 +257,8 @@ static void test_without_run_on_edges_drain(void **state)
 
 // --- conservation ---
 
-// With rain, edges and turns: what is there is what came less what left, at every step, modulo 2^32
-// as the ledger counts.
+// With rain, edges and turns: at every step the water on the panes is what came less what left,
+// modulo 2^32 as in the ledger.
 static void balance(const char *assignments)
 {
     char text[512];
@@ -289,7 +289,7 @@ static void test_water_is_conserved_on_the_box(void **state)
     balance("run_on=off reach_texels=4 pane_pitch_deg=17 pane_roll_deg=18 direction=split");
     balance("run_on=on reach_texels=4 pane_pitch_deg=17 pane_roll_deg=18 direction=split");
     balance("run_on=on reach_texels=3 pane_pitch_deg=-72 pane_roll_deg=-135");
-    // More rain than panes carry, led to the edge between two of them.
+    // More rain than panes carry flows to the edge between two of them.
     balance("run_on=on reach_texels=4 pane_pitch_deg=20 pane_roll_deg=20 direction=split "
             "rain_drops_s=60000 drop_radius_max_mm=40 drop_height_per_mm=16 capacity=64 "
             "remainder_low=1 far_share=0.5 resolution_px=64");
@@ -298,7 +298,7 @@ static void test_water_is_conserved_on_the_box(void **state)
 
 // --- where it rests ---
 
-// On level panes nothing moves, at the edges neither, though it may run on.
+// On level panes nothing moves, not even at edges, though it may run on.
 static void test_water_rests_on_level_panes(void **state)
 {
     (void)state;

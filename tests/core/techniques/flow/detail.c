@@ -1,4 +1,4 @@
-// The level of detail as the camera moves: when it changes, and what becomes of the water. On cpu.
+// The level of detail as the camera moves: when it changes, and where the water goes. On cpu.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,7 +28,7 @@ static void open_box(struct rig *rig, const char *more)
     rig_open_sized(rig, "cpu", text, WIDTH, HEIGHT);
 }
 
-// Whatever the camera asks for, from now on.
+// Sets the level, whatever the camera asks for, from now on.
 static void change_to(struct rig *rig, int texels)
 {
     flow_of(rig)->settings.texels_a_pixel = 0;
@@ -52,7 +52,7 @@ static void expect_balance(const struct rig *rig)
 
 // --- what becomes of the water ---
 
-// A droplet of a texel is four of the next finer level's: these are counted here.
+// A droplet is four droplets of the next finer level; the test counts the finer ones.
 static void a_coarser_level_keeps_the_volume(const char *move)
 {
     struct rig rig;
@@ -77,7 +77,7 @@ static void a_coarser_level_keeps_the_volume(const char *move)
         assert_at_most(llabs(four - 4 * coarse[i]), 3);
     }
     expect_balance(&rig);
-    rig_step(&rig, 5); // it runs on
+    rig_step(&rig, 5); // the water runs on
     expect_balance(&rig);
     free(fine);
     free(coarse);
@@ -92,8 +92,8 @@ static void test_a_coarser_level_keeps_the_volume(void **state)
     a_coarser_level_keeps_the_volume("move=paper direction=texel");
 }
 
-// Four texels hold what their one held, to the droplet; none is beyond what is around it, and where
-// water leans they lean.
+// Four fine texels hold their coarse texel's water, to the droplet. None is outside the range of
+// the texels around, and they lean where water leans.
 static void test_a_finer_level_keeps_the_volume(void **state)
 {
     (void)state;
@@ -141,7 +141,7 @@ static void test_a_finer_level_keeps_the_volume(void **state)
 // --- when it changes ---
 
 // By docs/flow.md: the coarsest of 128, 64, 32 and 16 that gives each pixel of the box's middle one
-// texel; a coarser one than before only where it would do with a tenth to spare.
+// texel. A level coarser than before needs a tenth to spare.
 static int texels_due(const struct flow_settings *s, double distance_mm, int before)
 {
     const double px = HEIGHT * s->pane_mm / (2 * distance_mm * tan(s->view_angle_deg * M_PI / 360));
@@ -188,7 +188,7 @@ static void test_the_level_follows_the_camera(void **state)
            32, 1);
 }
 
-// The border between two levels is crossed to and fro by a tenth without a change.
+// Within a tenth, the camera crosses the border between two levels to and fro without a change.
 static void test_a_camera_at_the_border_changes_nothing(void **state)
 {
     (void)state;
@@ -217,7 +217,7 @@ static struct pane panes_of(struct rig *rig)
 {
     rig->size = flow_of(rig)->settings.resolution_px;
     int64_t *water = rig_water(rig);
-    const int n = rig->size, count = 4 * n * n; // those that stand
+    const int n = rig->size, count = 4 * n * n; // the upright panes
     double wet = 0, sum = 0, down = 0;
     for (int i = 0; i < count; i++) {
         wet += (double)water[i] >= rig->settings.wet_height * 65536;
@@ -228,8 +228,8 @@ static struct pane panes_of(struct rig *rig)
     return (struct pane){wet / count, down / sum};
 }
 
-// Panes whose level has changed on the way are as wet as those that had the last one all along,
-// within 10 %, and their water is as far down, within 3 %.
+// Panes whose level changed on the way are as wet as panes with the last level all along, within 10
+// %. Their water is as far down, within 3 %.
 static void test_the_water_is_where_it_would_be(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-// `cpu` leaves out texels that say that they have nothing to do (rg_is_idle in flow's kernels), and
-// cpu:reference runs them all. Whatever flow keeps, water and all that its passes write in between,
-// is the same to the last bit at every step, and the ledger balances on either.
+// `cpu` skips texels that report nothing to do (rg_is_idle in flow's kernels), and cpu:reference
+// runs them all. Water and all that passes write is the same to the last bit at every step, and the
+// ledger balances on both.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,12 +15,12 @@
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/tools/expect.h"
 
-enum { DEVICES = 2, UNIT = 65536, BLOCK = 16 }; // texels that `cpu` asks at a time
+enum { DEVICES = 2, UNIT = 65536, BLOCK = 16 }; // texels that `cpu` asks at once
 
 struct both {
     struct rig rigs[DEVICES];
     const char *assignments;
-    int64_t came; // what was put or fell, less what the ledgers have as drained
+    int64_t came; // water put or fallen, less water drained by the ledgers
     uint32_t words[FLOW_LEDGER_WORDS];
 };
 
@@ -74,7 +74,7 @@ static void expect_balance(struct both *both)
     assert_int_equal(rig_sum(rig), both->came);
 }
 
-// Every buffer of both instances, after each of so many steps.
+// Compares every buffer of both instances after each of these steps.
 static void both_step(struct both *both, int steps)
 {
     const struct rg_instance *a = both->rigs[0].instance, *b = both->rigs[1].instance;
@@ -103,8 +103,8 @@ static void both_put(struct both *both, int pane, int x, int y, int64_t droplets
     both->came = droplets;
 }
 
-// Beside a block's edge and at a pane's, in all eight directions: it comes to a block that was dry,
-// and leaves one that is dry from then on.
+// Water beside a block's edge and a pane's, in all eight directions, enters a dry block and leaves
+// a block dry.
 static void test_water_comes_from_the_next_block(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void test_water_comes_from_the_next_block(void **state)
     }
 }
 
-// The same of drops that slide: of one that is held, and wets what is around it, and one that runs.
+// The same for sliding drops: one that is held and wets its surroundings, and one that runs.
 static void test_drops_come_from_the_next_block(void **state)
 {
     (void)state;
@@ -171,7 +171,7 @@ static void test_rain_falls_on_dry_panes(void **state)
     compare("move=sliding resolution_px=100 drops=0 rain_drops_s=200 pane_roll_deg=30", 30);
 }
 
-// Panes of no whole number of blocks, whose water runs on to the next ones.
+// The panes are no whole number of blocks, and their water runs on to the next panes.
 static void test_water_runs_over_the_edges(void **state)
 {
     (void)state;
@@ -186,7 +186,7 @@ static void test_water_runs_over_the_edges(void **state)
             40);
 }
 
-// As dry as it was before any water came, in what the next runs read too.
+// Panes get as dry as before any water came, including the data that the next runs read.
 static void test_panes_dry_up(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Flow's remainder, noise and bead maps, generated and the user's own, hold what docs/flow.md says
-// of them.
+// Flow's remainder, noise and bead maps, generated and the user's own, are as docs/flow.md
+// describes.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,8 +31,9 @@ static struct flow_settings defaults(void)
 
 // --- remainder ---
 
-// All stays up to L; from there to remainder_low_height it falls on the cubic whose slope is 0 at
-// both ends, and stays at remainder_low. The last entry is of remainder_max_height.
+// All water stays up to L. Then the remainder falls to remainder_low at remainder_low_height, on
+// the cubic whose slope is 0 at both ends, and stays there. The last entry is for
+// remainder_max_height.
 static void test_the_remainder_falls_from_1_to_its_low(void **state)
 {
     (void)state;
@@ -58,8 +59,8 @@ static void test_the_remainder_falls_from_1_to_its_low(void **state)
     }
 }
 
-// A texel's code is the same number whatever curve displays use: a map is data. The picture is
-// written as codes, column after column, with a row below that means nothing.
+// A map is data: a texel's code is the same number whatever curve displays use. The picture holds
+// codes, column after column; the row below means nothing.
 static void write_codes(int width, int height, int (*code)(int x, int y, int channel))
 {
     struct rg_picture p;
@@ -108,7 +109,7 @@ static double correlation(const float *map, int n, int apart)
     return (both / n / n - mean * mean) / (square / n / n - mean * mean);
 }
 
-// The largest step between neighbours, across the seam and elsewhere.
+// The largest step between neighbours, across the seam or elsewhere.
 static double largest_step(const float *map, int n, bool over_seam)
 {
     double most = 0;
@@ -121,8 +122,8 @@ static double largest_step(const float *map, int n, bool over_seam)
     return most;
 }
 
-// From noise_low to 1, in the middle in the mean, without a seam; neighbours are alike, and places
-// farther apart than a cell of the coarsest octave, 32 texels, are not.
+// Noise runs from noise_low to 1, has its mean in the middle, and has no seam. Neighbours are
+// alike. Places farther apart than 32 texels, a cell of the coarsest octave, are not.
 static void test_the_noise_is_noise(void **state)
 {
     (void)state;
@@ -169,8 +170,8 @@ static double likeness(const float *a, const float *b, int n)
     return both / sqrt(square_a * square_b);
 }
 
-// The same seed makes the same map, and others make others. The coarsest octave has 256 places: two
-// maps are alike by 1/16 in chance, and by 1/4 never.
+// One seed makes one map, and other seeds make others. The coarsest octave has 256 places: two maps
+// correlate by 1/16 by chance, and never by 1/4.
 static void test_noise_follows_the_seed(void **state)
 {
     (void)state;
@@ -201,7 +202,7 @@ static int noise_of_one_code(int x, int y, int channel)
     return 128;
 }
 
-// The longer side is kept, and each texel of the other way repeated.
+// The longer side is kept, and texels along the other one are repeated.
 static void test_a_noise_image_becomes_square(void **state)
 {
     (void)state;
@@ -220,7 +221,7 @@ static void test_a_noise_image_becomes_square(void **state)
     assert_non_null(strstr(rg_last_error(), "at most 4096 pixels"));
 }
 
-// No two panes have one window: each begins 0.382 of the map beside the one before.
+// No two panes share a window: each begins 0.382 of the map after the one before.
 static void test_windows_of_panes_lie_apart(void **state)
 {
     (void)state;
@@ -235,7 +236,8 @@ static void test_windows_of_panes_lie_apart(void **state)
 
 // --- beads ---
 
-// Smooth, without a seam, up to bead_mm; half of the places hold nothing, and resolutions agree.
+// Beads are smooth, seamless and at most bead_mm high. Half of the places are dry, and resolutions
+// agree.
 static void test_beads(void **state)
 {
     (void)state;
@@ -250,14 +252,14 @@ static void test_beads(void **state)
     for (int i = 0; i < n * n; i++) {
         high = fmax(high, (double)map[i] * s.relief);
         dry += map[i] == 0;
-        // The middle one of nine texels lies where the coarse one does.
+        // The middle one of nine fine texels has the coarse texel's place.
         assert_below(fabsf(map[i] - fine[(i / n * 3 + 1) * 720 + i % n * 3 + 1]), 1e-6f);
     }
     assert_below(fabs(high - s.bead_mm), 1e-6);
     assert_above(dry / n / n, 0.45);
     assert_below(dry / n / n, 0.55);
     assert_at_most(largest_step(map, n, true), 1.2 * largest_step(map, n, false));
-    // Beads are as far apart as they should be: what a spacing away lies is another place.
+    // Beads have the right distance: places a spacing apart do not correlate.
     assert_above(correlation(map, n, 1), 0.8);
     assert_below(fabs(correlation(map, n, 8)), 0.15);
     free(map);

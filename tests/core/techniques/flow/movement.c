@@ -1,4 +1,4 @@
-// flow's movement in cases whose outcome is known in closed form. movement DEVICE runs on it.
+// flow's water in cases with a known outcome in closed form. movement DEVICE runs on it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,8 +18,8 @@ static const char *device = "cpu:reference";
 
 enum { SIZE = 32, MIDDLE = 16, UNIT = 65536 };
 
-// No drops, noise 1, and a remainder of 1/4 wherever water moves at all: in binary all are exact,
-// and 3/4 of the water moves on an upright pane.
+// No drops, noise 1, and a remainder of 1/4 wherever water moves. All are exact in binary, and 3/4
+// of the water moves on an upright pane.
 static const char *const plain = "resolution_px=32 drops=0 rain_drops_s=0 noise_low=1 "
                                  "remainder_low=0.25 remainder_low_height=0 ";
 
@@ -39,7 +39,7 @@ static void test_one_texel_falls(void **state)
     rig_step(&rig, 1);
     rig_expect(&rig, MIDDLE, MIDDLE, UNIT / 8);
     rig_expect(&rig, MIDDLE, MIDDLE + 1, 3 * UNIT / 8);
-    // What stayed is below L now; what fell goes on.
+    // The water that stayed is below L now; the water that fell goes on.
     rig_step(&rig, 1);
     rig_expect(&rig, MIDDLE, MIDDLE, UNIT / 8);
     rig_expect(&rig, MIDDLE, MIDDLE + 1, 3 * UNIT / 32);
@@ -69,18 +69,18 @@ static void test_much_water_reaches_two_texels(void **state)
     }
 }
 
-// With L = 0.25 and M = 0.5 the third texel is reached above 0.75, the fourth above 1: each takes M
-// - L more. Of what goes to a texel or beyond, r goes beyond.
+// With L = 0.25 and M = 0.5, water above 0.75 reaches the third texel, and above 1 the fourth. Each
+// takes M - L more. A share r of the water that reaches a texel goes beyond it.
 static void test_reach(void **state)
 {
     (void)state;
     enum { GIVEN = 3 }; // quarters of the water
     static const struct {
         int reach;
-        int64_t water, to[4]; // sixteenths of a unit; what is given, in 64ths of it
+        int64_t water, to[4]; // water in sixteenths of a unit; the moved part in 64ths
     } cases[] = {
         {2, 24, {32, 32, 0, 0}},  {3, 24, {32, 16, 16, 0}}, {4, 24, {32, 16, 8, 8}},
-        {4, 16, {32, 16, 16, 0}}, // as much as the fourth threshold is not more
+        {4, 16, {32, 16, 16, 0}}, // equal to the fourth threshold is not above it
         {4, 12, {32, 32, 0, 0}},  {4, 8, {64, 0, 0, 0}},    {3, 20, {32, 16, 16, 0}},
         {4, 17, {32, 16, 8, 8}},
     };
@@ -101,7 +101,7 @@ static void test_reach(void **state)
     }
 }
 
-// Water below the further thresholds goes as it does without them, in both directions of a split.
+// Water below the further thresholds moves as it does without them, in both directions of a split.
 static void test_reach_leaves_little_water_alone(void **state)
 {
     (void)state;
@@ -128,7 +128,7 @@ static void test_reach_leaves_little_water_alone(void **state)
         free(water[i]);
 }
 
-// A remainder map that keeps everything is a dam; only what is above the capacity runs over.
+// A remainder map that keeps everything is a dam: only water above the capacity runs over.
 static void test_a_full_texel_spills(void **state)
 {
     (void)state;
@@ -145,7 +145,7 @@ static void test_a_full_texel_spills(void **state)
     rig_close(&rig);
 }
 
-// One texel of water on a pane of these settings, after a step: none has moved.
+// On a pane with these settings, one texel's water does not move.
 static void expect_still(const char *assignments, int64_t droplets)
 {
     struct rig rig;
@@ -167,7 +167,7 @@ static void test_nothing_moves_on_a_level_pane(void **state)
 static void test_little_water_stays(void **state)
 {
     (void)state;
-    expect_still("move_threshold=0.25", UNIT / 4); // as much as L is not more than L
+    expect_still("move_threshold=0.25", UNIT / 4); // equal to L is not above it
     expect_still("move_threshold=0.25", 1);
     struct rig rig;
     open_plain(&rig, "move_threshold=0.25");
@@ -177,7 +177,7 @@ static void test_little_water_stays(void **state)
     rig_close(&rig);
 }
 
-// The pane upright, then turned by these assignments; and one texel's water a step later.
+// One texel's water after a step on a pane that is upright first, then turned by these assignments.
 static int64_t *step_turned(struct rig *rig, const char *assignments)
 {
     rig_set(rig, "pane_pitch_deg=0 pane_yaw_deg=0 pane_roll_deg=0 direction=nearest");
@@ -187,7 +187,7 @@ static int64_t *step_turned(struct rig *rig, const char *assignments)
     return rig_water(rig);
 }
 
-// Which way a texel's water goes, and that all of it goes there.
+// Expects all of a texel's water that moves to go this way.
 static void expect_direction(struct rig *rig, const char *assignments, int dx, int dy)
 {
     int64_t *water = step_turned(rig, assignments);
@@ -199,7 +199,7 @@ static void expect_direction(struct rig *rig, const char *assignments, int dx, i
                  (long long)came, dx, dy);
 }
 
-// The pane turns clockwise, so the way down turns counter-clockwise on it.
+// The pane turns clockwise, and so the way down turns counter-clockwise on it.
 static void test_eight_directions(void **state)
 {
     (void)state;
@@ -213,7 +213,7 @@ static void test_eight_directions(void **state)
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         snprintf(text, sizeof(text), "pane_roll_deg=%d", cases[i].roll_deg);
         expect_direction(&rig, text, cases[i].dx, cases[i].dy);
-        // Whole multiples of 45 degrees have one direction in the other mode, too.
+        // At multiples of 45 degrees the other mode has one direction, too.
         snprintf(text, sizeof(text), "pane_roll_deg=%d direction=split", cases[i].roll_deg);
         if (cases[i].roll_deg % 45 == 0)
             expect_direction(&rig, text, cases[i].dx, cases[i].dy);
@@ -221,8 +221,8 @@ static void test_eight_directions(void **state)
     rig_close(&rig);
 }
 
-// Pitched past the vertical by either sign, the pane's lower edge stays the lower one until the
-// pane is level; beyond, its upper edge is the lower one.
+// A pane pitched past the vertical, either way, keeps its lower edge until it is level. Beyond that
+// its upper edge is the lower one.
 static void test_pitched_panes(void **state)
 {
     (void)state;
@@ -237,7 +237,7 @@ static void test_pitched_panes(void **state)
     rig_close(&rig);
 }
 
-// Equation 2: the steeper, the more water moves.
+// Equation 2: more water moves on a steeper pane.
 static void test_inclination_scales_what_moves(void **state)
 {
     (void)state;
@@ -257,7 +257,7 @@ static void test_inclination_scales_what_moves(void **state)
     rig_close(&rig);
 }
 
-// A roll of 15 degrees lies a third of the way from straight down to the diagonal.
+// A roll of 15 degrees is a third of the way from straight down to the diagonal.
 static void test_split_divides_by_angle(void **state)
 {
     (void)state;
@@ -276,8 +276,8 @@ static void test_split_divides_by_angle(void **state)
 
 // --- directions of texels ---
 
-// What stays below L moves on its own no more, but texels that moved sweep it along, and what is
-// beside them: half of the water goes, and half of that in the step after.
+// Water below L no longer moves on its own, but texels that moved sweep it along, and their
+// neighbours' water. Half of it goes, and half of the rest in the next step.
 static void test_texels_sweep_along_their_neighbours(void **state)
 {
     (void)state;
@@ -289,7 +289,7 @@ static void test_texels_sweep_along_their_neighbours(void **state)
     water[MIDDLE * SIZE + MIDDLE + 2] = UNIT / 8; // too far
     rig_put(&rig, water);
     free(water);
-    rig_step(&rig, 1); // nothing has moved before
+    rig_step(&rig, 1); // nothing moved before this step
     rig_expect(&rig, MIDDLE, MIDDLE, UNIT / 8);
     rig_expect(&rig, MIDDLE, MIDDLE + 1, 3 * UNIT / 8);
     rig_expect(&rig, MIDDLE + 1, MIDDLE, UNIT / 8);
@@ -304,7 +304,8 @@ static void test_texels_sweep_along_their_neighbours(void **state)
     rig_close(&rig);
 }
 
-// The pane turns by 90 degrees after a step: what moved goes between its old way and the new.
+// The pane turns by 90 degrees after a step. Moved water then goes between its old direction and
+// the new one.
 static void test_texels_keep_their_direction(void **state)
 {
     (void)state;
@@ -326,7 +327,7 @@ static void test_texels_keep_their_direction(void **state)
         const int64_t swept = UNIT / 8 - water[MIDDLE * SIZE + MIDDLE];
         const int64_t there = water[(MIDDLE + cases[i].dy) * SIZE + MIDDLE + cases[i].dx];
         free(water);
-        // tan(18.4 degrees) is 1/3: of the two nearest, more goes to the nearer one.
+        // tan(18.4 degrees) is 1/3, and the nearer one of two directions gets more.
         if (swept <= 0 || there <= swept / 2)
             fail_msg("%s: of %lld droplets %lld went to (%d, %d)", text, (long long)swept,
                      (long long)there, cases[i].dx, cases[i].dy);
@@ -334,7 +335,7 @@ static void test_texels_keep_their_direction(void **state)
     }
 }
 
-// Without a share of the neighbours a texel's direction is the pane's.
+// A texel without a share of its neighbours goes in the pane's direction.
 static void test_texels_that_sweep_nothing_go_down(void **state)
 {
     (void)state;
@@ -370,7 +371,7 @@ static const char *const poses[] = {
 };
 enum { POSES = sizeof(poses) / sizeof(poses[0]) };
 
-// Water in the middle of the pane, and too few steps for it to reach an edge.
+// Water in the middle of the pane, which cannot reach an edge in so few steps.
 static void test_water_is_conserved(void **state)
 {
     (void)state;
@@ -394,8 +395,8 @@ static void test_water_is_conserved(void **state)
     }
 }
 
-// With rain and edges: what is there is what came less what left, at every step. The ledger counts
-// modulo 2^32, so its differences are added up.
+// With rain and edges: at every step the water on the pane is what came less what left. The ledger
+// counts modulo 2^32, so that the test adds up differences.
 static void test_the_ledger_balances(void **state)
 {
     (void)state;
@@ -475,9 +476,9 @@ static void test_rain_falls_at_its_rate(void **state)
     }
 }
 
-// A half ellipsoid holds 2/3 pi r^2 h. From 8 texels of radius on a splat is within 0.5 % of that
-// (0.23 % was the most in these 21 drops): the grid samples the cap at texel centres, and its steep
-// rim loses most.
+// A half ellipsoid holds 2/3 pi r^2 h. Splats of at least 8 texels of radius are within 0.5 % of
+// that; the worst of these 21 drops was off by 0.23 %. The grid samples the cap at centres of
+// texels, and loses most at its steep rim.
 static void test_a_drop_holds_its_volume(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// The water of flow against the independent oracle. oracle DEVICE runs on it.
+// flow's water against the independent oracle. oracle DEVICE runs on it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +17,7 @@ static const char *device = "cpu:reference";
 
 enum { STEPS = 100 };
 
-// A rig, and the oracle fed with the same inputs.
+// A rig, and the oracle with the same inputs.
 struct pair {
     struct rig rig;
     struct oracle oracle;
@@ -82,7 +82,7 @@ static void pair_step(struct pair *pair, int steps)
 }
 
 struct difference {
-    int64_t largest, texels; // droplets; texels that differ by more than one
+    int64_t largest, texels; // in droplets; texels off by more than one
     double sum;
 };
 
@@ -100,12 +100,12 @@ static struct difference difference_of(const struct pair *pair)
     return d;
 }
 
-// Both models divide whole droplets, but the kernels' single precision puts one part in 2^24 of a
-// texel's 10^4 to 10^5 droplets now and then on the other side of a whole number: one droplet.
-// Where such a droplet decides whether a texel is above L, the texel gives up to 30 % of its 9,830
+// Both models divide whole droplets. A texel has 10^4 to 10^5 droplets, and single precision is off
+// by one part in 2^24. Now and then this moves a result across a whole number: one droplet. Such a
+// droplet may decide whether a texel is above L. The texel then gives up to 30 % of its 9,830
 // droplets a step earlier or later, and its neighbours follow. The runs below print their worst:
-// 2,978 droplets (0.05 units), 1.74 % of the texels off by more than one droplet, and differences
-// that add up to 2.6e-4 of all water. The mutants below are all beyond these bounds.
+// 2,978 droplets (0.05 units), and 1.74 % of the texels off by more than one droplet. Their
+// differences add up to 2.6e-4 of all water. The mutants below all exceed these bounds.
 static const int64_t LARGEST_DROPLETS = 8192;
 static const double TEXELS_FRACTION = 0.05, WATER_FRACTION = 0.0015;
 
@@ -117,7 +117,7 @@ static bool within(const struct pair *pair, const struct difference *d)
            d->sum <= WATER_FRACTION * water;
 }
 
-// The worst of all runs so far: what the bounds are held against, printed at the end.
+// The worst of all runs so far, for comparison with the bounds; printed at the end.
 static struct {
     int runs;
     int64_t largest;
@@ -208,7 +208,7 @@ static void test_state_of_texels_that_keep_directions(void **state)
     print_worst();
 }
 
-// The bounds are worth something: a model that is a little off is beyond them.
+// The bounds are tight enough to reject a slightly wrong model.
 static void expect_rejected(const char *assignments, const char *what, size_t field, double factor)
 {
     struct pair pair;

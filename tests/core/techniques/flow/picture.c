@@ -1,4 +1,4 @@
-// flow's pictures against a ray caster in double precision, which never asks another device.
+// flow's pictures against a ray caster in double precision, which asks no other device.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,7 +27,7 @@ static const char *const common =
     "drop_radius_min_mm=5 drop_radius_max_mm=12 drop_height_per_mm=0.12 relief=6 "
     "frame_mm=4 distance_mm=330 ";
 
-// A rig, and the oracle fed with the same inputs.
+// A rig, and the oracle with the same inputs.
 struct pair {
     struct rig rig;
     struct picture_oracle oracle;
@@ -132,19 +132,19 @@ static bool far_from(const float *light, const double *due, double most)
     return false;
 }
 
-// How pictures differ from what is due.
+// The difference of a picture from the oracle's.
 struct difference {
-    double off;     // share of all pixels with a channel that is off by more than the tolerance
-    int lit;        // pixels that water changes: the mask
-    double lit_off; // share of the mask with a channel that is off by more than LIT_TOLERANCE
-    double far_off; // the same, where that is a share of the mask's brightest light
+    double off;     // the share of all pixels with a channel off by more than the tolerance
+    int lit;        // the mask: pixels that water changes
+    double lit_off; // the share of the mask with a channel off by more than LIT_TOLERANCE
+    double far_off; // the same, with the tolerance as a share of the mask's brightest light
     double bias;    // of the mask's light, in the worst channel, as a share of it
 };
 
 static const double LIT_TOLERANCE = 0.01, LIT_SHARE = 0.001, LIT_BIAS = 0.002;
 enum { LEAST_LIT = PIXELS / 50 };
 
-// The mask is the oracle's own: where its picture is another with all panes dry.
+// The mask is the oracle's own: pixels that differ from its picture with all panes dry.
 static void compare_lit(struct picture_oracle dry, const float *light, const double *due,
                         struct difference *d)
 {
@@ -196,17 +196,17 @@ static double share_off(struct pair *pair, double tolerance)
     return difference_of(pair, tolerance).off;
 }
 
-// An empty mask proves nothing, and does not pass.
+// An empty mask proves nothing, and fails.
 static bool lit_right(const struct difference *d)
 {
     return d->lit >= LEAST_LIT && d->far_off <= LIT_SHARE && d->bias <= LIT_BIAS;
 }
 
-// Half floats are cut off, not rounded, one part in 2^10 each time: in the picture behind, in its
-// copy, and where each of two panes is blended over it. Beyond that, pixels differ whose centre
-// lies within a snapped 1/256 pixel of an edge, and those where single precision rounds a normal of
-// the map the other way; a sphere of 27,648 faces with normals of 10 bits is not quite round.
-// The runs below print their worst: 1 pixel of 13,200, and 8 with the sphere.
+// Halves are rounded down by one part in 2^10 each time: in the picture behind, in its copy, and
+// for two panes blended over it. Beyond that, two kinds of pixels differ. The centre of one kind is
+// within a snapped 1/256 pixel of an edge. For the other kind, single precision rounds a normal of
+// the map the other way. A sphere of 27,648 faces with normals of 10 bits is not quite round. The
+// runs below print their worst: 1 pixel of 13,200, and 8 with the sphere.
 static const double TOLERANCE = 4.0 / 1024, SHARE = 0.0005;
 static const double MODEL_TOLERANCE = 0.02, MODEL_SHARE = 0.0015;
 
@@ -234,7 +234,7 @@ static void compare(const char *assignments)
         fail_msg("%s: %g %% of the pixels are off by more than %g", assignments, 100 * d.off,
                  TOLERANCE);
     expect_lit_right(assignments, &d);
-    // Without a model's edges even by the pixels' own light.
+    // Without a model's edges, also by each pixel's own light.
     if (d.lit_off > LIT_SHARE)
         fail_msg("%s: of %d pixels that water changes %g %% are off by more than %g", assignments,
                  d.lit, 100 * d.lit_off, LIT_TOLERANCE);
@@ -252,7 +252,7 @@ static const char *const turns[] = {
 };
 enum { TURNS = sizeof(turns) / sizeof(turns[0]) };
 
-// A night with lamps: dark but for a few squares, which are a hundred times as bright or more.
+// A night with lamps: dark except for a few squares, at least a hundred times as bright.
 static float lamp_light(int x, int y, int channel)
 {
     const bool lamp = (x + 3) % 16 < 4 && (y + 5) % 12 < 3;
@@ -275,7 +275,7 @@ static void write_light(const char *path, float (*light)(int x, int y, int chann
     rg_picture_destroy(&picture);
 }
 
-// Each view under the sky, the last one under lamps.
+// Compares each view under the sky, and the last one under lamps.
 static void compare_views(const char *form)
 {
     char text[512], path[256];
@@ -345,8 +345,8 @@ static void test_an_empty_mask_fails(void **state)
     pair_close(&pair);
 }
 
-// A furnace: before a white environment glass, mirror and water make and take no light, whatever
-// shape the water has.
+// A furnace: in front of a white environment, glass, mirror and water neither add nor take light,
+// whatever the water's shape.
 static void test_white_stays_white(void **state)
 {
     (void)state;
@@ -372,7 +372,7 @@ static void test_white_stays_white(void **state)
     assert_int_equal(remove(path), 0);
 }
 
-// --- the bounds are worth something: pictures that are a little off are beyond them ---
+// --- the bounds are tight enough: they reject slightly wrong pictures ---
 
 static void reject(struct pair *pair, const char *what, size_t field, double factor, double more,
                    bool model)

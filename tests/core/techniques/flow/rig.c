@@ -23,7 +23,7 @@ static void set(struct flow_settings *settings, const char *assignments)
     free(copy);
 }
 
-// Devices stay open from one rig to the next: a driver compiles the kernels of each anew.
+// Devices stay open from one rig to the next, since a driver compiles the kernels again for each.
 static struct kept {
     char name[64];
     struct rg_device *device;

@@ -1,4 +1,4 @@
-// Drops that slide: against an independent model in double precision, in closed cases, and by laws.
+// Sliding drops against an independent model in double precision, in closed cases, and by laws.
 // sliding DEVICE runs on it.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@
 static const char *device = "cpu:reference";
 
 static const double PI = 3.14159265358979323846;
-// Water of the rig is in droplets of 2^-16 of a unit, which stands `relief` millimetres high.
+// The rig's water is in droplets of 2^-16 of a unit; a unit is `relief` millimetres high.
 static const double DROPLETS_A_UNIT = 65536;
 
 static double mm_of(const struct rig *rig, int64_t droplets)
@@ -31,7 +31,7 @@ static int64_t droplets_of(const struct rig *rig, double mm)
     return (int64_t)(mm / rig->settings.relief * DROPLETS_A_UNIT);
 }
 
-// 64 texels of 1.5 mm unless the assignments say otherwise, and no rain.
+// 64 texels of 1.5 mm unless the assignments say otherwise; no rain.
 static void open_sliding(struct rig *rig, const char *assignments)
 {
     char text[512];
@@ -42,7 +42,7 @@ static void open_sliding(struct rig *rig, const char *assignments)
 
 // --- against the model ---
 
-// A speed in texels a run, in whole texels by the golden ratio's phase of the run.
+// A speed in texels a run, as the whole texels of this run, by its phase of the golden ratio.
 static int whole(double texels, int64_t run)
 {
     const double phase = (double)run * 0.6180339887498949;
@@ -59,7 +59,7 @@ static void set_ways(struct slide_oracle *o, int64_t run)
     }
 }
 
-// Rolled clockwise by the roll, and leaned back by the pitch afterwards.
+// The model's pane rolls clockwise by the roll, then leans back by the pitch.
 static struct slide_oracle oracle_of(const struct rig *rig, int cells, int runs)
 {
     const struct flow_settings *s = &rig->settings;
@@ -84,7 +84,7 @@ static struct slide_oracle oracle_of(const struct rig *rig, int cells, int runs)
     return o;
 }
 
-// Runs of both from the same water, one frame after the other; `off` is counted over all.
+// Runs both from the same water, one frame after the other, and adds up `off` over all frames.
 static void compare(const char *assignments, int cells, int runs)
 {
     enum { FRAMES = 12 };
@@ -123,7 +123,7 @@ static void compare(const char *assignments, int cells, int runs)
     print_message("%s: %lld of %lld wet texels off, %.2g mm at most\n", assignments, (long long)off,
                   (long long)wet, most);
     assert_above(wet, FRAMES * texels / 20);
-    // Single precision may put a cell on the other side of a pace now and then.
+    // Now and then single precision puts a cell on the other side of a pace.
     if ((double)off > 0.002 * (double)wet)
         fail_msg("%s: %lld of %lld wet texels off, %g mm at most", assignments, (long long)off,
                  (long long)wet, most);
@@ -160,7 +160,7 @@ static void put_drop(struct rig *rig, double x_mm, double y_mm, double radius_mm
     free(water);
 }
 
-// Where the water is, in millimetres from the upper left corner.
+// The centre of the water, in millimetres from the upper left corner.
 static void middle_of(const struct rig *rig, double middle_mm[2])
 {
     int64_t *water = rig_water(rig);
@@ -177,14 +177,14 @@ static void middle_of(const struct rig *rig, double middle_mm[2])
 
 #define ALONE "drops=0 drying_mm2_s=0 bead_mm=0 levelling_mm_s=0 "
 
-// So much water slides at the fastest pace: 70 mm in a second, whatever the texels and the steps
-// are, the way down. Whole texels are all that it may be off.
+// This much water slides at the fastest pace, 70 mm a second down the pane, for any texels and
+// steps. Only whole texels may make a difference.
 static void test_a_drop_slides_at_its_speed(void **state)
 {
     (void)state;
     static const struct {
         const char *set;
-        double seconds, x, y; // the way, in shares of the speed
+        double seconds, x, y; // the path in shares of the speed
     } cases[] = {
         {"resolution_px=64 step_s=0.0166666666666667", 0.5, 0, 1},
         {"resolution_px=128 step_s=0.0333333333333333", 0.5, 0, 1},
@@ -220,7 +220,7 @@ static bool does_slide(const char *assignments)
     struct rig rig;
     double before[2], after[2];
     open_sliding(&rig, text);
-    put_drop(&rig, 48.75, 48.75, 3, 3); // the middle of a cell
+    put_drop(&rig, 48.75, 48.75, 3, 3); // in the middle of a cell
     middle_of(&rig, before);
     rig_step(&rig, 30);
     middle_of(&rig, after);
@@ -228,8 +228,9 @@ static bool does_slide(const char *assignments)
     return after[1] > before[1] + 0.5;
 }
 
-// The water around the middle of a drop in the middle of a cell, by the Gaussian of 4 x 0.69 mm2 a
-// side, in polar integration. Cells of 1.5 mm widen what they average by a twelfth of their square.
+// The water around the middle of a drop, which is in the middle of a cell. The weight is the
+// Gaussian of 4 x 0.69 mm2 a side, integrated in polar coordinates. Cells of 1.5 mm widen the
+// average by a twelfth of their square.
 static double water_around_mm3(double radius_mm, double height_mm)
 {
     const double step_mm = 1e-3, smoothed_mm2 = 4 * 0.69, all_mm2 = smoothed_mm2 + 1.5 * 1.5 / 12;
@@ -240,9 +241,9 @@ static double water_around_mm3(double radius_mm, double height_mm)
     return sum * smoothed_mm2 / all_mm2;
 }
 
-// A drop stays while its water is below the volume that the contact line holds, and the slope of
-// the pane counts to the power of 1.5 (Furmidge). The slowest pace is 70 / 8 mm/s, and the lattice
-// is not a Gaussian to the last percent: 6 % to both sides.
+// A drop stays while its water is below the volume that the contact line holds. The pane's slope
+// counts to the power of 1.5 (Furmidge). The slowest pace is 70 / 8 mm/s. The lattice is not
+// exactly a Gaussian, which allows 6 % to both sides.
 static void test_the_contact_line_holds_small_drops(void **state)
 {
     (void)state;
@@ -263,7 +264,7 @@ static void test_the_contact_line_holds_small_drops(void **state)
     assert_false(does_slide("pane_pitch_deg=90 slide_above_mm3=0.001"));
 }
 
-// Half the square of a height falls by drying_mm2_s a second, and the ledger has what is gone.
+// Half the square of a height falls by drying_mm2_s a second, and the ledger has the dried water.
 static void test_water_dries_evenly(void **state)
 {
     (void)state;
@@ -289,7 +290,7 @@ static void test_water_dries_evenly(void **state)
 
 // --- laws ---
 
-// In rain, over edges and on a turned box: what is there is what came less what left.
+// In rain, over edges and on a turned box, the water there is what came less what left.
 static void test_the_ledger_balances(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Laws of sliding drops over seconds: the same drops run the same way in the same time whatever the
-// texels and the steps are, and in steady rain a pane stays as it is. On cpu.
+// Laws of sliding drops over seconds. Drops run the same way in the same time for any texels and
+// steps, and steady rain keeps a pane as it is. On cpu.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ static struct pane pane_of(const struct rig *rig)
     return (struct pane){wet / n / n, down / sum};
 }
 
-// A pane after a second, by texels and steps a second.
+// A pane after a second, by its texels and steps a second.
 static struct pane pane_after_a_second(const char *resolution, int steps_s)
 {
     char text[160];
@@ -47,8 +47,8 @@ static struct pane pane_after_a_second(const char *resolution, int steps_s)
     return pane;
 }
 
-// Within 10 % of the wet share and 3 % of the pane, of 256 texels and 60 steps a second; the third
-// pane's texels follow from its distance: one to each of 128 pixels.
+// Panes agree with the one of 256 texels and 60 steps a second: within 10 % of the wet share and 3
+// % of the pane. The third pane's texels follow from its distance: one for each of 128 pixels.
 static void test_resolution_and_step_change_little(void **state)
 {
     (void)state;
@@ -70,8 +70,8 @@ static void test_resolution_and_step_change_little(void **state)
     }
 }
 
-// A quarter of the pane for a quarter of the rain: from 10 s to 60 s its wet share drifts by less
-// than a quarter of itself, and it is no film.
+// A quarter of the pane gets a quarter of the rain. From 10 s to 60 s its wet share drifts by less
+// than a quarter, and the water is no film.
 static void test_steady_rain_leaves_a_steady_pane(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// What flow draws, in cases whose outcome is known: the camera, the intermediate steps, glow,
-// shadows of drops, the model, turning boxes. view DEVICE runs on it.
+// flow's pictures with a known outcome: the camera, the intermediate steps, glow, shadows of drops,
+// the model, turning boxes. view DEVICE runs on it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -107,7 +107,7 @@ static void test_rays_meet_their_pixels(void **state)
     }
 }
 
-// The one pane fills the view, however it is turned and whatever the target's shape.
+// The one pane fills the view, for any turn and any shape of the target.
 static void test_one_pane_fills_the_view(void **state)
 {
     (void)state;
@@ -134,14 +134,14 @@ static void test_one_pane_fills_the_view(void **state)
 
 // --- the steps of figure 17 ---
 
-// Half floats are cut off: one part in 2^10.
+// Halves are rounded down, by one part in 2^10.
 static void expect_light(const char *what, int x, int y, float light, double due)
 {
     if (fabs((double)light - due) > due / 1024 + 1e-6)
         fail_msg("%s, pixel (%d, %d): %.7f, not %.7f", what, x, y, (double)light, due);
 }
 
-// A target of a pixel a texel shows the maps as they are.
+// A target with a pixel for each texel shows the maps as they are.
 static void test_stages_show_the_maps(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void test_stages_show_the_maps(void **state)
     }
 }
 
-// Of a box, the steps show the panes that face the viewer, before black.
+// For a box the steps show the panes that face the viewer, on black.
 static void test_stages_show_the_near_panes(void **state)
 {
     (void)state;
@@ -220,7 +220,7 @@ static struct light_sum sum_of(const float *light, int width)
     return s;
 }
 
-// A mirror that shows the sky's sun: in its middle, or off it by some degrees.
+// A mirror that shows the sky's sun, in its middle or some degrees off it.
 static struct light_sum sun_of(const char *glow, double off_deg, int width)
 {
     char text[256];
@@ -234,10 +234,10 @@ static struct light_sum sun_of(const char *glow, double off_deg, int width)
     return s;
 }
 
-// Glow takes light away where it is bright, and gives as much to what lies around, be the spot in
-// the middle or at the edge. Each pixel is cut off to a half float three times more, by 2^-11 in
-// the mean. In a target that is no multiple of 4 wide, what falls into the rest of the last column
-// is lost: there the spot lies in the middle.
+// Glow takes light from bright places and gives as much to their surroundings, with the spot in the
+// middle or at the edge. Each pixel is rounded down to a half three times more, by 2^-11 in the
+// mean. If the target's width is no multiple of 4, light in the rest of the last column is lost;
+// then the spot is in the middle.
 static void test_glow_spreads_light(void **state)
 {
     (void)state;
@@ -277,7 +277,7 @@ static const char *const lit_sphere =
     "view=box panes=glass model=sphere camera_azimuth_deg=0 camera_elevation_deg=0 light=2 "
     "light_azimuth_deg=90 light_elevation_deg=0 model_grey=0.5 ";
 
-// The pixel where the sphere's point at 45 degrees to the right is seen, at this height.
+// The pixel of the sphere's point 45 degrees to the right, at this height.
 static int pixel_of(const struct flow_settings *s, double y)
 {
     const struct picture_oracle camera = {.distance = 2 * s->distance_mm / s->pane_mm,
@@ -297,7 +297,7 @@ static float *draw_shadow(const char *shadow, bool wet, struct flow_settings *se
     open_still(&rig, text, VIEW, VIEW);
     *settings = rig.settings;
     int64_t *water = calloc((size_t)(rig.panes * SIZE * SIZE), sizeof(*water));
-    // Right is away from the front there: z = 0.438 lies at 0.281 of the pane.
+    // Right is away from the front there: z = 0.438 is at 0.281 of the pane.
     for (int y = SIZE / 2 - 3; wet && y < SIZE / 2 + 3; y++)
         for (int x = 9 - 3; x < 9 + 3; x++)
             water[rig_texel(&rig, BOX_RIGHT, x, y)] = UNIT;
@@ -317,12 +317,12 @@ static void test_drops_shade_the_model(void **state)
     float *half = draw_shadow("drop_shadow=0.5", true, &s);
     float *full = draw_shadow("drop_shadow=1", true, &s);
     const int shaded = 4 * pixel_of(&s, 0), above = 4 * pixel_of(&s, 0.4);
-    // The lamp stands at 45 degrees to the surface; what the glass and the model's sheen reflect is
-    // all that is missing.
+    // The lamp is at 45 degrees to the surface. Only reflections of the glass and of the model's
+    // sheen are missing.
     const double lamp = 2 * 0.5 * sqrt(0.5), taken = (double)(none[shaded] - full[shaded]);
     assert_below(taken, lamp);
     assert_above(taken, 0.9 * lamp);
-    // Half floats: one part in 2^10 of either light.
+    // Halves are off by one part in 2^10 of either light.
     assert_below(fabs((double)(none[shaded] - half[shaded]) - taken / 2), 0.002);
     assert_equals(dry[shaded], none[shaded]);
     assert_equals(full[above], none[above]);
@@ -361,7 +361,8 @@ static void test_the_model_stands_in_glass_alone(void **state)
     assert_false(told);
 }
 
-// Where a point of a model of these bounds is seen, right, down and away of its middle.
+// The place in the picture of a point of a model with these bounds: right, down and away from its
+// middle.
 static void see_point(const struct flow_settings *s, const float point[3], double seen[3])
 {
     static const float low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
@@ -375,7 +376,7 @@ static void see_point(const struct flow_settings *s, const float point[3], doubl
     seen[2] = (double)(at.w - middle.w);
 }
 
-// A model's x, y and z are the front's right, up and outwards; its normals turn as it does.
+// A model's x, y and z are the front's right, up and outwards, and its normals turn with it.
 static void test_the_model_stands_upright(void **state)
 {
     (void)state;
@@ -385,7 +386,7 @@ static void test_the_model_stands_upright(void **state)
         int way[3], axis[3]; // where each axis is seen: towards or against right, down or away
     } cases[] = {
         {0, 0, 0, {1, -1, -1}, {0, 1, 2}},
-        {0, 0, 90, {1, 1, -1}, {1, 0, 2}}, // clockwise: what was right is down
+        {0, 0, 90, {1, 1, -1}, {1, 0, 2}}, // clockwise: right becomes down
         {90, 0, 0, {1, 1, -1}, {0, 2, 1}}, // the front faces up
         {0, 90, 0, {1, -1, 1}, {2, 1, 0}}, // the front faces right
     };
@@ -410,7 +411,7 @@ static void test_the_model_stands_upright(void **state)
 
 // --- what changes with the frame and the distance ---
 
-// A box that spins stands at a frame as one that was turned so far.
+// A box that spins looks, at each frame, like one that is turned as far.
 static void test_spin(void **state)
 {
     (void)state;
@@ -440,7 +441,7 @@ static void test_spin(void **state)
     }
 }
 
-// And water runs on it by where it stands at each frame.
+// Water runs on the box by its pose at each frame.
 static void test_water_follows_the_spin(void **state)
 {
     (void)state;
@@ -458,8 +459,8 @@ static void test_water_follows_the_spin(void **state)
     rig_close(&rig);
 }
 
-// The resolution is the coarsest of resolution_px, its half, its quarter ... that gives each pixel
-// its texels.
+// The resolution is the coarsest of resolution_px, its half, its quarter and so on that gives each
+// pixel its texels.
 static void test_resolution_follows_the_distance(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// DRAW passes against a rasteriser of the tests' own, and in closed cases: drawing DEVICE.
+// DRAW passes against the tests' own rasteriser, and in closed cases: drawing DEVICE.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -44,11 +44,11 @@ static int whole(int64_t low, int64_t high)
 
 // --- faces of corners on the grid ---
 
-// Clip space (x, y, w - 1/16, w) of a position (x, y, w).
+// Clip space (x, y, w - 1/16, w) for a position (x, y, w).
 static const raster_mesh_params by_w = {
     .to_clip = {.xx = 1, .yy = 1, .zz = 1, .zw = -0.0625f, .wz = 1}, .ambient = 1};
 
-// Corners keep their place on the grid exactly where w is a power of two.
+// If w is a power of two, corners keep their place on the grid exactly.
 static void put_corner(struct faces *faces, int vertex, struct oracle_point at, double w, int width,
                        int height)
 {
@@ -69,7 +69,7 @@ static void put_face(struct faces *faces, int face, int a, int b, int c)
     memcpy(faces->indices + 3 * (size_t)face, corners, sizeof(corners));
 }
 
-// The same in any turn and from any corner on.
+// Puts a face in either turn, from any corner on.
 static void put_face_anyhow(struct faces *faces, int face, int a, int b, int c)
 {
     const int corners[3] = {a, b, c}, first = whole(0, 2), step = whole(1, 2);
@@ -124,10 +124,11 @@ static void a_screen_of_two_faces_covers_each_pixel_once(void **state)
 enum { TILE = 16, TILES = 64, PAIRS = TILES * TILES, PAIR_ROUNDS = 25 };
 
 struct pair {
-    struct oracle_point a, b, c, d; // a b is shared; c and d lie on either side
+    struct oracle_point a, b, c, d; // the edge a b is shared; c and d are on either side
 };
 
-// Every third on pixel centres and half way between, where the rule decides.
+// A point of the tile; with `on_centres`, on pixel centres or halfway between, where the fill rule
+// decides.
 static struct oracle_point tile_point(int tile, bool on_centres)
 {
     const int x = tile % TILES * TILE * 256, y = tile / TILES * TILE * 256;
@@ -192,8 +193,8 @@ static void neighbours_cover_each_pixel_once(void **state)
 
 // --- culling ---
 
-// Faces of more than a pixel, each in its tile, in either turn: what culling leaves covers what the
-// exact rule says, and the other covers nothing.
+// Faces of more than a pixel, one in each tile, in either turn. Faces that culling leaves cover the
+// pixels of the exact rule; the others cover none.
 static void culling_goes_by_the_turn_on_the_screen(void **state)
 {
     const int size = TILES * TILE;
@@ -234,7 +235,7 @@ static void culling_goes_by_the_turn_on_the_screen(void **state)
 
 enum { SMALL = 64, HUGE_PAIRS = 1000 };
 
-// Clipping to the guard band moves an edge by no more than the grid it is snapped to.
+// Clipping to the guard band moves an edge at most by the grid to which corners are snapped.
 static const double guard_px = 1.0 / 256;
 
 static struct oracle_point anywhere(double reach_px)
@@ -243,7 +244,8 @@ static struct oracle_point anywhere(double reach_px)
     return (struct oracle_point){(int64_t)(x * 256), (int64_t)(y * 256)};
 }
 
-// A shared edge through the screen, and corners up to a million pixels away on either side.
+// A pair with its shared edge across the screen, and corners up to a million pixels away on either
+// side.
 static struct pair huge_pair(void)
 {
     struct pair p;
@@ -260,7 +262,7 @@ static struct pair huge_pair(void)
     return p;
 }
 
-// The same off the upper left corner of the screen, into which one corner reaches.
+// A pair off the upper left corner of the screen, with one corner inside.
 static struct pair huge_pair_off_the_corner(void)
 {
     const double reach_px = pow(10, between(2, 6));
@@ -277,7 +279,7 @@ static struct pair huge_pair_off_the_corner(void)
     return p;
 }
 
-// Each corner where a float of clip space puts it, to the grid.
+// Moves each corner to where a float of clip space puts it, on the grid.
 static void put_huge(struct faces *faces, int vertex, struct oracle_point *at)
 {
     put_corner(faces, vertex, *at, 1, SMALL, SMALL);
@@ -287,7 +289,7 @@ static void put_huge(struct faces *faces, int vertex, struct oracle_point *at)
 }
 
 struct expected {
-    int sure, unsure; // pixels that are covered, and pixels too near an outline to tell
+    int sure, unsure; // pixels surely covered, and pixels too near an outline to tell
 };
 
 static struct expected expect_covered(const struct oracle_point *outline, int count)
@@ -303,7 +305,7 @@ static struct expected expect_covered(const struct oracle_point *outline, int co
     return e;
 }
 
-// Neither a crack nor a double along the shared edge, wherever the guard band cuts the faces.
+// The shared edge has no crack and no pixel twice, wherever the guard band cuts the faces.
 static void huge_neighbours_cover_each_pixel_once(void **state)
 {
     struct faces faces = faces_make(4 * HUGE_PAIRS, 2 * HUGE_PAIRS);
@@ -333,7 +335,7 @@ static void huge_neighbours_cover_each_pixel_once(void **state)
             fail_msg("pair %d covers %d pixels, not %d to %d", i, covered, due[i].sure,
                      due[i].sure + due[i].unsure);
     }
-    assert_above(exact, HUGE_PAIRS / 4); // else the test shows little
+    assert_above(exact, HUGE_PAIRS / 4); // otherwise the test shows little
     faces_drawn_free(&drawn);
     faces_close(&on);
     faces_free(&faces);
@@ -357,7 +359,7 @@ static void turn_box(double m[3][3])
     memcpy(m, turned, sizeof(turned));
 }
 
-// A box around the eye, which looks along z, turned anyhow; walls at 1 from its middle.
+// A box about the eye, in any rotation; the eye looks along z, and walls are at 1 from the middle.
 static struct faces box_around(const double eye[3])
 {
     static const int walls[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 7, 5}, {4, 6, 7},
@@ -388,7 +390,7 @@ static raster_mesh_params look_along_z(double near_plane, double far_plane, int 
                                 .ambient = 1};
 }
 
-// How far off a pixel's depth is from that of the wall it shows, where the ray meets it.
+// The error of a pixel's depth, against the wall that the pixel shows, where the ray meets it.
 static double depth_error(const raster_mesh_params *p, const struct faces *box,
                           const struct faces_drawn *drawn, int px, int py)
 {
@@ -399,7 +401,7 @@ static double depth_error(const raster_mesh_params *p, const struct faces *box,
                        drawn->width, drawn->height);
     const struct oracle_outline outline = oracle_outline_of(&face);
     struct oracle_hit hit;
-    assert_above(oracle_margin(&outline, px, py), -1.0 / 256); // what snapping moves
+    assert_above(oracle_margin(&outline, px, py), -1.0 / 256); // snapping moves it as much
     assert_true(oracle_hit(&face, px, py, &hit));
     return fabs((double)drawn->depth[py * drawn->width + px] - hit.depth);
 }

@@ -1,5 +1,5 @@
-// Meshes, drawn with depth: meshes DEVICE. Every byte of colour, depth and winner is
-// that of cpu:reference.
+// Meshes drawn with depth: meshes DEVICE. Every byte of colour, depth and winner is
+// cpu:reference's.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -89,7 +89,7 @@ static void a_million_tiny_triangles(void **state)
     compare_views(*state, "scene=triangles", (const char *const[]){"", NULL});
 }
 
-// The near plane cuts the mesh, and triangles around the eye.
+// The near plane cuts the mesh, and triangles surround the eye.
 static void the_eye_inside_the_mesh(void **state)
 {
     compare_views(*state, "scene=mesh",

@@ -1,6 +1,6 @@
-// Meshes, drawn with depth, against rays: rays DEVICE. Each pixel shows the face that
-// the ray through its centre meets first, at its depth and at that place of the face; and closed
-// surfaces have no crack and no double.
+// Meshes drawn with depth, against rays: rays DEVICE. Each pixel shows the first face on the ray
+// through its centre, at that depth and place of the face. Closed surfaces have no crack and no
+// pixel twice.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,14 +16,14 @@
 
 enum { WIDTH = 480, HEIGHT = 270 };
 
-// Corners are snapped to 1/256 pixel, so a face's rim moves by no more.
+// Corners are snapped to 1/256 pixel, and thus a face's rim moves by no more.
 static const double snap_px = 1.0 / 256;
 
-// What single precision leaves of a face's depth and of the weights of its corners: 32 roundings,
-// and that its corners are a sixteenth of the grid off, which shows where a face is thin.
+// Errors of single precision in a face's depth and its corners' weights: 32 roundings, and corners
+// off by a sixteenth of the grid. The latter matters for thin faces.
 static const double rounding = 8.0 / 16777216, place_px = 1.0 / 4096;
 
-// What is drawn and looked at.
+// A scene as drawn and as rays see it.
 struct view {
     const char *name;
     const struct faces *faces;
@@ -31,10 +31,10 @@ struct view {
     enum rg_cull cull;
 };
 
-// What a ray meets first among the faces that it surely hits.
+// A ray's first meeting among the faces that it surely hits.
 struct ray {
     double depth;
-    double allowed; // what the face's depth may be off
+    double allowed; // the allowed error of the face's depth
     int face;       // -1: none
 };
 
@@ -44,7 +44,7 @@ static struct oracle_face face_of(const struct view *view, int index)
                           view->faces->indices + 3 * (size_t)index, WIDTH, HEIGHT);
 }
 
-// How much the depth of a face's corners differs; 1 where one is behind the eye.
+// The range of depth over a face's corners; 1 if one is behind the eye.
 static double range_of(const struct oracle_face *face)
 {
     double low = 1, high = 0;
@@ -58,7 +58,8 @@ static double range_of(const struct oracle_face *face)
     return high - low;
 }
 
-// The weights' allowance: of the face's thickness, which is its area over its longest side.
+// The allowed error of weights: a distance over the face's thickness, which is its area over its
+// longest side.
 static double weights_allowed(const struct oracle_outline *o)
 {
     double longest = 0;
@@ -121,7 +122,7 @@ static void cast_at(const struct view *view, int index, struct ray *rays)
     }
 }
 
-// The largest errors of what is drawn, as parts of what is allowed; and the pixels that show a
+// The largest errors of the drawing, as parts of the allowed errors, and the pixels that show a
 // face.
 struct errors {
     double outside, weights, depth, behind;
@@ -145,7 +146,7 @@ static void check_pixel(const struct view *view, const struct faces_drawn *drawn
     e->outside = fmax(e->outside, -margin / snap_px);
     e->behind = fmax(e->behind, (depth - ray->depth) / (allowed + ray->allowed));
     if (margin < 0 || !oracle_hit(&face, px, py, &hit))
-        return; // on the rim, weights and depth are held within the face's
+        return; // on the rim the device keeps weights and depth within the face's range
     e->depth = fmax(e->depth, fabs(depth - hit.depth) / allowed);
     for (int k = 1; k < 3; k++)
         e->weights = fmax(e->weights, fabs((double)faces_value(drawn, px, py, k) - hit.weights[k]) /
@@ -157,7 +158,7 @@ static void check_errors(const struct view *view, const struct errors *e)
     print_message("%s: %d pixels; of what is allowed, outside %.2f, weights %.2f, depth %.2f, "
                   "behind %.2f\n",
                   view->name, e->pixels, e->outside, e->weights, e->depth, e->behind);
-    assert_above(e->pixels, WIDTH * HEIGHT / 20); // else it shows little
+    assert_above(e->pixels, WIDTH * HEIGHT / 20); // otherwise it shows little
     if (e->missing || e->outside > 1 || e->weights > 1 || e->depth > 1 || e->behind > 1)
         fail_msg("%s: %d pixels are missing, or more is off than allowed", view->name, e->missing);
 }
@@ -206,7 +207,7 @@ static void meshes_show_what_rays_meet(void **state)
     }
 }
 
-// Faces through each other, of all sizes and before and behind the eye.
+// Faces of all sizes that cut each other, in front of the eye and behind it.
 static void faces_through_each_other_show_what_rays_meet(void **state)
 {
     enum { FACES = 400 };
@@ -229,9 +230,9 @@ static void faces_through_each_other_show_what_rays_meet(void **state)
 
 // --- closed surfaces ---
 
-// A ray enters a closed surface as often as it leaves it, for the rule gives centres on an edge to
-// one side whichever way the faces look. But for faces thinner than the grid: culling goes by how a
-// face turns before it is snapped, and snapping may turn it over.
+// A ray enters a closed surface as often as it leaves it. The fill rule gives a centre on an edge
+// to one side, whichever way faces look. Faces thinner than the grid are an exception. Culling goes
+// by a face's turn before snapping, and snapping may turn the face over.
 static void check_closed(struct rg_device *device, const char *assignments)
 {
     struct mesh_scene scene = mesh_scene_open(assignments);
@@ -309,7 +310,7 @@ static struct hull hull_of(const struct view *view)
     return hull;
 }
 
-// How far inside a pixel's centre lies of the line of the nearest edge; negative outside.
+// How far a pixel's centre is inside the line of the nearest edge; negative outside.
 static double hull_margin(const struct hull *hull, int px, int py)
 {
     double least = INFINITY;
@@ -321,7 +322,7 @@ static double hull_margin(const struct hull *hull, int px, int py)
     return least;
 }
 
-// Faces on the rim, seen from the side, may fold over as they are snapped.
+// Faces on the rim are seen from the side, and snapping may fold them over.
 static void a_ball_covers_its_disc_once(void **state)
 {
     struct mesh_scene scene = mesh_scene_open("scene=mesh model=sphere");

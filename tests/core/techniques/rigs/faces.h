@@ -1,4 +1,4 @@
-// Meshes on a device, drawn as tests want them.
+// Meshes on a device, drawn in the ways that tests need.
 #ifndef RG_TESTS_CORE_TECHNIQUES_RIGS_FACES_H
 #define RG_TESTS_CORE_TECHNIQUES_RIGS_FACES_H
 
@@ -8,14 +8,14 @@
 #include "core/device/device.h"
 #include "kernels/raster/mesh_params.h"
 
-// The caller's arrays, as kernels/dialect/mesh/mesh.h reads them.
+// The caller's arrays, in the layout that kernels/dialect/mesh/mesh.h reads.
 struct faces {
     int vertex_count, face_count;
     float *positions;
     uint32_t *normals, *indices;
 };
 
-// Zeroed arrays for so many; freed by faces_free.
+// Zeroed arrays for this many; freed by faces_free.
 struct faces faces_make(int vertex_count, int face_count);
 void faces_free(struct faces *faces);
 
@@ -31,14 +31,15 @@ void faces_close(struct faces_on *on);
 
 struct faces_way {
     int width, height;
-    enum rg_format format; // of the colour
+    enum rg_format format; // the colour's format
     enum rg_blend blend;
-    enum rg_depth_mode depth; // of a target cleared to 1
+    enum rg_depth_mode depth; // the target's depth begins as 1
     enum rg_cull cull;
-    bool counted; // samples of each face are
+    bool counted; // counts the samples of each face
 };
 
-// What a draw left: words of the colour's format, depth, and samples. Freed by faces_drawn_free.
+// The results of a draw: words of the colour's format, depth and samples. Freed by
+// faces_drawn_free.
 struct faces_drawn {
     int width, height, texel_words;
     uint32_t *colour;
@@ -52,8 +53,8 @@ void faces_drawn_free(struct faces_drawn *drawn);
 // A value of an RGBA32F colour.
 float faces_value(const struct faces_drawn *drawn, int px, int py, int channel);
 
-// How often each pixel is covered: `faces` drawn at once in RGBA32F, adding 1 each. `params` needs
-// no more than the matrix. Width x height counts, which the caller frees.
+// How often each pixel is covered: draws `faces` at once in RGBA32F, adding 1 each. `params` needs
+// only its matrix. Returns width x height counts, which the caller frees.
 int *faces_layers(const struct faces_on *on, const raster_mesh_params *params, int width,
                   int height, enum rg_cull cull);
 

@@ -1,4 +1,4 @@
-// Scenes of the technique raster, for tests that draw its meshes themselves.
+// Scenes of the technique raster, for tests that draw the meshes themselves.
 #ifndef RG_TESTS_CORE_TECHNIQUES_RIGS_SCENE_H
 #define RG_TESTS_CORE_TECHNIQUES_RIGS_SCENE_H
 
@@ -14,15 +14,15 @@ struct mesh_scene {
 // The mesh of these "key=value key=value" over the defaults; mesh_scene_close frees it.
 struct mesh_scene mesh_scene_open(const char *assignments);
 void mesh_scene_close(struct mesh_scene *scene);
-// Other settings for the same mesh.
+// Sets other settings for the same mesh.
 void mesh_scene_set(struct mesh_scene *scene, const char *assignments);
 
-// How the technique looks at it in the first frame, and which faces it leaves out.
+// The technique's view in the first frame, and the faces that it culls.
 raster_mesh_params mesh_scene_look(const struct mesh_scene *scene, int width, int height);
 enum rg_cull mesh_scene_cull(const struct mesh_scene *scene);
 
-// Opens the device that argv names and runs the tests on it, each with the device as *state;
-// returns main's status, 77 where there is no such device.
+// Opens the device named in argv and runs the tests on it, each with the device as *state. Returns
+// main's status: 77 if there is no such device.
 struct CMUnitTest;
 int raster_tests_run(int argc, char **argv, const struct CMUnitTest *tests, size_t count);
 

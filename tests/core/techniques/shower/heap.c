@@ -1,5 +1,5 @@
-// Particles that one thread of the host allocates and frees are the same rain, to the bit, as those
-// that take slots on the device: shower heap DEVICE.
+// One host thread that allocates and frees particles makes the same rain, to the bit, as slots on
+// the device: shower heap DEVICE.
 #include <stdio.h>
 #include <stdlib.h>
 

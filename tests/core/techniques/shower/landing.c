@@ -1,4 +1,5 @@
-// What particles land on, against the faces of a mesh in double precision: shower landing DEVICE.
+// The places where particles land, against the faces of a mesh in double precision: shower landing
+// DEVICE.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@
 
 enum { WIDTH = 64, HEIGHT = 36, MAP_PX = 128, PLACES = 500 };
 
-// A pyramid beside a sloping roof on nothing, with a side of the pyramid missing: an open mesh.
+// An open mesh: a pyramid with one side missing, beside a sloping roof on nothing.
 static const char *write_mesh(void)
 {
     static const char text[] = "v -3 0 -3\nv 1 0 -3\nv 1 0 1\nv -3 0 1\nv -1 3 -1\n"
@@ -27,7 +28,7 @@ static const char *write_mesh(void)
     return path;
 }
 
-// The height of a triangle over a place; false: it is not over it.
+// The height of a triangle at a place; false if the place is beside it.
 static bool is_over(const double t[3][3], double x, double z, double *height)
 {
     const double ax = t[1][0] - t[0][0], az = t[1][2] - t[0][2];
@@ -40,7 +41,7 @@ static bool is_over(const double t[3][3], double x, double z, double *height)
     return true;
 }
 
-// How high the highest of all faces is at a place; the ground plane is below all.
+// The height of the highest face at a place; the ground plane is below all faces.
 static double height_at(const struct city_faces *faces, double x, double z)
 {
     double most = 0;
@@ -57,7 +58,7 @@ static double height_at(const struct city_faces *faces, double x, double z)
     return most;
 }
 
-// Whether the height is smooth around a place, so that no edge lies near.
+// Whether the height is smooth around a place, so that no edge is near.
 static bool is_smooth(const struct city_faces *faces, double x, double z)
 {
     const double near_m = 0.02, height = height_at(faces, x, z);
@@ -81,7 +82,7 @@ static struct shower *open_mesh(const char *settings)
     return pour_open(all, WIDTH, HEIGHT);
 }
 
-// Places in the middles of the map's texels, that the viewer sees and where no edge is.
+// Places at centres of the map's texels, which the viewer sees and which have no edge near.
 static int find_places(struct shower *s, struct oracle_drop *places)
 {
     const struct city_faces *f = &scenery_city(s->scene)->faces;
@@ -100,7 +101,8 @@ static int find_places(struct shower *s, struct oracle_drop *places)
     return count;
 }
 
-// Puts particles a little above or below where they land in the next step.
+// Puts particles so that the next step takes them a little above or below a place. Counts those
+// that move freely.
 static int stay_of(struct shower *s, const struct oracle_drop *places, int count, double above_m)
 {
     struct oracle_drop before[PLACES] = {{0}};
@@ -137,11 +139,11 @@ static void particles_land_on_the_mesh(void **state)
     pour_close(s);
     s = open_mesh("landing=plane");
     pour_step(s, 1);
-    assert_int_equal(stay_of(s, places, count, -0.01), high); // within the mesh, above the plane
+    assert_int_equal(stay_of(s, places, count, -0.01), high); // inside the mesh, above the plane
     pour_close(s);
 }
 
-// Promoted particles come in at the top of their column, and land on the mesh again.
+// Promoted particles enter at the top of their column and land on the mesh again.
 static void promoted_particles_rise_from_the_mesh(void **state)
 {
     (void)state;
@@ -166,7 +168,7 @@ static void promoted_particles_rise_from_the_mesh(void **state)
     pour_close(s);
 }
 
-// The light of a picture with drops less that of the same one without.
+// The light that drops add to a picture.
 static double drawn_by(struct shower *s, const struct oracle_drop *drops, int count)
 {
     static uint16_t texels[2][WIDTH * HEIGHT * 4];
@@ -197,7 +199,7 @@ static void the_mesh_hides_drops(void **state)
             for (int axis = 0; axis < 3; axis++)
                 peak[axis] = (double)f->corners[3 * i + axis];
     for (int i = 0; i < 20; i++) {
-        const double share = 0.25 + 0.01 * i; // of the height: the ray to the eye goes through
+        const double share = 0.25 + 0.01 * i; // of the height: rays to the eye meet the mesh
         const struct oracle_drop low = {peak[0], peak[1] * share, peak[2], 10};
         struct oracle_sight at = oracle_sight_of(&r, &low);
         at.ahead *= 1.1;
@@ -205,7 +207,7 @@ static void the_mesh_hides_drops(void **state)
         at.ahead *= 0.3 / 1.1;
         front[count] = oracle_drop_at(&r, &at);
         front[count].fall_m_s = behind[count].fall_m_s = 10;
-        behind[count].y -= 10; // what is hidden is the whole drop
+        behind[count].y -= 10; // far enough to hide the whole drop
         count++;
     }
     assert_above(drawn_by(s, front, count), 100);

@@ -1,6 +1,6 @@
-// The paper's claim that improved rain looks the same, by the mean and the deviation of its light
-// in each region of the picture and over time: shower looks. Pictures are the same on all devices,
-// so that one of them is asked.
+// The paper claims that improved rain looks the same: shower looks. The test measures mean and
+// deviation of its light in each region, and over time. One device is asked, since all draw the
+// same pictures.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +11,13 @@
 
 enum { WIDTH = 160, HEIGHT = 90, ACROSS = 4, DOWN = 3, REGIONS = ACROSS * DOWN, FRAMES = 16 };
 
-// Of each region: the mean light of drops, and how much it differs from pixel to pixel.
+// The mean light of drops in each region, and its deviation over the pixels.
 struct looks {
     double mean[REGIONS], deviation[REGIONS];
-    double all; // mean of the whole picture
+    double all; // the mean of the whole picture
 };
 
-// The share that drops hide of a pixel, by its light.
+// The part of a pixel that drops hide, from its light.
 static double hidden(const struct shower *s, const uint16_t *texel)
 {
     return ((double)rg_unpack_half(texel[0]) - pour_sky(0)) / (pour_light(s, 0) - pour_sky(0));
@@ -39,7 +39,7 @@ static struct looks looks_of(const char *settings)
              "eye_y_m=60 wind_m_s=1 %s",
              settings);
     struct shower *s = pour_open(all, WIDTH, HEIGHT);
-    pour_step(s, 120); // the rain of the first step has fallen out of sight
+    pour_step(s, 120); // by then the first step's rain is out of sight
     for (int frame = 0; frame < FRAMES; frame++) {
         pour_step(s, 11);
         assert_true(s->base.technique->draw(&s->base));
@@ -60,7 +60,7 @@ static struct looks looks_of(const char *settings)
     return l;
 }
 
-// How far the worst region is from the same one of other rain, in shares of that.
+// The largest difference of a region from the same region of other rain, as a share of the other.
 static void compare(const char *what, const struct looks *a, const struct looks *b, double *mean,
                     double *deviation)
 {
@@ -85,9 +85,8 @@ static struct looks traditional_but(const char *difference, const struct looks *
     return after;
 }
 
-// Four of the improvements leave the rain as it is: regions differ by no more than other seeds do.
-// Compact particles make the very same pictures, and so does uniform motion where nothing
-// accelerates.
+// Four improvements leave the rain alike: regions differ no more than between seeds. Compact
+// particles make identical pictures, and so does uniform motion without acceleration.
 static void four_improvements_leave_the_rain_as_it_is(void **state)
 {
     (void)state;
@@ -104,9 +103,9 @@ static void four_improvements_leave_the_rain_as_it_is(void **state)
     }
 }
 
-// Two do not. Of particles that die at the lower end of what is seen, those in front live shortly,
-// for the view is low there; of particles that are promoted as many stay in front as were placed
-// there. So promotion brings near rain, which is brighter. Far drops of layers are smaller.
+// Two improvements change the rain. Particles that die at the view's lower end live shortly in
+// front, where the view is low. As many promoted particles stay in front as were placed there, so
+// that promotion brings near rain, which is brighter. With layers far drops are smaller.
 static void promotion_and_layers_change_it(void **state)
 {
     (void)state;

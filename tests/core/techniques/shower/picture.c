@@ -1,5 +1,4 @@
-// Where drops are seen, which pixels they cover and in which colour, against the oracle: shower
-// picture DEVICE.
+// Each drop's place, pixels and colour against the oracle: shower picture DEVICE.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +21,7 @@ static struct shape shape_of(const struct oracle_streak *s, bool is_quad)
 {
     const double x = s->high[0] - s->low[0], y = s->high[1] - s->low[1];
     const double wide = is_quad ? fmax(s->width_px, 1) : 1, length = hypot(x, y);
-    // A line has a pixel in each row, or in each column where it is flatter.
+    // A line has one pixel in each row, or in each column if it is flatter.
     const double line_x = fabs(x) <= fabs(y) ? 0.5 : 0, line_y = 0.5 - line_x;
     const double beside_x = is_quad ? -y / length * wide / 2 : line_x;
     const double beside_y = is_quad ? x / length * wide / 2 : line_y;
@@ -34,7 +33,7 @@ static struct shape shape_of(const struct oracle_streak *s, bool is_quad)
                           is_quad};
 }
 
-// The texture of a drop: texels along one of its sides, read between their middles.
+// A drop's texture along one of its sides, interpolated between centres of texels.
 static double texel(int i, int texels, int power)
 {
     const double t = 2 * (i + 0.5) / texels - 1;
@@ -57,7 +56,7 @@ static double opacity_at(const struct shape *s, double opacity, int px, int py)
     const double length = hypot(x, y), wide = fmax(s->streak.width_px, 1);
     const double u = (to_y * x - to_x * y) / length / wide + 0.5;
     const double v = (to_x * x + to_y * y) / (length * length);
-    const double mean = 2.0 / 3 * 4 / 5; // of a parabola across and a curve of degree 4 along
+    const double mean = 2.0 / 3 * 4 / 5; // a parabola across, and a curve of degree 4 along
     return narrow * (s->is_quad ? along(u, 16, 2) * along(v, 64, 4) : mean);
 }
 
@@ -70,8 +69,7 @@ static double light_of(const struct texels *t, int px, int py, int colour)
     return (double)rg_unpack_half(t->halves[4 * (py * WIDTH + px) + colour]);
 }
 
-// A pixel is the sky, and in front of it what covers it, at most one drop. Returns whether one
-// does.
+// A pixel is the sky with at most one drop in front of it. Returns whether there is one.
 static bool expect_pixel(const struct shower *s, const struct texels *t, const struct shape *shapes,
                          int count, int px, int py)
 {
@@ -96,7 +94,7 @@ static bool expect_pixel(const struct shower *s, const struct texels *t, const s
     return opacity > 0;
 }
 
-// Drops that do not meet on the screen, near and far, narrow and wide.
+// Near and far drops, narrow and wide, which do not meet on the screen.
 static void put_drops(struct shower *s, struct shape *shapes)
 {
     static const double ahead[DROPS] = {1.2, 12, 40, 3, 70, 6, 2, 20, 55, 4.5, 9, 28};
@@ -117,7 +115,8 @@ static int expect_picture(const char *settings)
 {
     char all[512];
     struct shape shapes[DROPS];
-    // A slot more than there are drops: what is in it lies in the view's middle, and is not drawn.
+    // One slot more than drops: the spare slot's place is in the middle of the view, and must not
+    // be drawn.
     snprintf(all, sizeof(all),
              "particles=%d variation=0 drop_height_m=0.5 light=20 opacity=0.9 eye_x_m=0 eye_y_m=1 "
              "eye_z_m=12 heading_deg=0 %s",

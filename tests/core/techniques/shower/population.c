@@ -1,5 +1,5 @@
-// How many particles there are (eq. 1), which slots they take, and where they are born (eqs. 2 to
-// 8), by thousands: shower population DEVICE.
+// The number of particles (eq. 1), the slots that they take, and their places of birth (eqs. 2 to
+// 8), for thousands: shower population DEVICE.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,8 +19,8 @@ static int count_of(struct shower *s)
     return count;
 }
 
-// Where all particles leave in each step, a step's births are ExpectedNum and the random term: even
-// between ExpectedNum (1 - C0) and ExpectedNum (1 + C0).
+// All particles leave in each step. A step's births are then ExpectedNum plus the random term:
+// uniform from ExpectedNum (1 - C0) to ExpectedNum (1 + C0).
 static void births_vary_evenly(void **state)
 {
     (void)state;
@@ -44,7 +44,8 @@ static void births_vary_evenly(void **state)
     assert_below(least, EXPECTED * (1 - 0.97 * c0));
     assert_above(most, EXPECTED * (1 + 0.97 * c0));
     pour_expect("mean", sum / STEPS, EXPECTED, 4 * deviation / sqrt(STEPS));
-    // Of an even spread of half width w, squares have mean w^2 / 3 and deviation w^2 sqrt(4 / 45).
+    // For a uniform distribution of half width w, squares have mean w^2 / 3 and deviation w^2
+    // sqrt(4 / 45).
     const double wide = pow(c0 * EXPECTED, 2);
     pour_expect("variance", squares / STEPS, wide / 3, 4 * wide * sqrt(4.0 / 45 / STEPS));
     assert_int_equal(s->base.counters[SHOWER_COUNT_BORN].value, (int64_t)sum);
@@ -53,7 +54,8 @@ static void births_vary_evenly(void **state)
     pour_close(s);
 }
 
-// Without chance there are always as many as expected; more than that stay, and none is born.
+// Without chance there are always as many as expected. With chance, surplus particles stay, and
+// none is born.
 static void births_fill_up(void **state)
 {
     (void)state;
@@ -74,17 +76,17 @@ static void births_fill_up(void **state)
         pour_step(s, 1);
         const int now = count_of(s), lost = (int)(s->base.counters[SHOWER_COUNT_DIED].value - died);
         assert_at_least(now, before - lost);
-        assert_below(now, 1000); // the most that there may be
+        assert_below(now, 1000); // the largest possible number
         resting += now == before - lost;
         before = now;
     }
-    assert_above(before, 800); // about the largest of sixty numbers
-    assert_above(resting, 30); // most of which are less than there are
+    assert_above(before, 800); // near the largest of sixty random numbers
+    assert_above(resting, 30); // most random numbers are below the present count
     pour_close(s);
 }
 
-// A slot is taken by one particle. Those born take the first that are free, in order, so that what
-// is free lies behind.
+// One particle has one slot. The newborn take the first free slots in order, so that free slots
+// come last.
 static void slots_are_given_back(void **state)
 {
     (void)state;
@@ -138,7 +140,7 @@ static void add(struct spread *spread, double share)
     spread->bins[bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin]++;
 }
 
-// Each tenth holds a tenth, within 4.5 deviations.
+// Each tenth of the range holds a tenth, within 4.5 deviations.
 static void expect_even(const char *what, const struct spread *spread)
 {
     for (int i = 0; i < BINS; i++)
@@ -152,7 +154,7 @@ static double cube(double x)
 
 struct birth_case {
     const char *settings;
-    double phi_high; // of pi / 2 - beta / 2 to this, in shares of beta
+    double phi_high; // the range begins at pi / 2 - beta / 2; its width in shares of beta
     bool is_even;
 };
 
@@ -180,7 +182,7 @@ static void expect_region(const struct birth_case *c)
         add(&by_r, u);
         add(&by_phi, v);
         add(&by_theta, w);
-        // Sums and differences of even numbers, modulo 1, are even if these are independent.
+        // Modulo 1, sums and differences of independent uniform numbers are uniform.
         add(&by_sum, fmod(u + v + 2, 1));
         add(&by_difference, fmod(u - v + 2, 1));
         add(&by_all, fmod(u - v + 2 * w + 2, 1));
@@ -208,7 +210,7 @@ static void particles_are_born_in_the_region(void **state)
         expect_region(&cases[i]);
 }
 
-// A step later others are born elsewhere, another seed has others, and the same seed the same.
+// Births differ in a later step and with another seed; the same seed repeats them.
 static void births_go_by_the_seed(void **state)
 {
     (void)state;
@@ -240,8 +242,8 @@ static void births_go_by_the_seed(void **state)
 
 // --- promotion ---
 
-// All are there from the first step on, by chance; where that is beyond what is seen or below the
-// ground they wait.
+// All particles exist from the first step on, at random places. Particles placed out of view or
+// below the ground wait.
 static void promoted_particles_stay_as_many(void **state)
 {
     (void)state;
@@ -271,7 +273,7 @@ static void promoted_particles_stay_as_many(void **state)
     pour_close(s);
 }
 
-// The wind keeps the rain as even across the view as it was.
+// Wind keeps the rain as uniform across the view as it was.
 static void wind_keeps_the_rain_even(void **state)
 {
     (void)state;

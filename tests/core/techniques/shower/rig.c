@@ -101,7 +101,7 @@ uint32_t pour_tally(struct shower *s, int word)
     return value;
 }
 
-// By the paper: which system has which part of each switch.
+// The parts that each system has, by the paper; a switch overrides it.
 static bool is_improved(const struct shower *s, int choice)
 {
     return choice == 2 || (choice == 0 && s->settings.system == 1);

@@ -1,5 +1,5 @@
-// What each particle does in each step, against the oracle: it moves, ends where it has left the
-// body that is seen or landed, or comes in again: shower steps DEVICE.
+// Each particle's step against the oracle. A particle moves; it ends when it lands or leaves the
+// body in view, or it enters again: shower steps DEVICE.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +9,11 @@
 
 enum { PARTICLES = 600, STEPS = 25 };
 
-// Places are floats some 100 m from the origin; what is nearer than this to a side is not decided.
+// Places are floats up to some 100 m from the origin. A particle nearer than this to a side may go
+// either way.
 static const double OFF_M = 3e-4, UNDECIDED_M = 2e-3;
 
-// What became of particles, over all steps.
+// The fates of particles over all steps.
 struct events {
     int stayed, left, landed, born, promoted, fell_in, crossed, turned, drawn_in, waited;
 };
@@ -34,7 +35,7 @@ static void expect_fall(const struct oracle_drop *found, double due)
 
 // --- the traditional renewal ---
 
-// A newborn particle: in the region, at the speed of its layer.
+// A newborn particle is in the region and has the speed of its layer.
 static void expect_born(const struct shower *s, const struct oracle_rain *r,
                         const struct oracle_drop *d)
 {
@@ -90,13 +91,13 @@ static void check_traditional(const struct shower *s, const struct oracle_rain *
 
 // --- promotion ---
 
-// The ends of a column, as shares of half the view's height there.
+// The lower end of a column, as a share of half the view's height there.
 static double lowest_of(const struct oracle_rain *r, double ahead)
 {
     return fmax(-1, (r->ground_m - r->eye[1]) / (ahead * tan(r->beta / 2)));
 }
 
-// Where a particle that moved comes in again in front or behind: at its place on the screen.
+// A particle that passes the front or the back enters at the other, at its place on the screen.
 static bool wrap_deep(const struct oracle_rain *r, struct oracle_sight *s)
 {
     const double span = r->far_m - r->near_m, was = s->ahead;
@@ -107,7 +108,7 @@ static bool wrap_deep(const struct oracle_rain *r, struct oracle_sight *s)
     return s->ahead != was;
 }
 
-// Beyond an end of the column a particle comes in as far within the other one.
+// A particle that passes an end of its column enters as far inside the other end.
 static bool wrap_high(const struct oracle_rain *r, struct oracle_sight *s)
 {
     const double low = lowest_of(r, s->ahead), was = s->up;
@@ -118,8 +119,8 @@ static bool wrap_high(const struct oracle_rain *r, struct oracle_sight *s)
     return s->up != was;
 }
 
-// A particle that has left by a side is opposite, or anywhere across at its distance; one that has
-// not is where it is, or at a side where a wind from behind brings in others.
+// A particle that has left by a side is at the opposite side, or anywhere across at its distance.
+// Any other is in its place, or at a side if a wind from behind brings others in.
 static bool is_across(const struct oracle_sight *due, const struct oracle_sight *found,
                       struct events *e)
 {
@@ -165,11 +166,11 @@ static void check_promoted(const struct oracle_rain *r, const struct oracle_drop
 
 // --- steps ---
 
-// Particles anywhere in the body, at speeds of all kinds.
+// Particles anywhere in the body, at all kinds of speed.
 static void throw_in(struct shower *s)
 {
     struct oracle_drop drops[PARTICLES];
-    pour_step(s, 1); // the wind of the frame is set
+    pour_step(s, 1); // sets the frame's wind
     const struct oracle_rain r = pour_oracle(s);
     for (int i = 0; i < PARTICLES; i++) {
         const struct oracle_sight at = {r.near_m + (r.far_m - r.near_m) * fmod(i * 0.618033989, 1),
@@ -213,8 +214,8 @@ static struct events run(const char *settings, bool is_promoted)
     return e;
 }
 
-// The body's sides in turn: by the bottom, by the sides in a wind, by the ends in a wind along the
-// view; landing alone, when the viewer is near the ground.
+// Particles leave by each side of the body: the bottom, the sides in a wind, and the ends in a wind
+// along the view. Near the ground they also land.
 static void particles_of_the_traditional_system_end(void **state)
 {
     (void)state;
@@ -260,7 +261,7 @@ static void particles_of_the_improved_system_come_in_again(void **state)
     assert_above(fell_in, 50);
 }
 
-// Attributes are kept beside the place: the wind of the moment, gravity, and how old it is.
+// Attributes are stored beside the place: the present wind, gravity and age.
 static void the_traditional_state_is_whole(void **state)
 {
     (void)state;

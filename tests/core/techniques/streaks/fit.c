@@ -17,8 +17,8 @@
 
 enum { WIDTH = 128, HEIGHT = 72 };
 
-// A small rain in a corner of the small city, culled particle by particle, so that all radii
-// differ.
+// A small rain in a corner of the small city, with every particle culled by itself, so that all
+// radii differ.
 #define SMALL                                                                                      \
     "atlas=small city=small depth_map_px=256 shadow_map_px=64 rain_width_m=60 rain_depth_m=60 "    \
     "rain_height_m=40 camera=free eye_y_m=3 drops_m2_s=40 streak_gain=60 view_angle_deg=70 "       \
@@ -75,7 +75,7 @@ static double fact(const struct streaks *s, const char *name)
     return NAN;
 }
 
-// What the search is to find, by instances that know nothing of it.
+// The error that the search must find, from instances that do not know of it.
 static double error_of(double radius_m, double height_m)
 {
     char settings[128];
@@ -107,7 +107,7 @@ static void test_smallest_without_error(void **state)
     assert_equals(radius_m, s->settings.culling_radius_m);
     assert_equals(height_m, s->settings.local_height_m);
     close_rain(s);
-    // Neither the smallest that is tried nor the largest.
+    // Neither the smallest nor the largest value that the search tries.
     assert_above(radius_m, 2);
     assert_below(radius_m, 60);
     assert_above(height_m, 2);
@@ -119,8 +119,8 @@ static void test_smallest_without_error(void **state)
     assert_above(error_of(radius_m, height_m / 2), allowed);
 }
 
-// The search leaves nothing behind: all frames are those of the sizes that it found. Maps around
-// the observer, layers far away and overlays depend on the sizes, too.
+// The search leaves no trace: all frames are drawn with the sizes that it found. Maps around the
+// observer, far layers and overlays depend on the sizes, too.
 static void test_frames_are_as_set(void **state)
 {
     (void)state;
@@ -171,8 +171,8 @@ static void test_looser_is_no_larger(void **state)
     assert_below(before_m, first_m / 2);
 }
 
-// However large the error that is allowed, the fastest drop of a spectrum, of 9.17 m/s, has the
-// time to be a streak for 1/60 s and then a splash for 3 s.
+// However large the allowed error, the fastest drop of a spectrum (9.17 m/s) has time to make a
+// streak and a splash: 1/60 s and 3 s.
 static void test_least_height_of_sizes(void **state)
 {
     (void)state;
@@ -183,12 +183,13 @@ static void test_least_height_of_sizes(void **state)
     close_rain(s);
 }
 
-// Neither the device decides nor what was set: the search begins and ends elsewhere.
+// The result depends neither on the device nor on the sizes that were set, from which the search
+// starts.
 static void test_nothing_else_decides(void **state)
 {
     (void)state;
     if (device->info.tier != RG_T0)
-        skip(); // its pictures are the same to the eye, not to the bit
+        skip(); // equal by eye, not to the bit
     struct rg_device *cpu = rg_device_open("cpu");
     assert_non_null(cpu);
     struct streaks *a = open_rain(device, "fit=on");
@@ -208,8 +209,8 @@ static void test_nothing_else_decides(void **state)
 static const char *device_name = "cpu";
 static struct streaks *shared;
 
-// One instance stays open beside those of the tests: what instances share on a device, the city and
-// the atlas, is made once.
+// One instance stays open beside those of the tests, so that instances share one city and one
+// atlas.
 static int set_up(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
-// Drops of a spectrum where they land, and where they are seen: landing DEVICE. Fast drops land
-// more often than as many slow ones, so that splashes have another spectrum than the air: that of
-// the flux, which is reckoned here from the formulas. And blocks and packets, which are chosen by
-// the largest and the fastest of drops, do not show.
+// Drops of a spectrum as they land and as they are seen: landing DEVICE. Fast drops land more often
+// than slow ones. Thus splashes have the spectrum of the flux, not of the air; the test computes it
+// from formulas. Blocks and packets, which are selected by the largest and the fastest drops, must
+// not show.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ struct rain {
     double rain_mm_h;
 };
 
-// Drops a cubic metre and millimetre.
+// Drops in a cubic metre, for each millimetre of diameter.
 static double density(const struct rain *r, double d)
 {
     if (!r->is_best)
@@ -30,7 +30,7 @@ static double density(const struct rain *r, double d)
     return 67 * pow(r->rain_mm_h, 0.846) * 2.25 / d * part * exp(-part) / (pi / 6 * d * d * d);
 }
 
-// Atlas' fit.
+// Atlas' fit of the terminal speed.
 static double speed(double d)
 {
     return 9.65 - 10.3 * exp(-0.6 * d);
@@ -46,8 +46,8 @@ static double diameter_at(double part)
     return least_mm + (largest_mm - least_mm) * part / PARTS;
 }
 
-// What lands on a square metre in a second, of drops up to each diameter: their number, and their
-// water in all, in millimetres. By the rule of middles.
+// The drops up to each diameter that land on a square metre in a second, and their whole water in
+// millimetres. By the midpoint rule.
 struct landing {
     double drops[PARTS + 1], water;
 };
@@ -76,7 +76,7 @@ static double drops_m3(const struct rain *r)
 static struct streaks *open_splashes(const struct rain *r, const char *more)
 {
     char settings[700];
-    // The local space is the whole rain space's, so that each drop's way ends in it.
+    // The local space is as high as the rain space, so that every drop lands in it.
     snprintf(settings, sizeof(settings),
              "state=on geometry=off drops=off terminal_speed=atlas packets=world blocks=all "
              "rain_height_m=40 local_height_m=40 eye_y_m=19.9 target_y_m=19.9 target_z_m=40 "
@@ -89,7 +89,7 @@ static struct streaks *open_splashes(const struct rain *r, const char *more)
     return s;
 }
 
-// Of splashes, by the diameters of their drops; each lasts for splash_s.
+// Counts splashes by their drops' diameters; each splash lasts splash_s.
 static struct landing count_landing(const struct streaks *s, int64_t *count)
 {
     const struct rain_places places = rain_read_places(s);
@@ -130,7 +130,7 @@ static void expect_flux(const struct rain *r, const char *more)
     assert_above(count, 20000);
     assert_below(fabs(drops - 1), 0.02);
     assert_below(fabs(water - 1), 0.02);
-    // Kolmogorov and Smirnov, at 1 %, and half a class of 512; weights make it wider.
+    // Kolmogorov-Smirnov test at 1 %, and half a class of 512; weights widen the bound.
     assert_below(most, 1.63 / sqrt((double)count) * (s->settings.kept_by_section ? 2 : 1) + 0.001);
     rain_close(s);
 }
@@ -147,7 +147,8 @@ static void test_drops_land_by_flux(void **state)
 
 // --- what is seen ---
 
-// A picture of each way to choose blocks, all of which are the same, and not that without rain.
+// Draws a picture by each way to choose blocks. All must be the same, and differ from the picture
+// without rain.
 static void expect_no_blocks(const char *view, const char *drops)
 {
     static const char *const ways[] = {"blocks=all", "blocks=seen select=rect",
@@ -171,8 +172,8 @@ static void expect_no_blocks(const char *view, const char *drops)
 
 #define SIZES "spectrum=best kept_share=0.2 "
 
-// Blocks and packets are left out that the view cannot see, and nothing else. In views that look up
-// over a low local space, streaks and splashes reach into the picture from below it.
+// Only blocks and packets that the view cannot see are left out. Views that look up over a low
+// local space show streaks and splashes from below it.
 static void test_blocks_do_not_show(void **state)
 {
     (void)state;
@@ -187,8 +188,8 @@ static void test_blocks_do_not_show(void **state)
     }
 }
 
-// Drops of one size, which lie in blocks by how far they have fallen. A splash lasts while its drop
-// would fall on below what it hit: on the ground, further than these views see.
+// Drops of one size, in blocks by how far they have fallen. A splash lasts as long as its drop
+// would fall on below the surface: on the ground, further than these views see.
 static void test_splashes_outlast_their_blocks(void **state)
 {
     (void)state;

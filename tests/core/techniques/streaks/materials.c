@@ -1,5 +1,5 @@
-// Splashes by the surface that is hit: materials DEVICE. What devices say, against
-// faces seen along the fall in double precision, without kernels/; and what pictures show of it.
+// Splashes by the surface that is hit: materials DEVICE. Devices' materials against faces seen
+// along the fall, in double precision and without kernels/; and their effect on pictures.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,7 +46,7 @@ static void close_rain(struct streaks *s)
     rg_instance_close(&s->base);
 }
 
-// --- what is seen along the fall ---
+// --- faces seen along the fall ---
 
 // A face in the rain frame: x and y across the fall, s along it.
 struct hit_face {
@@ -116,8 +116,8 @@ static bool is_near(const struct hit_face *f, double x, double y)
     return x >= f->low[0] && x <= f->high[0] && y >= f->low[1] && y <= f->high[1];
 }
 
-// The materials of what is met first, a bit each: several where faces lie in each other. On the
-// ground plane and below it there is a film.
+// The materials of the first faces met, one bit each: several if faces overlap. The ground plane,
+// and everything below it, has a film.
 static int met_first(const struct hit_faces *f, double x, double y)
 {
     const double same = 2e-3;
@@ -136,7 +136,7 @@ static int met_first(const struct hit_faces *f, double x, double y)
     return materials;
 }
 
-// Where a map lies, in the rain frame.
+// The place of a map in the rain frame.
 struct extent {
     double x, y, wide_x, wide_y;
 };
@@ -150,8 +150,8 @@ static struct extent extent_of(const struct streaks *s, bool around)
                   : (struct extent){-x, -y, 2 * x, 2 * y};
 }
 
-// Whether the map's texel under a place shows a material: edges may lie on either side of the
-// texel's middle, by the grid of 1/256 texel.
+// Whether the map's texel under a place shows a material. An edge may be on either side of the
+// texel's centre, by the grid of 1/256 texel.
 static bool shows(const struct hit_faces *f, const struct extent *map, double u, double v,
                   int material)
 {
@@ -165,9 +165,9 @@ static bool shows(const struct hit_faces *f, const struct extent *map, double u,
     return shown;
 }
 
-// --- what devices say ---
+// --- materials on devices ---
 
-// Particles over each material, drops and splashes alike, as the device has them.
+// The device's count of particles over each material, both drops and splashes.
 static void count_materials(const struct streaks *s, int counts[MATERIALS])
 {
     const struct rain_places places = rain_read_places(s);
@@ -180,7 +180,7 @@ static void count_materials(const struct streaks *s, int counts[MATERIALS])
     free(places.words);
 }
 
-// What is known of the particles that were compared.
+// The materials of the compared particles, and how many are outside the map.
 struct compared {
     int counts[MATERIALS], outside;
 };
@@ -193,15 +193,14 @@ static void compare_one(const struct hit_faces *faces, const struct extent *map,
     const double v = ((double)place[1] - map->y) / map->wide_y * MAP_PX;
     const bool outside = u < 0 || v < 0 || u > MAP_PX || v > MAP_PX;
     if (fabs(u - round(u)) < 1e-2 || fabs(v - round(v)) < 1e-2)
-        return; // it may lie in either texel
+        return; // it may be in either texel
     if (!(outside ? material == FILM : shows(faces, map, u, v, material)))
         fail_msg("at %g %g: material %d", (double)place[0], (double)place[1], material);
     all->counts[material]++;
     all->outside += outside;
 }
 
-// Compares some of the particles with the scene's faces, which for a dynamic map lie around the
-// observer.
+// Compares some particles with the scene's faces; those of a dynamic map are around the observer.
 static struct compared compare(struct rg_device *device, const char *settings, bool around)
 {
     enum { SOME = 2500 };
@@ -240,7 +239,7 @@ static void a_dynamic_map_too(void **state)
         true);
     assert_above(all.counts[FILM], 100);
     assert_above(all.counts[PUDDLE], 20);
-    assert_int_equal(all.outside, 0); // it would fall through roofs there
+    assert_int_equal(all.outside, 0); // outside the map it would fall through roofs
 }
 
 static void rain_that_leans_too(void **state)
@@ -274,11 +273,11 @@ static void off_all_are_of_one(void **state)
     assert_above(counts[FILM], 1000);
     for (int m = 1; m < MATERIALS; m++)
         assert_int_equal(counts[m], 0);
-    assert_int_equal(s->map->numbers->desc.width, 1); // nothing is kept for it
+    assert_int_equal(s->map->numbers->desc.width, 1); // a single texel: nothing is kept
     close_rain(s);
 }
 
-// Instances with and without surfaces share no map; those that ask for the same do.
+// Instances with and without surfaces share no map; instances with the same needs do.
 static void maps_are_shared_by_what_they_hold(void **state)
 {
     static const char *const ways[] = {"splash_materials=off splash_up=vertical",
@@ -294,7 +293,7 @@ static void maps_are_shared_by_what_they_hold(void **state)
         close_rain(s[i]);
 }
 
-// --- what pictures show ---
+// --- materials in pictures ---
 
 static void draw(struct streaks *s, uint16_t picture[HALVES])
 {
@@ -302,7 +301,7 @@ static void draw(struct streaks *s, uint16_t picture[HALVES])
     assert_true(rg_image_read(s->base.target, 0, 0, picture));
 }
 
-// Leaves nothing of a material's crowns.
+// Makes all crowns of a material blank.
 static void blank(struct streaks *s, int material)
 {
     const struct rg_image_desc *desc = &s->textures->crowns->desc;
@@ -330,7 +329,7 @@ static void expect_only(const struct streaks *s, int material)
         assert_true(m == material ? counts[m] > 20 : counts[m] == 0);
 }
 
-// Where all that is hit is of one material, its crowns are what is seen, and no others.
+// If all surfaces have one material, its crowns are seen, and no others.
 static void check_crowns(struct rg_device *device, const char *settings, int material)
 {
     static uint16_t whole[HALVES], picture[HALVES];

@@ -1,5 +1,4 @@
-// The particles of streaks, as devices compute them, against an oracle in double precision:
-// particles DEVICE.
+// The particles of streaks on devices, against an oracle in double precision: particles DEVICE.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +23,7 @@ static const char *device_name;
 
 struct scene {
     float particles[3 * PARTICLES];
-    uint32_t blocks[FIRST_BLOCK + BLOCKS * STREAKS_BLOCK_WORDS]; // behind the classes of sizes
+    uint32_t blocks[FIRST_BLOCK + BLOCKS * STREAKS_BLOCK_WORDS]; // after the classes of sizes
     float depths[MAP_X * MAP_Y];
     int32_t numbers[MAP_X * MAP_Y]; // of surfaces
     uint32_t surfaces[SURFACES * SURFACE_WORDS];
@@ -50,14 +49,14 @@ static float number(uint32_t u)
     return f;
 }
 
-// Classes of drops: radius, speed and frequency in those of the settings' drop, how many they stand
-// for, and how far around they have come.
+// Classes of drops: radius, speed and frequency as multiples of the settings' drop; how many drops
+// one stands for; and the class's phase.
 static const double classes[SIZES][SIZE_WORDS] = {{1, 1, 1, 1, 0},
                                                   {0.5, 0.75, 2.8, 3, 0.4},
                                                   {1.5, 1.125, 0.54, 0.25, 0.95},
                                                   {0.25, 0.5, 8, 40, 0.1}};
 
-// Blocks refer to particles in another order than they lie.
+// Blocks refer to particles in another order than that of memory.
 static void fill(struct scene *scene)
 {
     for (uint32_t i = 0; i < PARTICLES; i++) {
@@ -81,7 +80,7 @@ static void fill(struct scene *scene)
     }
     for (uint32_t i = 0; i < SURFACES * SURFACE_WORDS; i++)
         scene->surfaces[i] = rg_random(3, i, 0, 10).x;
-    // The kind is the third of the look's half bytes.
+    // The kind is the third half byte of the look.
     for (uint32_t i = 0; i < SURFACES; i++) {
         uint32_t *look = &scene->surfaces[i * SURFACE_WORDS + 3];
         *look = (*look & ~0xf00u) | (i % 10) << 8;
@@ -161,8 +160,8 @@ static void compute(const struct scene *scene, const streaks_params *p, float *p
     assert_true(rg_device_close(device));
 }
 
-// What is hit: s of the surface and its material; and how far the place is from the next texel of
-// the map.
+// The surface that is hit: its s and material, and the distance of the place from the map's next
+// texel.
 struct hit {
     double s, margin;
     int material;
@@ -192,8 +191,7 @@ static struct hit hit_at(const struct scene *scene, double x, double y)
     return hit;
 }
 
-// By a hash of its number, a particle's class, and where it begins in its swing, in steps of
-// 1/1024.
+// A hash of a particle's number decides its class, and its swing's phase in steps of 1/1024.
 static uint32_t hash_of(uint32_t particle)
 {
     uint32_t h = particle * 0x9e3779b9u;
@@ -211,7 +209,7 @@ static const double *class_of(uint32_t particle)
     return classes[hash_of(particle) / 16384 % SIZES];
 }
 
-// Returns how many particles are in each state.
+// Counts the particles in each state.
 static void compare(const struct scene *scene, const streaks_params *p, const float *places,
                     int counts[3])
 {
@@ -297,8 +295,8 @@ static void test_culled_one_by_one(void **state)
     check(&p, 100, 10);
 }
 
-// A map around the observer says nothing of what lies beside it: nothing is drawn there, rather
-// than through roofs.
+// A map around the observer does not cover places beside it. Nothing is drawn there, so that rain
+// does not fall through roofs.
 static void test_nothing_beside_the_map(void **state)
 {
     (void)state;

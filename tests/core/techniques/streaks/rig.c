@@ -77,8 +77,8 @@ double rain_texel(const struct rain_texels *picture, int x, int y, int colour)
 
 static struct streaks *shared;
 
-// One instance stays open beside those of the tests: what instances share on a device, the city and
-// the atlas, is made once.
+// One instance stays open beside those of the tests, so that instances share one city and one
+// atlas.
 static int set_up(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-// Drops of different sizes: sizes DEVICE. Number, spectrum, water and flux of the particles against
-// the integrals of the same spectrum and speed law, reckoned here from their formulas; and speeds
-// against Gunn and Kinzer's.
+// Drops of different sizes: sizes DEVICE. The particles' number, spectrum, water and flux against
+// integrals of the same spectrum and speed law, from their formulas. Speeds are compared with Gunn
+// and Kinzer's.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ struct rain {
     double rain_mm_h, least_mm;
 };
 
-// Drops a cubic metre and millimetre.
+// Drops in a cubic metre, for each millimetre of diameter.
 static double density(const struct rain *r, double d)
 {
     if (!r->is_best)
@@ -53,7 +53,7 @@ static double flux(double d)
     return volume(d) * atlas(d) * 3.6e-3;
 }
 
-// Simpson's rule from the least diameter to `to`, of what a drop counts for.
+// Simpson's rule from the least diameter to `to`, over the density times `of`.
 static double integral(const struct rain *r, double to, double (*of)(double d))
 {
     enum { PARTS = 4000 };
@@ -97,9 +97,9 @@ static void test_sums(void **state)
          67 * pow(20, 0.846) * (exp(-pow(0.7 / a, 2.25)) - exp(-pow(5 / a, 2.25))), 1e-5);
 }
 
-// Values that are in print, one between two of them, and Atlas' fit, which is near them where it
-// holds. Best's rain is what it is named by, within what spectra and speeds of different authors
-// differ; of the hardest some water is in drops beyond 6 mm.
+// Published values, one between two of them, and Atlas' fit, which is near them in its range.
+// Best's rain has its nominal rate, within the differences between authors' spectra and speeds. In
+// the hardest rain some water is in drops beyond 6 mm.
 static void test_speeds(void **state)
 {
     (void)state;
@@ -121,7 +121,7 @@ static void test_speeds(void **state)
 
 // --- the particles ---
 
-// High above the city, where nothing is hit: each particle is a drop.
+// High above the city nothing is hit, so that each particle is a drop.
 #define HIGH                                                                                       \
     "state=on geometry=off terminal_speed=atlas packets=world blocks=all rain_height_m=400 "       \
     "camera=free eye_y_m=320 target_y_m=321 target_z_m=40 culling_radius_m=30 rain_width_m=60 "    \
@@ -137,7 +137,7 @@ static int by_diameter(const void *a, const void *b)
     return d < 0 ? -1 : d > 0;
 }
 
-// The drops with the speeds at which they moved in a frame. The caller frees them.
+// The drops, with their speeds measured over a frame. The caller frees them.
 static struct drop *measure(struct streaks *s, int64_t *count)
 {
     const double height = s->settings.local_height_m, step_s = s->settings.step_s;
@@ -193,7 +193,7 @@ static double told(const struct streaks *s, const char *name)
     return 0;
 }
 
-// With the grid an observer selects cells, so that not all drops are there.
+// With a grid, an observer selects cells, and not all drops are there.
 static void check_rain(const struct rain *r, const char *more)
 {
     char settings[700];
@@ -221,7 +221,7 @@ static void check_rain(const struct rain *r, const char *more)
     near("drops", number, due * there, 0.02);
     near("water", water, integral(r, largest_mm, volume) * there, 0.02);
     near("rain", rain, integral(r, largest_mm, flux) * there, 0.02);
-    // Kolmogorov and Smirnov, at 1 %, of as many drops, and half a class of 512.
+    // Kolmogorov-Smirnov test at 1 % for this many drops, and half a class of 512.
     assert_below(most, 1.63 / sqrt((double)count) * (s->settings.kept_by_section ? 2 : 1) + 0.001);
     near("rain that is told", told(s, "rain_realised_mm_h"), rain / there, all ? 1e-3 : 0.02);
     near("rain that is kept", told(s, "rain_kept_mm_h"), integral(r, largest_mm, flux), 1e-3);
@@ -240,7 +240,7 @@ static void test_rain(void **state)
     check_rain(&(struct rain){false, 20, 0.5}, "packets=grid packet_size=20000");
 }
 
-// What is left out below the least diameter, down to 0.1 mm.
+// The drops left out below the least diameter, down to 0.1 mm.
 static void test_left_out(void **state)
 {
     (void)state;

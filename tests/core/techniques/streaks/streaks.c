@@ -1,4 +1,4 @@
-// streaks as a whole, and the laws that it obeys: streaks DEVICE.
+// streaks as a whole, and its laws: streaks DEVICE.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,7 +57,7 @@ static void test_packets_do_not_show(void **state)
     free(dry);
 }
 
-// Instances whose particles and packets are the same share them, whatever else they are set to.
+// Instances with the same particles and packets share them, whatever their other settings.
 static void test_rain_is_shared_by_what_it_holds(void **state)
 {
     (void)state;
@@ -79,7 +79,7 @@ static void test_rain_is_shared_by_what_it_holds(void **state)
     rain_close(first);
 }
 
-// Of a sparse rain one particle in so many is drawn, and all are told.
+// A sparse rain draws one particle in so many, and reports them all.
 static void test_sparse_rain_is_less_of_it(void **state)
 {
     (void)state;
@@ -97,7 +97,7 @@ static void test_sparse_rain_is_less_of_it(void **state)
     rain_close(sparse);
 }
 
-// The same rain in other particles: as much of it, elsewhere.
+// The same rain with other particles: as much of it, in other places.
 static void test_grid_is_like_the_trees(void **state)
 {
     (void)state;
@@ -129,8 +129,8 @@ static void test_grid_is_like_the_trees(void **state)
 
 // --- particles ---
 
-// Drops stay where they are in the world when the camera and its local space move: height
-// correction. The same time, two cameras.
+// Drops stay in place in the world when the camera and its local space move (height correction).
+// Compares two cameras at the same time.
 static void test_drops_stay_put(void **state)
 {
     (void)state;
@@ -158,14 +158,14 @@ static void test_drops_stay_put(void **state)
         seen++;
         wrapped += moved > 1;
     }
-    // The camera rose by 2.25 m of 15 m, and so much of the drops came in again at the top.
+    // The camera rose by 2.25 m of 15 m, and so that share of drops entered again at the top.
     assert_above(seen, 1000);
     assert_below(fabs((double)wrapped / (double)seen - 2.25 / 15), 0.1);
     free(places[0].words);
     free(places[1].words);
 }
 
-// What a particle has done since the first frame.
+// A particle's history since the first frame.
 struct life {
     int state;
     int splash_frames; // of the present splash; -1: it began before the first frame
@@ -173,7 +173,7 @@ struct life {
     float hit;
 };
 
-// A splash comes from a drop, stays at one height, and lasts as long as all others.
+// A splash begins as a drop, stays at one height, and lasts as long as all others.
 static void follow(struct life *life, const float *place, int frame, int lasts)
 {
     const int now = (int)place[5];
@@ -213,7 +213,7 @@ static void test_one_splash_a_hit(void **state)
     for (int64_t i = 0; i < count; i++) {
         splashes += lives[i].splashes;
         falling += lives[i].splashes > 0;
-        assert_in_range(lives[i].splashes, 0, 4); // frames / 90 + the first and last
+        assert_in_range(lives[i].splashes, 0, 4); // frames / 90, and the first and last
     }
     assert_above(falling, 500);
     assert_at_least(splashes, 2 * falling);
@@ -223,7 +223,7 @@ static void test_one_splash_a_hit(void **state)
 
 // --- light ---
 
-// Without geometry there is the colour of the horizon everywhere, cut off to halves.
+// Without geometry everything has the horizon's colour, rounded down to halves.
 static void test_the_sky_is_even(void **state)
 {
     (void)state;
@@ -263,7 +263,7 @@ static void write_lights(const char *path, bool first, bool second)
 static void test_lights_add_up(void **state)
 {
     (void)state;
-    // Tests of several devices run side by side.
+    // One file for each process, since tests of several devices run side by side.
     char path[64], settings[256];
     snprintf(path, sizeof(path), "test_streaks_%ld.json", (long)getpid());
     snprintf(settings, sizeof(settings),
@@ -282,14 +282,14 @@ static void test_lights_add_up(void **state)
         const double sum = added[1][c] + added[2][c];
         assert_above(added[1][c], 0);
         assert_above(added[2][c], 0);
-        // Half floats round each light's part down.
+        // Halves round each light's part down.
         assert_below(fabs(added[3][c] - sum), 0.03 * sum);
     }
     free(dry);
     remove(path);
 }
 
-// Looks stand for settings, and the first for the defaults.
+// Looks stand for settings, and the first look for the defaults.
 static void test_looks(void **state)
 {
     (void)state;

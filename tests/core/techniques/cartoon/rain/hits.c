@@ -1,5 +1,5 @@
-// When a drop has hit as the paper has it: the visible samples of its sphere, the decision, and
-// bisection, in double precision.
+// The paper's test of hits: the visible samples of a drop's sphere, the decision, and bisection, in
+// double precision.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -61,7 +61,7 @@ struct decided {
     int hits, misses, hidden, ends;
 };
 
-// The lesser end of the last interval of the bisection.
+// The nearer end of the bisection's last interval.
 static struct rainfall_vector before_hit(const struct rig_change *s, int slot)
 {
     const cartoon_raindrop *was = &s->was.drops[slot];
@@ -105,7 +105,7 @@ static void look_at_decisions(const struct rig_change *s, void *user)
         if (!at_end.is_at_border &&
             rainfall_count(&s->eye, end, rig_bound_m(s->c, at_end.distance_m)).least >= least)
             fail_msg("bisection ended where the drop has not hit");
-        // Where the way began, the test may have fired already.
+        // At the step's beginning the test may have fired already.
         const struct rainfall_vector begin = rig_place(&s->was.drops[i]);
         if (at_before.is_at_border || !at_before.is_inside ||
             rainfall_length(rainfall_sum(before, begin, -1)) < 1e-4)

@@ -1,5 +1,5 @@
-// How drops are released, move, stick and fade, how splashes come of them and end, and who gets
-// which slot: each step against what the step before leaves, in double precision.
+// Drops are released, move, stick and fade; splashes begin and end; slots are assigned. Each step
+// is checked against the state before it, in double precision.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,11 +20,11 @@
 
 static struct rg_device *device;
 
-// A step, from one look to the next.
+// A step: the rain before and after it.
 struct step {
     struct cartoon *c;
     struct rig_rain was, is;
-    double now_s; // at its end
+    double now_s; // at the step's end
 };
 
 static void each_step(const char *settings, int from, int to, void (*look)(const struct step *s))
@@ -116,7 +116,7 @@ static void drops_fall_as_newton_has_it(void **state)
               look_at_motion);
 }
 
-// In still air a drop comes to where its weight is all that k v^2 bears.
+// In still air a drop reaches the speed at which k v^2 carries all its weight.
 static void quadratic_drag_has_a_terminal_speed(void **state)
 {
     (void)state;
@@ -139,7 +139,7 @@ static void quadratic_drag_has_a_terminal_speed(void **state)
 
 // --- release ---
 
-// As many as rate times time, with no fraction lost.
+// The number of drops is rate times time, with no fraction lost.
 static void drops_are_released_to_the_fraction(void **state)
 {
     (void)state;
@@ -167,7 +167,8 @@ static void expect_mean(const char *what, double sum, int count, double mean, do
     rig_expect(what, sum / count, mean, 4.5 * deviation / sqrt(count));
 }
 
-// Places are even in their space, directions in their cone, and sizes the squares of even numbers.
+// Places are uniform in their space and directions in their cone; sizes are squares of uniform
+// numbers.
 static void drops_start_by_chance(void **state)
 {
     (void)state;
@@ -224,8 +225,8 @@ static void drops_start_by_chance(void **state)
 
 // --- slots ---
 
-// The living in the order of their slots, then those that were released, who took the first slots
-// that were free.
+// The list holds living drops in the order of their slots, then released drops, which take the
+// first free slots.
 static void look_at_lists(const struct step *s)
 {
     const cartoon_rain_params *p = &s->c->rain.params;
@@ -363,7 +364,7 @@ static void splashes_live_and_fade(void **state)
               look_at_splashes);
 }
 
-// A preset's settings stand where nothing follows them.
+// A preset's settings hold unless a later assignment changes them.
 static void presets_stand_for_settings(void **state)
 {
     (void)state;
@@ -414,8 +415,8 @@ static void wind_goes_by_its_script(void **state)
     unlink(path);
 }
 
-// Numbers so large that a direction or a quotient of times is none are refused; a comment may be
-// long, but not a line.
+// Numbers too large for a direction or a quotient of times are refused. A comment may be long; the
+// rest of a line may not.
 static void wind_scripts_are_checked(void **state)
 {
     (void)state;
@@ -436,7 +437,7 @@ static void wind_scripts_are_checked(void **state)
     assert_true(cartoon_wind_read(path, &script));
     assert_equals(script.count, 2);
     put_script(path, "\xef\xbb\xbf"
-                     "1 2 3\n2 3 4\n"); // some editors begin so
+                     "1 2 3\n2 3 4\n"); // some editors begin a file like this
     assert_true(cartoon_wind_read(path, &script) && script.count == 2);
     snprintf(text, sizeof(text), "1 2 3 %300s\n2 3 4\n", "");
     put_script(path, text);
@@ -444,7 +445,7 @@ static void wind_scripts_are_checked(void **state)
     unlink(path);
 }
 
-// A comment of any length is passed over, in a file that is short.
+// A comment of any length is skipped, if the file is within its limit.
 static void a_long_wind_script_is_refused(void **state)
 {
     (void)state;
@@ -463,7 +464,7 @@ static void a_long_wind_script_is_refused(void **state)
     unlink(path);
 }
 
-// Gusts stay within their share, change smoothly, and are the same for a seed and a time.
+// Gusts stay within their share and change smoothly. A seed and a time give the same wind.
 static void wind_blows_by_chance(void **state)
 {
     (void)state;

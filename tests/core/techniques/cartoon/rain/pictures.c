@@ -1,5 +1,5 @@
-// Sprites on the picture: where they are, how they are turned, what of which texture they show, and
-// what hides them; painted in double precision over the scene without rain.
+// Sprites on the picture: their places, turns and textures, and the things that hide them. Painted
+// in double precision over the scene without rain.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,7 +31,7 @@ static void read_target(struct cartoon *c, struct picture *p)
     free(halves);
 }
 
-// A texture's texel, and between texels; what is beyond its edge repeats.
+// A texture's texel, and values between texels; beyond an edge the edge's texels repeat.
 static double texel_of(const uint8_t *texels, int px, int x, int y, int channel)
 {
     const int column = x < 0 ? 0 : x >= px ? px - 1 : x, row = y < 0 ? 0 : y >= px ? px - 1 : y;
@@ -54,7 +54,7 @@ struct sprite {
     int layer;
 };
 
-// The level whose texels are nearest to a pixel; whether two are about as near.
+// The level whose texels are nearest to a pixel's size, and whether two levels are about as near.
 static int level_of(double side_px, bool *is_doubtful)
 {
     const double level = fmin(fmax(log2(FULL_PX / side_px), 0), LEVELS - 1);
@@ -73,7 +73,7 @@ static void blend(const struct rainfall_eye *eye, const struct sprite *s, const 
             const int i = y * SIZE_PX + x;
             const double dx = (x + 0.5 - s->x_px) / s->side_px,
                          dy = (y + 0.5 - s->y_px) / s->side_px;
-            // v runs along the sprite's direction, u to its left seen from above on the screen.
+            // v runs along the sprite's direction, and u to its left on the screen.
             const double v = dx * s->along_x + dy * s->along_y + 0.5;
             const double u = dx * s->along_y - dy * s->along_x + 0.5;
             const double edge = fmin(fmin(u, 1 - u), fmin(v, 1 - v)) * s->side_px;
@@ -99,7 +99,7 @@ static void paint(struct cartoon *c, const struct rainfall_eye *eye, const struc
     free(texels);
 }
 
-// A square of so many metres; `towards` is where its v runs in the world.
+// A square of this side in metres; its v runs along `towards` in the world.
 static struct sprite square(const struct rainfall_eye *eye, struct rainfall_vector at,
                             double side_m, struct rainfall_vector towards)
 {

@@ -1,5 +1,5 @@
-// Queries a drop: the samples of rasterised spheres, the API's own occlusion queries, and answers
-// that are read a frame late.
+// One query for each drop: samples of rasterised spheres, the API's own occlusion queries, and
+// answers that are read a frame late.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +18,7 @@ static struct rg_device *device;
 
 // --- rasterised spheres ---
 
-// A sphere of 6 by 4 quads, upright.
+// A corner of an upright sphere of 6 by 4 quads.
 static struct rainfall_vector corner_of(struct rainfall_vector middle, double radius, int ring,
                                         int slice)
 {
@@ -28,7 +28,7 @@ static struct rainfall_vector corner_of(struct rainfall_vector middle, double ra
                                     middle.z + radius * cos(rise) * cos(turn)};
 }
 
-// How far along a ray through the sphere's mesh its near side is; 0: beside it.
+// The share of a ray up to the near side of the sphere's mesh; 0: the ray misses it.
 static double near_side(struct rainfall_vector from, struct rainfall_vector to,
                         struct rainfall_vector middle, double radius)
 {
@@ -84,7 +84,7 @@ static void look_at_spheres(const struct rig_change *s, void *user)
         const int due =
             spot.is_inside ? facet_samples(&s->eye, at, rig_bound_m(s->c, spot.distance_m)) : 0;
         const double off = fabs((double)s->is.counts[i] - due);
-        // A quad is drawn as if it were even, and corners are snapped to 1/256 pixel.
+        // Quads are drawn as if they were flat, and corners are snapped to 1/256 pixel.
         if (off > 3)
             fail_msg("a sphere at (%.3f, %.3f): %u samples, not %d", spot.x_px, spot.y_px,
                      s->is.counts[i], due);
@@ -103,7 +103,7 @@ static void rasterised_spheres_have_their_facets_samples(void **state)
         fail_msg("%d spheres, %.3g samples off in the mean", n.asked, n.off / n.asked);
 }
 
-// --- a sphere before nothing, behind all, and cut by a wall ---
+// --- a sphere in front of nothing, behind everything, and cut by a wall ---
 
 struct place {
     double x, y;
@@ -114,8 +114,8 @@ static double turn_of(struct place a, struct place b, struct place c)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// The corners of the outline of points on the screen, the next one of which is the point that all
-// others lie on one side of.
+// The corners of the outline of points on the screen. The next corner is the point with all others
+// on one side of the line to it.
 static int outline_of(const struct place *points, int count, struct place *outline)
 {
     int first = 0, corners = 0;
@@ -137,7 +137,7 @@ static int outline_of(const struct place *points, int count, struct place *outli
     return corners;
 }
 
-// How far inside an outline a place is, in pixels.
+// How far a place is inside an outline, in pixels.
 static double inside_px(const struct place *outline, int corners, struct place p)
 {
     double least = INFINITY;
@@ -148,7 +148,7 @@ static double inside_px(const struct place *outline, int corners, struct place p
     return least;
 }
 
-// The pixels of a sphere's outline from column `from_x` on. Corners are snapped to 1/256 pixel.
+// The samples of a sphere's outline from column `from_x` on. Corners are snapped to 1/256 pixel.
 static struct rainfall_samples outline_samples(const struct rainfall_eye *eye,
                                                struct rainfall_vector middle, double radius,
                                                int from_x)
@@ -172,7 +172,7 @@ static struct rainfall_samples outline_samples(const struct rainfall_eye *eye,
 
 enum { SIZE_PX = 96 };
 
-// Hides all columns before `from_x`, and shows the others.
+// Hides all columns before `from_x` and shows the others.
 static void put_wall(struct cartoon *c, int from_x)
 {
     float depth[SIZE_PX * SIZE_PX];
@@ -181,7 +181,7 @@ static void put_wall(struct cartoon *c, int from_x)
     assert_true(rg_image_write(c->depth_map->image, 0, 0, depth));
 }
 
-// The count of the one drop, at a place behind a wall.
+// The count of the one drop at a place, with the columns before `from_x` hidden.
 static int count_at(struct cartoon *c, struct rainfall_vector at, int from_x)
 {
     const cartoon_raindrop drop = {
@@ -225,8 +225,8 @@ static bool has_queries(void)
     return device->info.limits.has_queries;
 }
 
-// The drop neither falls nor is another released; the camera rests, so that the scene is not drawn
-// over the walls.
+// The drop does not fall, and none is released. The camera stands still, so that the scene is not
+// drawn over the walls.
 static void counts_are_those_of_an_outline(void **state)
 {
     static const char *const ways[] = {"query=spheres", "query=spheres bound_m=0.3", "query=api",
@@ -262,7 +262,7 @@ static void expect_equal(struct cartoon *api, struct cartoon *spheres, const cha
     free(due);
 }
 
-// Counts of none, of some and of all samples.
+// How many counts are of no sample, of some and of all.
 static void tell_counts(struct cartoon *c, int kinds[3])
 {
     uint32_t *counts = rig_words(c, "counts");
@@ -342,8 +342,8 @@ static void expect_hit(const struct rig_change *s, int slot)
         fail_msg("a hit at %.6g of the way that was asked about", along);
 }
 
-// Drops hit where the step before counted few samples, if it asked. What has hit is not asked
-// about.
+// A drop hits if the step before asked about it and counted few samples. Drops that have hit are
+// not asked about.
 static void look_at_answers(const struct rig_change *s, void *user)
 {
     struct late *n = user;

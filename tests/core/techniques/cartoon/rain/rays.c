@@ -1,6 +1,5 @@
-// Hits of the correct test against rays in double precision: each lies where the drop's way meets
-// the mesh, and the eye sees that place; and where the eye sees a way meet the mesh, there is a
-// hit.
+// The correct test of hits against rays in double precision. Each hit is where the drop's path
+// meets the mesh, at a place that the eye sees. Each meeting that the eye sees is a hit.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,8 +13,8 @@
 #include "tests/core/techniques/cartoon/rain/rig.h"
 #include "tests/tools/expect.h"
 
-#define PLACED_M  2e-6 // by which places in floats are off; along a way that grazes, more
-#define ROUNDED_M 2e-5 // of where a ray in floats meets a face
+#define PLACED_M  2e-6 // the error of places in floats; more along a grazing path
+#define ROUNDED_M 2e-5 // the error of a float ray's meeting with a face
 
 static struct rg_device *device;
 
@@ -68,11 +67,11 @@ static bool may_meet(const struct faces *f, int face, const double low[3], const
     return true;
 }
 
-// Where a way meets the mesh: after which share of it, and at what angle; -1: it meets none.
+// A path's meeting with the mesh: the share of the path up to it, and its angle. -1: no meeting.
 struct met {
     double along, sine;
     int face;                      // its number
-    struct rainfall_vector normal; // of unit length, on the side from where it came
+    struct rainfall_vector normal; // unit length, on the side that the path comes from
 };
 
 static struct rainfall_vector normal_of(const struct rainfall_vector corners[3])
@@ -92,7 +91,7 @@ static struct met met_at(const struct rainfall_vector corners[3], struct rainfal
                         rainfall_sum(nothing, n, (against > 0 ? 1 : -1) / length)};
 }
 
-// Of the places where a way meets the mesh the nearest to a share of it.
+// The meeting of a path with the mesh that is nearest to a share of it.
 static struct met nearest_to(const struct faces *f, struct rainfall_vector from,
                              struct rainfall_vector to, double share)
 {
@@ -113,7 +112,7 @@ static struct met nearest_to(const struct faces *f, struct rainfall_vector from,
     return nearest;
 }
 
-// Whether nothing lies between the eye and a place of the mesh.
+// Whether nothing is between the eye and a place on the mesh.
 static bool is_seen(const struct faces *f, const struct rainfall_eye *eye,
                     struct rainfall_vector place)
 {
@@ -127,12 +126,12 @@ static bool is_seen(const struct faces *f, const struct rainfall_eye *eye,
 struct against_rays {
     struct faces faces;
     int hits, hidden;
-    double off_m; // at most, behind where the way meets the mesh
+    double off_m; // the largest distance of a hit behind the meeting
     int seen, missed;
 };
 
-// A hit is never before the mesh, so it is held against the last place that its way has met, where
-// another may be met right behind it.
+// A hit is never in front of the mesh. It is compared with the path's last meeting, since another
+// may follow right behind the first.
 static void look_at_hit(const struct rig_change *m, int slot, struct against_rays *n)
 {
     const struct rainfall_vector from = rig_place(&m->was.drops[slot]);
@@ -175,12 +174,12 @@ static void expect_hits(const char *settings, int from, int to, int least, doubl
     if (n.hits < least || n.hidden > n.hits / of_hidden)
         fail_msg("%d hits, %d of them hidden", n.hits, n.hidden);
     rig_expect("a hit behind the mesh", n.off_m, 0, precision_m + ROUNDED_M);
-    // Bisection is no finer than it was told.
+    // Bisection is no finer than its precision.
     assert_above(n.off_m, precision_m / 2);
 }
 
-// Nothing but the face map says what hides a face: what is smaller than its texels may, such as the
-// leaves of the park.
+// The face map alone decides whether a face is hidden. Things smaller than its texels, such as the
+// park's leaves, may hide one all the same.
 static void hits_lie_on_the_mesh(void **state)
 {
     (void)state;
@@ -193,7 +192,7 @@ static void hits_lie_on_the_mesh(void **state)
                 0.02, 20);
 }
 
-// The face that is seen in each pixel, among more than two bytes number.
+// The face seen in each pixel, with numbers beyond two bytes among them.
 static void the_face_map_names_what_is_seen(void **state)
 {
     (void)state;
@@ -245,7 +244,7 @@ static void look_at_crossings(const struct rig_change *m, void *user)
             continue;
         const struct rainfall_vector place =
             rainfall_sum(from, rainfall_sum(to, from, -1), met.along);
-        // What was hidden may come out of a solid through the side that is seen.
+        // A hidden drop may come out of a solid through the side that the eye sees.
         const bool is_from_before =
             rainfall_dot(met.normal, rainfall_sum(m->eye.at, place, -1)) > 0;
         if (!is_from_before || !is_seen(&n->faces, &m->eye, place))
@@ -255,8 +254,8 @@ static void look_at_crossings(const struct rig_change *m, void *user)
     }
 }
 
-// One of 40 is missed: what meets a face that lies between the texels' middles, and what passes a
-// sheet so that both ends of its step are seen.
+// One in 40 may be missed: faces that lie between the centres of texels, and sheets that a step
+// passes with both ends seen.
 static void what_is_seen_to_hit_has_hit(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Water that gathers: each step against integers of its own, the account to the unit, and where
-// puddles are painted.
+// Water that gathers: each step against independent integers, an account exact to the unit, and
+// painted puddles.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +17,7 @@ enum { SIDE = 128, CELLS = SIDE * SIDE, SIZE_PX = 128 };
 
 static struct rg_device *device;
 
-// How the grid lies, and what its rates are, from the settings alone.
+// The grid's place and its rates, from the settings alone.
 struct due {
     double low[2], wide_m[2], area_m2, spread, dried, units;
 };
@@ -46,8 +46,8 @@ static int cell_of(const struct due *d, const cartoon_raindrop *drop, double *to
     return x < 0 || y < 0 || x >= SIDE || y >= SIDE ? -1 : (int)floor(y) * SIDE + (int)floor(x);
 }
 
-// Adds what has hit in the step; tells the volume of all that did, and how many columns are
-// doubtful for a drop at their edge.
+// Adds the drops that hit in this step. Returns their whole volume, and counts drops near a
+// column's edge as doubtful.
 static double add_hits(struct cartoon *c, const struct due *d, double *cells, int *doubtful)
 {
     struct rig_rain rain = rig_look(c);
@@ -78,7 +78,7 @@ static double given(const struct due *d, const double *cells, int x, int y)
     return x < 0 || y < 0 || x >= SIDE || y >= SIDE ? 0 : floor(cells[y * SIDE + x] * d->spread);
 }
 
-// What lies in a column after a step.
+// The water due in a column after a step.
 static double due_in(const struct due *d, const double *cells, int x, int y)
 {
     const double left = cells[y * SIDE + x] - 4 * given(d, cells, x, y) +
@@ -123,7 +123,7 @@ static void expect_water(const char *settings, int from, int to)
     }
     free(cells);
     rig_close(c);
-    // A drop at an edge of a column may be in the other: it makes six columns unlike.
+    // A drop at an edge may count for either column, which makes six columns unlike.
     if (wet < 1000 || unlike > 6 * doubtful)
         fail_msg("%s: %d columns are wet, %d unlike, %d doubtful", settings, wet, unlike, doubtful);
 }
@@ -138,7 +138,8 @@ static void water_spreads_and_dries_to_the_unit(void **state)
         60, 100);
 }
 
-// Whether `wet` lies between `dry` and a colour, at least a quarter of the way, and no other way.
+// Whether `wet` is between `dry` and a colour, at least a quarter of the way, and not beside that
+// way.
 static bool is_towards(const double wet[3], const double dry[3], const double colour[3])
 {
     double along = 0, whole = 0, off = 0;
@@ -151,8 +152,8 @@ static bool is_towards(const double wet[3], const double dry[3], const double co
     return along > 0.25 * whole && off < 0.004;
 }
 
-// What is dry, and what is no level ground, is drawn as without water; where it is deep, as a film,
-// with ink at its edge and a highlight within.
+// Dry pixels, and those not on level ground, are drawn as without water. Deep water is a film with
+// ink at its edge and a highlight within.
 static void puddles_lie_on_level_ground(void **state)
 {
     (void)state;

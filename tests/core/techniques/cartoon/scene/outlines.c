@@ -1,5 +1,5 @@
-// Outlines in cases that are known: which edges of a cube, a ball and a sheet are drawn, how wide,
-// and what is hidden.
+// Outlines of known cases: which edges of a cube, a ball and a sheet are drawn, their width, and
+// hidden edges.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -25,11 +25,11 @@ struct pen {
     double contour_px, crease_px, crease_deg, full_m;
 };
 
-// A mesh's outlines from a place that looks at another.
+// A mesh's outlines, seen from one place towards another.
 struct drawing {
     struct rg_edges edges;
     float *ink;        // of each pixel, 0 to 1
-    uint32_t *samples; // of each edge, where it is drawn alone
+    uint32_t *samples; // of each edge drawn alone
 };
 
 static struct rg_camera camera_at(const double eye[3], const double target[3])
@@ -115,7 +115,7 @@ static void draw_depth(struct rg_device *device, const struct rg_mesh *mesh, m4 
     free(materials);
 }
 
-// Draws the edges twice, to see them and to count what each of them covers.
+// Draws the edges twice: to see them, and to count the pixels of each edge.
 static void draw_edges(struct rg_device *device, const cartoon_ink_params *params,
                        struct rg_image *depth, struct drawing *d)
 {
@@ -172,7 +172,7 @@ static double word(const struct drawing *d, int edge, int which)
     return (double)d->edges.words[which * d->edges.count + edge];
 }
 
-// Edges that cover so many pixels at least.
+// How many edges cover at least this many pixels.
 static int count_drawn(const struct drawing *d, uint32_t least)
 {
     int drawn = 0;
@@ -227,7 +227,7 @@ static void edges_of_a_cube(void **state)
     free(s);
 }
 
-// A third face at an edge has no partner; one that turns the other way is taken for turned over.
+// A third face at an edge has no partner. A face that turns the other way counts as turned over.
 static void edges_of_odd_faces(void **state)
 {
     (void)state;
@@ -252,7 +252,7 @@ static void edges_of_odd_faces(void **state)
 
 // --- what is drawn ---
 
-// From a corner nine edges of a cube are seen, six of which are its contour.
+// From a corner one sees nine edges of a cube; six of them are its contour.
 static void a_cube_from_a_corner(void **state)
 {
     const double eye[3] = {2.0, 2.4, 2.8};
@@ -287,7 +287,8 @@ static void a_ball_has_a_round_contour(void **state)
         const double off = hypot(x, y) - radius_px;
         if (d.ink[i] <= 0)
             continue;
-        // Edges of a polygon zigzag about it by half a face, inwards by their sagitta.
+        // A polygon's edges zigzag about the circle by half a face, and lie inside it by their
+        // sagitta.
         assert_below(off, 2.1);
         assert_above(off, -4.5);
         if (d.ink[i] > 0.5f)
@@ -308,8 +309,8 @@ static void add_sheet(struct shape *s, double x0, double x1, double y0, double y
     shape_quad(s, corners);
 }
 
-// A sheet is drawn at its boundary, on whichever side it is seen, and not at its diagonal. A line
-// has the width that was asked for, and less behind a distance.
+// A sheet has its boundary drawn, seen from either side, and not its diagonal. A line has the width
+// that was asked for, and less beyond a distance.
 static void a_sheet_has_a_boundary(void **state)
 {
     struct shape *s = shape_new();
@@ -323,7 +324,7 @@ static void a_sheet_has_a_boundary(void **state)
             assert_int_equal(count_drawn(&d, 60), 4);
             const double width = ink_of_rect(&d, 100, 0, 140, SIZE / 2) / 40;
             assert_below(fabs(width - due[k]), 0.04);
-            assert_equals(ink_of_rect(&d, 60, 60, 180, 180), 0); // within
+            assert_equals(ink_of_rect(&d, 60, 60, 180, 180), 0); // inside the sheet
             drawing_free(&d);
         }
     }
@@ -344,7 +345,8 @@ static void a_wall_hides_what_is_behind(void **state)
     free(s);
 }
 
-// A wall that faces the viewer hides what is a quarter of a hundredth of its distance behind it.
+// A wall facing the viewer hides lines close behind it, at a quarter of a hundredth of its
+// distance.
 static void a_wall_hides_what_is_close_behind(void **state)
 {
     const double eye[3] = {0, 0, 5};
@@ -357,7 +359,7 @@ static void a_wall_hides_what_is_close_behind(void **state)
     free(s);
 }
 
-// A line ends where it goes behind a wall, within a pixel.
+// A line ends within a pixel of where it goes behind a wall.
 static void a_line_ends_behind_a_wall(void **state)
 {
     const double eye[3] = {0, 0, 5};
@@ -373,7 +375,7 @@ static void a_line_ends_behind_a_wall(void **state)
     free(s);
 }
 
-// In a corner both faces come nearer on either side of the crease, which is drawn all the same.
+// In a corner both faces come nearer on either side of the crease. It must be drawn all the same.
 static void a_crease_in_a_corner_is_whole(void **state)
 {
     const double floor_at[4][3] = {{-2, 0, 2}, {2, 0, 2}, {2, 0, -1}, {-2, 0, -1}};
@@ -396,7 +398,7 @@ static void a_crease_in_a_corner_is_whole(void **state)
     free(s);
 }
 
-// The far lower edges of a thin board lie close behind its top.
+// A thin board's far lower edges are close behind its top.
 static void a_thin_board_hides_its_back(void **state)
 {
     const double low[3] = {-1, -0.04, -1}, high[3] = {1, 0.04, 1}, eye[3] = {0.3, 1.6, 3.2};
@@ -414,11 +416,11 @@ static void a_thin_board_hides_its_back(void **state)
     free(s);
 }
 
-// Beyond a corner there is a quarter of a disc as wide as the line.
+// A line ends beyond its corner in a quarter of a disc, as wide as the line.
 static void ends_are_round(void **state)
 {
     const double eye[3] = {0, 0, 4}, focal = SIZE / 2.0 / tan(ANGLE_DEG / 360 * M_PI);
-    const double side = 60 * 4 / focal; // in the picture 60 pixels
+    const double side = 60 * 4 / focal; // 60 pixels in the picture
     struct shape *s = shape_new();
     add_sheet(s, -side, side, -side, side, 0);
     struct drawing d = outline(*state, s, eye, origin, (struct pen){8, 0, 40, 1000});
@@ -428,7 +430,7 @@ static void ends_are_round(void **state)
     free(s);
 }
 
-// Lines that cross are as dark as one: no pixel has more ink than its darkest line.
+// Lines that cross are as dark as one: a pixel never has more ink than its darkest line.
 static void crossings_are_no_darker(void **state)
 {
     const double eye[3] = {0, 0, 4};

@@ -1,5 +1,5 @@
-// Scenes that cannot be drawn, each refused in one line that says how to mend it, and an open mesh,
-// which can.
+// Scenes that cannot be drawn are refused in one line that says how to mend them. An open mesh can
+// be drawn.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -50,7 +50,7 @@ static void cameras_are_refused(void **state)
     expect_refused(*state, "scene=park1 rise_deg=71", "not along its up");
 }
 
-// Colours and shades are 0 to 1, as the rows of parameters have it; the message names the row.
+// Colours and shades are 0 to 1, by their parameters' rows; the message names the row.
 static void colours_are_refused(void **state)
 {
     (void)state;

@@ -15,9 +15,10 @@ struct shape {
 void shape_quad(struct shape *s, const double corners[4][3]);
 // Adds a closed box of 12 faces.
 void shape_box(struct shape *s, const double low[3], const double high[3]);
-// Adds a ball about the origin, of 2 * around faces at its poles and as many in each ring between.
+// Adds a ball about the origin, with 2 * around faces at its poles, and as many in each ring
+// between.
 void shape_ball(struct shape *s, double radius, int rings, int around);
-// The mesh of all; fails the test where there is none.
+// The mesh of everything added; fails the test if there is none.
 struct rg_mesh *shape_mesh(const struct shape *s);
 
 #endif

@@ -1,5 +1,5 @@
-// The textures of hatching: how dark each tone is, that strokes of lighter tones and coarser levels
-// are in darker and finer ones, and that tiles fit together.
+// The textures of hatching: each tone's darkness; tiles that fit together; strokes of lighter tones
+// and coarser levels, which recur in darker and finer ones.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,10 +16,10 @@ enum { TONES = 7 }; // the last is blank
 
 struct level {
     int size;
-    uint32_t *words[2]; // of both layers
+    uint32_t *words[2]; // one for each layer
 };
 
-// Paper of a tone, 0 ink to 255, at whole texels, which repeat.
+// Paper of a tone, from 0 (ink) to 255, at whole texels; the texture repeats.
 static int paper_at(const struct level *l, int x, int y, int tone)
 {
     const int mask = l->size - 1;
@@ -57,8 +57,8 @@ static void check_darkness(const struct level *l)
         double ink = 0;
         for (int i = 0; i < texels; i++)
             ink += 1 - paper_at(l, i % l->size, i / l->size, tone) / 255.0;
-        // A level ends with the stroke that reaches its tone, and a stroke covers most of the
-        // smallest tiles; what coarser levels have laid is there from the start.
+        // A level ends with the stroke that reaches its tone. One stroke covers most of the
+        // smallest tiles, and strokes of coarser levels are there from the start.
         assert_above(ink / texels, due[tone] - 0.002);
         assert_below(ink / texels, due[tone] + 0.05);
     }
@@ -81,7 +81,7 @@ static void tones_are_nested(void **state)
     rig_close(c);
 }
 
-// A stroke of a level is in the finer one, as wide in texels, so half as wide in the tile.
+// The finer level has each stroke as well: as wide in texels, and thus half as wide in the tile.
 static void levels_are_nested(void **state)
 {
     struct level levels[CARTOON_LEVELS];

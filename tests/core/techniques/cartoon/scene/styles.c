@@ -1,5 +1,5 @@
 // The scene's maps against a ray caster in double precision, and each style's colours against its
-// paper's formula, pixel by pixel.
+// paper's formula, for each pixel.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@
 
 // --- maps ---
 
-// Normals have 10 bits in the mesh and 11 in the map; depths go by floats.
+// Normals have 10 bits in the mesh and 11 in the map; depths are floats.
 static const double NORMAL_OFF = 0.004, DEPTH_OFF = 2e-6;
 
 static double off_by(const float *texel, struct vec n)
@@ -64,8 +64,8 @@ static void maps_hold_what_rays_meet(void **state)
     compare_maps(*state, "scene=ground style=gooch turn_deg=-70 zoom=1.5", 40, 30);
 }
 
-// From behind, a sheet's normals are on the other side: puddles and lawns from a low camera are
-// seen from above, so a mesh that is open is turned to be seen from within.
+// Seen from behind, a sheet's normals are on the other side. Even a low camera sees puddles and
+// lawns from above, so that an open mesh is turned to be seen from within.
 static void sheets_have_two_sides(void **state)
 {
     struct cartoon *c = rig_draw(*state, "scene=table style=gooch zoom=2.5 rise_deg=-20", 48, 48);
@@ -81,7 +81,7 @@ static void sheets_have_two_sides(void **state)
                                (double)n[2] * (o.eye.z - at.z);
         behind += towards < 0;
     }
-    assert_below(behind, 48 * 48 / 100); // at rims smooth normals look away a little
+    assert_below(behind, 48 * 48 / 100); // at rims, smooth normals look away a little
     free(normals);
     free(depths);
     rig_close(c);
@@ -89,7 +89,7 @@ static void sheets_have_two_sides(void **state)
 
 // --- styles ---
 
-// The target is a half, cut off: a part in 1024 of light, which is half of that of its root.
+// The target stores halves, rounded down: off by 1/1024 of light, and half as much of its root.
 static const double COLOUR_OFF = 0.0012;
 
 struct styled {
@@ -101,7 +101,7 @@ struct styled {
     float *normals, *depths, *inks, *colours;
 };
 
-// Seven tones a texel from the two layers of the device's words.
+// Unpacks a texel's seven tones from the two layers of words on the device.
 static void read_strokes(struct styled *s)
 {
     const struct rg_image *image = rg_asset_find(&s->c->base, "strokes")->image;
@@ -189,7 +189,7 @@ static struct vec sky_at(const struct styled *s, int i)
     return (struct vec){c[0], c[1], c[2]};
 }
 
-// What a style draws without its outlines.
+// A style's colour without outlines.
 static struct vec due_at(const struct styled *s, int i)
 {
     const struct cartoon_settings *set = &s->c->settings;
@@ -209,7 +209,7 @@ static struct vec due_at(const struct styled *s, int i)
                                                   : tones_colour(&surface, &s->look, &tones);
 }
 
-enum { SIDE = 64 }; // of pictures
+enum { SIDE = 64 }; // of the pictures
 
 static void compare_style(struct rg_device *device, const char *settings, double tolerance)
 {
@@ -245,11 +245,11 @@ static void gooch_is_cool_to_warm(void **state)
                   "gooch_beta=0.5 light_turn_deg=30 light_rise_deg=60",
                   COLOUR_OFF);
     compare_style(*state, "scene=house2 style=gooch_outlines turn_deg=40", COLOUR_OFF);
-    // From behind, where no highlight is.
+    // The light is behind, where no highlight is.
     compare_style(*state, "scene=car style=gooch light_turn_deg=170 light_rise_deg=5", COLOUR_OFF);
 }
 
-// A step between tones multiplies what floats are off by as it is steep.
+// A step between tones enlarges errors of floats by its steepness.
 static void cartoon_has_three_tones(void **state)
 {
     compare_style(*state, "scene=car style=cartoon tone_softness=0.2", COLOUR_OFF);
@@ -269,7 +269,7 @@ static void outlines_are_ink_on_paper(void **state)
                   COLOUR_OFF);
 }
 
-// A pixel of strokes goes by texels of 8 bits that differ by as much as they can.
+// Strokes come from texels of 8 bits, which may differ over the whole range.
 static void hatching_mixes_tones_and_levels(void **state)
 {
     compare_style(*state, "scene=house1 style=hatching hatch_px=100", 0.004);
@@ -280,11 +280,11 @@ static void hatching_mixes_tones_and_levels(void **state)
     compare_style(*state, "scene=park2 style=hatching hatch_px=30 light_rise_deg=15", 0.004);
 }
 
-// --- what is kept while the camera stands ---
+// --- pictures kept while the camera stands still ---
 
 enum { KEPT_PX = 72, KEPT_FRAMES = 4 };
 
-// The last of some frames; the caller frees it.
+// The last of a few frames; the caller frees it.
 static float *last_frame(struct rg_device *device, const char *settings)
 {
     struct cartoon *c = rig_draw(device, settings, KEPT_PX, KEPT_PX);
@@ -306,7 +306,7 @@ static void a_kept_picture_is_the_one_drawn_anew(void **state)
         snprintf(settings, sizeof(settings), "scene=house2 redraw=always %s", styles[i]);
         float *drawn = last_frame(*state, settings);
         assert_memory_equal(kept, drawn, KEPT_PX * KEPT_PX * 4 * sizeof(*kept));
-        // There is something in it, which the spin turns.
+        // The middle is not black, and the spin turns it.
         assert_above(kept[4 * (KEPT_PX * KEPT_PX / 2 + KEPT_PX / 2)], 0);
         free(kept);
         free(drawn);

@@ -1,4 +1,4 @@
-// Pictures of drops' maps: heights in grey, owners in colours that tell them apart, drops as discs.
+// Pictures of drops' maps: heights in grey, owners in distinct colours, drops as discs.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,7 +22,7 @@ static double height_wedge(double x_mm, double y_mm, const void *user)
     return 0.02 * x_mm + 0.01 * y_mm;
 }
 
-// A pixel a cell, white from 3 mm on; beside the pane it is dark.
+// A pixel is a cell, white from 3 mm on. Beside the pane it is dark.
 static void heights_are_grey(void **state)
 {
     (void)state;
@@ -57,7 +57,7 @@ static double difference(const struct rg_picture *p, int a, int b)
 
 enum { OWNERS = 400 };
 
-// IDs 1 to 400 and 1001 to 1400, a cell each in the first columns of two rows.
+// IDs 1 to 400 and 1001 to 1400, one cell each, in the first columns of two rows.
 static void put_ids(struct drops *d)
 {
     struct rg_buf *buf = rg_asset_find(&d->base, "ids")->buf;
@@ -69,9 +69,8 @@ static void put_ids(struct drops *d)
     free(map);
 }
 
-// Of the colours of 400 drops that came about one after the other, as they look, the two most alike
-// are a twelfth of the way from black to white apart, and those of one and the next nearly half.
-// Nobody's is black.
+// 400 owners in succession have distinct colours. As perceived, the two most alike differ by a
+// twelfth of black to white, and successive ones by nearly half. Cells without an owner are black.
 static void owners_differ_in_colour(void **state)
 {
     (void)state;
@@ -108,8 +107,8 @@ static drops_drop drop(double mg, double x_mm, double y_mm)
         .mass = (uint32_t)(mg * DROPS_QUANTA_MG), .x = (float)x_mm, .y = (float)y_mm};
 }
 
-// Those that run are red, those that rest blue; a disc's area and its middle are the drop's. The
-// third one is too small to be seen, and is drawn 1.5 pixels wide nevertheless.
+// Running drops are red and resting ones blue. A disc has its drop's area and place. The third drop
+// is too small to be seen, and is drawn 1.5 pixels wide.
 static void drops_are_discs_of_their_size(void **state)
 {
     (void)state;

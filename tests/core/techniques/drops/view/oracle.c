@@ -1,4 +1,4 @@
-// The lit pane against a ray tracer in double precision that shares nothing with kernels/.
+// The lit pane against a ray tracer in double precision, which shares nothing with kernels/.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,12 +20,12 @@ static struct rg_device *device;
 
 // --- what is compared ---
 
-// A half is cut off, one part in 2^10, and floats round by parts in 10^7, which is parts in 10^5
-// near the angle of total reflection. Where a height is as near to the water's edge as floats are,
-// the two may disagree whether it bends light there.
+// Halves are rounded down, by 1 part in 2^10. Floats round by parts in 10^7, which become parts in
+// 10^5 near the angle of total reflection. If a height is as near to the water's edge as floats
+// resolve, the two may disagree whether water bends light there.
 static const double TOLERANCE = 1.0 / 1000, MARGIN_MM = 1e-5;
 
-static double worst; // of all runs
+static double worst; // over all runs
 
 static bool is_near(double a, double b)
 {
@@ -79,7 +79,7 @@ static void rain_before_the_sky(void **state)
     compare_rain("rays_px=1 tilt_deg=120 turn_deg=-160 refractive_index=1.1 cell_mm=1");
 }
 
-// Bright and dark squares, in three colours that differ from row to row.
+// Bright and dark squares in three colours, which differ between rows.
 static void squares(int x, int y, const void *user, float light[3])
 {
     (void)user;
@@ -105,8 +105,8 @@ static void rain_before_a_picture(void **state)
     assert_int_equal(remove(path), 0);
 }
 
-// A steep wave all over the pane, so that light is reflected totally, and pixels that are far wider
-// than its crests.
+// A steep wave over the whole pane: it reflects light totally, and pixels are far wider than its
+// crests.
 static double wave(double x_mm, double y_mm, const void *user)
 {
     const double *steepness = user;

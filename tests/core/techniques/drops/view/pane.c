@@ -1,5 +1,5 @@
-// The lit pane in closed cases: where a dry pane and a drop show what lies behind them, how large
-// what is out of focus gets, and that water adds no light and takes none away.
+// The lit pane in closed cases: images of a dry pane and of a drop, the size of blur, and water
+// that keeps light.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 #include "tests/core/techniques/drops/view/rig.h"
 #include "tests/tools/expect.h"
 
-// A pane of 80 x 60 mm in a picture of 160 x 120 pixels, half a mm each.
+// A pane of 80 x 60 mm in a picture of 160 x 120 pixels, each half a mm.
 #define DRY "columns=80 rows=60 cell_mm=1 drops_s=0 environment=sky environment_px=16 rays_px=2 "
 
 enum { WIDTH = 160, HEIGHT = 120 };
@@ -32,7 +32,7 @@ static struct drops *open_with(const char *settings, const char *background)
 // --- what is bright ---
 
 struct spot {
-    double x, y, radius; // of texels, whose middles are whole
+    double x, y, radius; // in texels, whose centres are whole numbers
 };
 
 static void one_spot(int x, int y, const void *user, float light[3])
@@ -41,7 +41,8 @@ static void one_spot(int x, int y, const void *user, float light[3])
     light[1] = hypot(x - spot->x, y - spot->y) <= spot->radius ? 1 : 0;
 }
 
-// Where green light is in a picture, in mm from the pane's middle, and its deviation along x and y.
+// The place of green light in a picture, in mm from the pane's middle, and its deviation along x
+// and y.
 struct seen {
     double sum, x, y, deviation_x, deviation_y;
 };
@@ -80,15 +81,15 @@ static void expect_near(const char *what, double found, double due, double off)
 
 // --- a dry pane ---
 
-// The background is 400 x 300 texels. Seen from the pane it is 90 degrees wide: at 2 m 4000 mm, 10
-// a texel.
+// The background has 400 x 300 texels and is 90 degrees wide from the pane: 4000 mm at 2 m, 10 mm a
+// texel.
 static const double TEXEL_MM = 10, BEHIND_MM = 2000, DISTANCE_MM = 500;
 
 #define BEHIND DRY "distance_mm=500 background_m=2 background_deg=90 "
 
-// A point X behind the middle's axis is seen through the pane at X D / (D + B), by similar
-// triangles; and a lens A wide that is focused on the pane makes a disc of A B / D of it there,
-// which on the pane is A B / (D + B). A disc's deviation is a quarter of its diameter.
+// By similar triangles, the pane shows a point X off the axis at X D / (D + B). A lens of width A,
+// focused on the pane, spreads the point into a disc of A B / D. On the pane that is A B / (D + B).
+// A disc's deviation is a quarter of its diameter.
 static void a_dry_pane_shows_what_lies_behind(void **state)
 {
     (void)state;
@@ -110,11 +111,11 @@ static void a_dry_pane_shows_what_lies_behind(void **state)
         const struct seen s = look_for_green(d, 100);
         const double right = (cases[i].spot.x + 0.5 - 200) * TEXEL_MM * onto_pane;
         const double down = (cases[i].spot.y + 0.5 - 150) * TEXEL_MM * onto_pane;
-        // A quarter turn clockwise of the pane, and of the camera with it, turns the world back.
+        // The pane and the camera turn a quarter clockwise, and so the world turns back.
         expect_near("x", s.x, cases[i].turn_deg > 0 ? -down : right, 0.1);
         expect_near("y", s.y, cases[i].turn_deg > 0 ? right : down, 0.1);
         const double disc = cases[i].aperture_mm * BEHIND_MM / (DISTANCE_MM + BEHIND_MM) / 4;
-        const double spot = TEXEL_MM * onto_pane * 0.8; // of 5 texels, and between texels
+        const double spot = TEXEL_MM * onto_pane * 0.8; // 5 texels, blurred between texels
         expect_near("width", s.deviation_x, hypot(disc, spot), 0.35);
         expect_near("height", s.deviation_y, hypot(disc, spot), 0.35);
         rig_close(d);
@@ -122,8 +123,8 @@ static void a_dry_pane_shows_what_lies_behind(void **state)
     }
 }
 
-// A direction of the environment is seen where its ray from the camera meets the pane: all of it is
-// dark but a spot 3 degrees to the right and 2 up.
+// The pane shows a direction of the environment where its ray from the camera meets the pane. All
+// of it is dark except a spot, 3 degrees to the right and 2 up.
 static void a_dry_pane_shows_the_environment(void **state)
 {
     (void)state;
@@ -142,7 +143,7 @@ static void a_dry_pane_shows_the_environment(void **state)
         const struct seen s = look_for_green(d, 100);
         expect_near("x", s.x, right, 0.3);
         expect_near("y", s.y, -up, 0.3);
-        // The disc's angle is 12 mm at 250 mm, on whichever side of the pane.
+        // The disc's angle is 12 mm at 250 mm, on either side of the pane.
         if (aperture_mm)
             expect_near("width", s.deviation_x, hypot(aperture_mm / 4.0, sharp_mm), 0.3);
         sharp_mm = s.deviation_x;
@@ -153,7 +154,7 @@ static void a_dry_pane_shows_the_environment(void **state)
 
 // --- a drop ---
 
-// A cap of a sphere in the pane's middle: its radius of curvature, and that of its base.
+// A cap of a sphere, with its place, its radius of curvature and its base's radius.
 struct cap {
     double x_mm, y_mm, curvature_mm, base_mm;
 };
@@ -166,10 +167,10 @@ static double cap_height(double x_mm, double y_mm, const void *user)
     return r2 < c->base_mm * c->base_mm ? sqrt(c->curvature_mm * c->curvature_mm - r2) - below : 0;
 }
 
-// A plane-convex lens has a focal length of f = R / (n - 1). The ray from the camera that passes it
-// p off its middle has a slope of p / D before and p / D - p / f behind it, and meets the
-// background at X = p (1 + B / D - B / f): upside down, and small. Caps are flat enough for thin
-// lenses: 4 % are what a sphere is off its parabola there.
+// A plane-convex lens has a focal length of f = R / (n - 1). A ray from the camera passes it at p
+// off its middle. Its slope is p / D before the lens and p / D - p / f after it. It meets the
+// background at X = p (1 + B / D - B / f): upside down and small. The caps are flat enough for thin
+// lenses; 4 % allows for the sphere's distance from a parabola.
 static void a_drop_shows_it_small_and_upside_down(void **state)
 {
     (void)state;

@@ -52,7 +52,7 @@ void view_write(const char *path, int width, int height, view_light_fn light, co
 
 // --- the oracle ---
 
-// All layers of a level as red, green and blue, which the oracle keeps.
+// All layers of a level as red, green and blue; the oracle keeps them.
 static const float *read_level(struct view_oracle *o, struct rg_image *image, int level)
 {
     const int width = rg_level_size(image->desc.width, level);

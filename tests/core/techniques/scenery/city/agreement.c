@@ -1,5 +1,5 @@
-// The city drawn, by day, by night and a mesh in its place: agreement DEVICE. Every byte of colour
-// and depth is that of cpu:reference.
+// The city drawn by day and by night, and a mesh in its place: agreement DEVICE. Every byte of
+// colour and depth is cpu:reference's.
 #include <stdlib.h>
 
 #include "tests/core/techniques/scenery/city/stage.h"

@@ -1,5 +1,5 @@
-// The city as an environment map: around DEVICE. What the map holds for a direction is what a
-// camera in its middle sees there, whichever way it looks.
+// The city as an environment map: around DEVICE. In each direction the map holds what a camera in
+// its middle sees there.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 
 enum { FACE_PX = 512, TILE = 10 };
 
-// The faces without their borders, as the oracle reads them.
+// The faces without borders, as the oracle reads them.
 static struct light_cube cube_of(const struct rg_environment *environment)
 {
     const int n = environment->size;
@@ -24,7 +24,7 @@ static struct light_cube cube_of(const struct rg_environment *environment)
     return (struct light_cube){light, n};
 }
 
-// Light that a camera's pixels of a tile show, and that the map has for them.
+// The light of a tile: as a camera's pixels see it, and as the map has it.
 struct tile {
     double seen[3], read[3];
 };
@@ -48,9 +48,8 @@ static struct tile tile_of(const struct light_cube *cube, const struct rg_camera
     return tile;
 }
 
-// The share of a camera's tiles whose light the map does not have within 10 %, when it is read
-// turned from right to left or not. Single pixels are off where edges and texels are finer than
-// they.
+// The share of a camera's tiles whose light in the map is off by more than 10 %, with the map read
+// mirrored or not. Single pixels are off where edges and texels are finer than a pixel.
 static double share_off(const struct light_cube *cube, const struct rg_camera *camera,
                         const struct picture *picture, bool turned)
 {

@@ -1,5 +1,5 @@
-// The scene of streaks, drawn: depth DEVICE. What is
-// culled is not missed; depth from above is the height of what stands there, by rays.
+// The scene of streaks, drawn: depth DEVICE. Culling removes nothing visible, and depth from above
+// is the height of things there, by rays.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +12,7 @@
 
 enum { MAP_PX = 128 };
 
-// Without geometry all is horizon, to the last bit that a half has, and nothing hides what is drawn
-// later.
+// Without geometry everything is horizon, to a half's last bit, and nothing hides later drawings.
 static void without_geometry_all_is_horizon(void **state)
 {
     struct stage stage;
@@ -51,8 +50,7 @@ static int64_t bytes_of(struct rg_device *device, bool bare)
     return bytes;
 }
 
-// What only light needs, textures and the openness to the sky, is not there where none is asked
-// for.
+// Textures and the openness to the sky serve light alone, and do not exist without it.
 static void what_is_never_lit_is_not_painted(void **state)
 {
     struct stage stage;
@@ -88,14 +86,14 @@ static void culling_changes_no_pixel(void **state)
         chunks += scenery_last(stage.scene).chunks;
         assert_memory_equal(&pictures[0], &pictures[1], sizeof(pictures[0]));
     }
-    assert_below(drawn * 2, chunks); // most is left out
+    assert_below(drawn * 2, chunks); // culling removes most
     free(pictures);
     stage_close(&stage);
 }
 
 // --- from above ---
 
-// The height of what is met from above at (x, z): the highest face over it.
+// The height of the highest face at (x, z), seen from above.
 static double height_at(const struct city_faces *f, double x, double z)
 {
     double highest = 0;
@@ -127,7 +125,7 @@ static void depth_from_above_is_the_height(void **state)
     const struct rg_image_desc desc = {RG_D32F, MAP_PX, MAP_PX, 1, 1};
     const float farthest = 1, top = 240;
     struct rg_image *map = rg_image_create_with(*state, &desc, &farthest, "map");
-    // x to the right, z down, depth 0 at the top and 1 on the ground
+    // x to the right, z down, depth 0 at the top and 1 on the ground.
     const m4 down = {1 / 200.0f, 0, 0, 0, 0, 0, 1 / 200.0f, 0, 0, -1 / top, 0, 1, 0, 0, 0, 1};
     float depth[MAP_PX * MAP_PX];
     assert_true(map && scenery_depth(stage.scene, down, &(struct rg_draw){.depth = map}));
@@ -138,7 +136,7 @@ static void depth_from_above_is_the_height(void **state)
         const double x = ((i % MAP_PX + 0.5) / MAP_PX - 0.5) * 400;
         const double z = ((int)(i / MAP_PX) + 0.5) / MAP_PX * 400 - 200;
         const double drawn = (1 - (double)depth[i]) * (double)top;
-        // An edge may lie on either side of a pixel's centre, by the grid of 1/256 pixel.
+        // An edge may be on either side of a pixel's centre, by the grid of 1/256 pixel.
         bool right = false;
         for (int k = 0; k < 5; k++)
             right |= fabs(height_at(faces,
@@ -160,7 +158,7 @@ static void depth_from_above_is_the_height(void **state)
 
 // --- from the streets ---
 
-// The distance ahead of what a place of the picture shows, by a ray; 0: nothing.
+// The distance ahead of what a ray through a place of the picture meets; 0: nothing.
 static double ahead(const struct scene *scene, const struct rg_camera *camera, double px, double py)
 {
     const double from[3] = {(double)camera->position[0], (double)camera->position[1],
@@ -170,7 +168,7 @@ static double ahead(const struct scene *scene, const struct rg_camera *camera, d
     return scene_meet(scene, from, way, false, &distance) < 0 ? 0 : distance;
 }
 
-// Faces of four corners too are as far as they look, all over.
+// Depth is right all over, also on faces of four corners.
 static void depth_is_where_rays_end(void **state)
 {
     struct stage stage;

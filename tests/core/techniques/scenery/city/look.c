@@ -1,5 +1,5 @@
-// What a pixel of the city shows: look DEVICE. Against a model in double precision that casts a ray
-// a pixel: sky, textures, wet ground, openness to the sky, haze, and lights of each kind.
+// Pixels of the city: look DEVICE. A model in double precision casts one ray a pixel. It has sky,
+// textures, wet ground, openness to the sky, haze, and lights of each kind.
 #include "tests/core/techniques/scenery/city/stage.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 // --- the oracle's inputs ---
 
-// Levels of textures as the device has them, read when first asked for.
+// Levels of textures from the device, read when first needed.
 struct texels {
     struct rg_image *image;
     uint32_t *levels[CITY_TEXTURES][16];
@@ -96,8 +96,8 @@ struct tally {
     double worst, drawn, due;
 };
 
-// A pixel whose neighbourhood meets another surface is on an edge, which may lie on either side of
-// its centre.
+// A pixel is on an edge if a place beside its centre shows another surface. The edge may be on
+// either side of the centre.
 static bool on_edge(const struct scene *scene, const double from[3], const struct rg_camera *camera,
                     double x, double y)
 {
@@ -150,8 +150,8 @@ static void compare_pixel(const struct given *g, const struct rg_camera *camera,
 
 struct look_case {
     struct stage_settings stage;
-    int every;    // pixel
-    int compared; // at least so many
+    int every;    // every n-th pixel
+    int compared; // at least this many
     int shadowed;
 };
 
@@ -166,7 +166,7 @@ static void compare_view(struct stage *stage, const struct given *g,
     free(picture);
 }
 
-// So near before the first face of a kind that it fills most of the picture.
+// So near to the first face of a kind that the face fills most of the picture.
 static struct rg_camera before(const struct scene *scene, uint32_t kind, float distance_m)
 {
     for (int i = 0; i < scene->face_count; i++) {
@@ -184,7 +184,7 @@ static struct rg_camera before(const struct scene *scene, uint32_t kind, float d
     return city_first_camera;
 }
 
-// The views of all tests; leaves, which are tinted unlike all else; and a lamp, which glows.
+// The views of all tests, then leaves, which alone have a tint, and a glowing lamp.
 static struct rg_camera camera_of(const struct scene *scene, int view)
 {
     if (view < VIEWS)

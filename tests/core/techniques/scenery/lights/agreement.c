@@ -1,5 +1,5 @@
-// What lights of streaks do at points, and their shadow maps: agreement DEVICE. Every byte is that
-// of cpu:reference.
+// Streaks' lights at points, and their shadow maps: agreement DEVICE. Every byte is
+// cpu:reference's.
 #include <stdlib.h>
 
 #include "tests/core/techniques/scenery/lights/rig.h"

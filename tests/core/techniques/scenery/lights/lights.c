@@ -22,7 +22,7 @@ static struct scenery_lights_settings three_lights(void)
     return s;
 }
 
-// Rain falls along -y from 9 m up: (x, y, s) = (x, -z, 9 - y).
+// Rain falls along -y from a height of 9 m: (x, y, s) = (x, -z, 9 - y).
 static void lights_open_in_both_frames(void **state)
 {
     const struct scenery_lights_settings settings = three_lights();
@@ -55,7 +55,7 @@ static void each_light_draws_its_own_layers(void **state)
     const struct scenery_lights_settings settings = three_lights();
     struct scenery_lights *lights = scenery_lights_open(*state, &settings);
     float *texels = malloc(MAP_PX * MAP_PX * sizeof(float));
-    for (int again = 0; again < 2; again++) // drawn anew, maps hold the same
+    for (int again = 0; again < 2; again++) // drawn again, maps hold the same
         assert_true(scenery_lights_shade(lights, rig_draw_scene, &rig));
     for (int layer = 0; layer < 3; layer++) {
         int drawn = 0;

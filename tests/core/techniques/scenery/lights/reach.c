@@ -1,5 +1,5 @@
-// How far lights of streaks reach: reach DEVICE. Against closed forms in double
-// precision; alone and together, and in any frame.
+// The reach of streaks' lights: reach DEVICE. Against closed forms in double precision, alone and
+// together, and in any frame.
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,7 +36,7 @@ static void lights_reach_as_the_closed_forms_say(void **state)
                                       ? along((struct vec){0, 0, 0}, -1, rig_way_of(&rig_lights[k]))
                                       : along((struct vec){0, 0, 0}, 1 / length(off), off);
             const double share = share_due(&rig_lights[k], at);
-            // a cone's edge is as steep as its width allows, and its cosine rounds to 1e-7
+            // A cone's edge is as steep as its width allows, and its cosine rounds to 1e-7.
             assert_at_most(fabs((double)l->share - share), 2e-6 * share + 1e-6 / dot(off, off));
             assert_below(length(minus((struct vec){(double)l->to_light.x, (double)l->to_light.y,
                                                    (double)l->to_light.z},
@@ -55,8 +55,8 @@ static void lights_reach_as_the_closed_forms_say(void **state)
     rig_close(&rig);
 }
 
-// On the axis and within the inner cone all of it, from the outer cone on nothing, between the two
-// ever less; and no stronger than at the nearest distance, even in the light itself.
+// All light on the axis and within the inner cone; less and less from there; none from the outer
+// cone on. It is never stronger than at the nearest distance, even inside the light.
 static void cones_and_near_points_have_their_bounds(void **state)
 {
     enum { STEPS = 89 };
@@ -88,7 +88,7 @@ static void cones_and_near_points_have_their_bounds(void **state)
 
 // --- sums, frames ---
 
-// Lights do not know of each other: alone, and in any order, they give what they give together.
+// Lights do not affect each other: alone, or in any order, they give what they give together.
 static void lights_add_up(void **state)
 {
     struct rig rig = rig_open(*state);
@@ -110,7 +110,7 @@ static void lights_add_up(void **state)
     rig_close(&rig);
 }
 
-// In a frame that is turned and moved the same light reaches the same points, but for rounding.
+// In a rotated and moved frame the same light reaches the same points, except for rounding.
 static void frames_do_not_matter(void **state)
 {
     static const float matrix[16] = {0.8f,  0,     -0.6f, 10, 0.36f, 0.8f, 0.48f, -20,

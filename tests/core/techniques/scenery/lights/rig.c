@@ -27,7 +27,7 @@ static void put_face(struct faces *faces, int face, int a, int b, int c)
     memcpy(faces->indices + 3 * (size_t)face, three, sizeof(three));
 }
 
-// Corner k has its high x, y or z where bit 0, 1 or 2 of k is set.
+// Corner k has the high x, y or z if bit 0, 1 or 2 of k is set.
 static struct faces make_boxes(void)
 {
     static const int sides[6][4] = {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 4, 5, 1},
@@ -49,7 +49,7 @@ static struct faces make_boxes(void)
     return faces;
 }
 
-// The part of one axis of a ray inside a slab.
+// Clips a ray to a slab of one axis.
 static void cut(double from, double way, double low, double high, double *enter, double *leave)
 {
     if (way == 0) {
@@ -132,7 +132,7 @@ bool rig_is_in_cone(const struct rg_light *light, struct vec at)
 
 // --- on a device ---
 
-// Faces that turn away are left out: a matrix that mirrored would leave the wrong ones.
+// Culls faces that turn away: a mirroring matrix would cull the wrong ones.
 bool rig_draw_scene(void *user, const float to_clip[16], const struct rg_draw *onto)
 {
     const struct rig *rig = user;

@@ -1,5 +1,5 @@
-// What the tests of streaks' lights share: boxes over a floor with lights of all kinds around them,
-// points in the air, and what lights do there on a device.
+// For tests of streaks' lights: boxes over a floor with all kinds of light around them, and the
+// light at points in the air on a device.
 #ifndef RG_TESTS_CORE_TECHNIQUES_SCENERY_LIGHTS_RIG_H
 #define RG_TESTS_CORE_TECHNIQUES_SCENERY_LIGHTS_RIG_H
 
@@ -41,18 +41,19 @@ static inline double dot(struct vec a, struct vec b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// All kinds, with the plain cases last: straight down, along an axis. The last casts no shadow.
+// All kinds of light, with plain cases last: straight down, along an axis. The last casts no
+// shadow.
 extern const struct rg_light rig_lights[LIGHTS];
 extern const struct scenery_lights_settings rig_bounds; // of the boxes, with shadow maps of MAP_PX
 
 struct vec rig_place_of(const struct rg_light *light);
 struct vec rig_way_of(const struct rg_light *light);
-// Whether a box stands between two points.
+// Whether a box is between two points.
 bool rig_is_blocked(struct vec from, struct vec to);
-// Within a spot's cone; of others everywhere.
+// Whether a point is in a spot's cone; true for other lights.
 bool rig_is_in_cone(const struct rg_light *light, struct vec at);
 
-// The boxes and the lights on a device, with shadow maps drawn.
+// The boxes and the lights on a device, with their shadow maps drawn.
 struct rig {
     struct rg_device *device;
     struct faces_on scene;
@@ -62,13 +63,13 @@ struct rig {
 };
 struct rig rig_open(struct rg_device *device);
 void rig_close(struct rig *rig);
-// Draws the boxes of a rig, `user`, for scenery_lights_shade.
+// Draws the boxes of the rig `user`, for scenery_lights_shade.
 bool rig_draw_scene(void *user, const float to_clip[16], const struct rg_draw *onto);
 
-// POINTS places in the air, three floats each. The caller frees them.
+// POINTS places in the air, three floats each; the caller frees them.
 float *rig_make_points(void);
 struct vec rig_point_at(const float *points, int i);
-// What `count` lights do at `points` points; by light, then point. The caller frees it.
+// The effect of `count` lights at `points`, by light, then point. The caller frees it.
 test_streaks_lit *rig_light_points(const struct rig *rig, const scenery_light *lights, int count,
                                    const float *points, int point_count);
 

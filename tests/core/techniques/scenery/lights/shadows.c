@@ -1,12 +1,11 @@
-// Shadows of streaks' lights: shadows DEVICE. Against rays through boxes, in
-// double precision.
+// Shadows of streaks' lights: shadows DEVICE. Against rays through boxes, in double precision.
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/core/techniques/scenery/lights/rig.h"
 #include "tests/tools/expect.h"
 
-// Whether a light reaches a point; -1 where that changes within `margin` of it.
+// Whether a light reaches a point; -1 if that differs within `margin` of it.
 static int reached_about(const struct rg_light *light, struct vec at, double bias, double margin)
 {
     int lit = 0, tried = 0;
@@ -33,7 +32,7 @@ static void check_point(const struct rg_light *light, const scenery_light *l, st
                         const test_streaks_lit *lit, struct seen *seen)
 {
     const double away = light->kind == SCENERY_SUN ? 1 : length(minus(at, rig_place_of(light)));
-    // A texel's half diagonal, twice as much between four texels, and some.
+    // A texel's half diagonal, doubled for reads between four texels, and some more.
     const int due = reached_about(light, at, (double)l->shadow_bias_m,
                                   2 * (double)l->shadow_texel * away + 0.01);
     seen->lit += due == 1;
@@ -71,7 +70,7 @@ static void shadows_fall_where_rays_are_blocked(void **state)
     rig_close(&rig);
 }
 
-// A floor is not shaded by itself, but by what stands on it.
+// A floor is not shaded by itself, only by things on it.
 static void floors_do_not_shade_themselves(void **state)
 {
     struct rig rig = rig_open(*state);
@@ -103,14 +102,14 @@ static void floors_do_not_shade_themselves(void **state)
     rig_close(&rig);
 }
 
-// The bias is metres of the ray: so far into the floor a point is lit yet, and farther in it is
+// The bias is in metres along the ray: a point less deep in the floor is lit, and a deeper one is
 // not.
 static void the_bias_is_metres_along_the_ray(void **state)
 {
     struct rig rig = rig_open(*state);
     float *points = rig_make_points();
     int checked[LIGHTS] = {0};
-    for (int k = 3; k <= 4; k++) { // these look straight down, so that the floor's depth is all one
+    for (int k = 3; k <= 4; k++) { // straight down, so that the floor has one depth
         const struct rg_light *light = &rig_lights[k];
         for (int i = 0; i < POINTS; i++) {
             const struct vec at = {(double)points[3 * i], 0, (double)points[3 * i + 2]};
@@ -141,8 +140,8 @@ static void the_bias_is_metres_along_the_ray(void **state)
     rig_close(&rig);
 }
 
-// Soft shadows go over from light to dark within the width of a texel, whichever way one walks: an
-// eighth of a texel changes them by an eighth.
+// Soft shadows change from light to dark over one texel, in any direction: an eighth of a texel
+// changes them by an eighth.
 static void soft_shadows_do_not_jump(void **state)
 {
     enum { DOWN = 3, ROWS = 12, STEPS = POINTS / ROWS };
@@ -181,7 +180,7 @@ static void nothing_shades_where_no_map_is(void **state)
     for (int i = 0; i < LIGHTS * POINTS; i++)
         assert_true(lit[i].unshadowed == 1 && lit[i].soft == 1 && lit[i].surface == 1);
     int beside = 0;
-    for (int i = 0; i < POINTS; i++) { // a frustum's corners are as far out as its diagonal
+    for (int i = 0; i < POINTS; i++) { // a frustum reaches farthest at its corners
         const struct rg_light *spot = &rig_lights[1];
         const struct vec off = minus(rig_point_at(points, i), rig_place_of(spot));
         const double corner = atan(1.42 * 1.01 * tan((double)spot->outer_deg * degree));

@@ -1,4 +1,4 @@
-// Lines and sheets of the overlay: agreement DEVICE. Every byte is that of cpu:reference.
+// Lines and sheets of the overlay: agreement DEVICE. Every byte is cpu:reference's.
 #include <math.h>
 #include <stdlib.h>
 

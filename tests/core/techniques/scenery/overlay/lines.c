@@ -1,5 +1,5 @@
-// The overlay of streaks: lines DEVICE. Lines against the distance of each pixel from
-// them in double precision, sheets against the sides of a polygon.
+// The overlay of streaks: lines DEVICE. Lines against each pixel's distance from them, in double
+// precision; sheets against the sides of a polygon.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,10 +8,10 @@
 #include "tests/core/techniques/scenery/overlay/rig.h"
 #include "tests/tools/expect.h"
 
-// An end of a line on the grid of 1/256 pixel, and floats of 1e-6 of a few hundred pixels.
+// A line's end on the grid of 1/256 pixel, and floats off by 1e-6 of a few hundred pixels.
 static const double allowed = 0.006;
 
-// What an overlay shows with a matrix, over a depth: its texels, which the caller frees.
+// Texels of an overlay drawn with a matrix, over a depth; the caller frees them.
 static float *show(struct scenery_overlay *overlay, struct rg_device *device,
                    const float to_clip[16], const float *depth)
 {
@@ -45,7 +45,8 @@ static struct corner between_corners(struct corner a, struct corner b, double t)
                            a.w + (b.w - a.w) * t};
 }
 
-// A line's ends in pixels with their depth, cut at the near plane alone. False: nothing is left.
+// A line's ends in pixels with their depth, clipped at the near plane alone. False: nothing is
+// left.
 struct ends {
     double x[2], y[2], depth[2];
 };
@@ -72,7 +73,7 @@ static double ramp(double v)
     return fmin(fmax(v, 0), 1);
 }
 
-// How much of a pixel a line covers, and its depth there.
+// How much of a pixel a line covers, and the line's depth there.
 static double covered_by(const struct ends *e, double width, double x, double y, double *depth)
 {
     const double dx = e->x[1] - e->x[0], dy = e->y[1] - e->y[0], length = hypot(dx, dy);
@@ -126,13 +127,13 @@ static void lines_cover_what_is_near_them(void **state)
     float to_clip[16];
     overlay_look(to_clip);
     for (uint32_t i = 0; i < 120; i++) {
-        const double spread = i % 3 ? 4 : 12; // every third may pass the eye
+        const double spread = i % 3 ? 4 : 12; // every third line may pass the eye
         float a[3], b[3];
         for (uint32_t c = 0; c < 3; c++) {
             a[c] = between(i, c, -spread, spread);
             b[c] = between(i, 3 + c, -spread, spread);
         }
-        if (i % 8 == 0) { // one end stands between the eye and the near plane
+        if (i % 8 == 0) { // one end is between the eye and the near plane
             a[0] = between(i, 7, -0.2, 0.2);
             a[1] = 2 + between(i, 8, -0.2, 0.1);
             a[2] = 6 - between(i, 9, 0.2, 0.4);
@@ -147,8 +148,8 @@ static void lines_cover_what_is_near_them(void **state)
     close_overlay(overlay, &instance);
 }
 
-// A long line past the eye ends millions of pixels beside the picture, and stays in its place
-// there.
+// A long line past the eye ends millions of pixels beside the picture, and is still drawn in its
+// place.
 static void long_lines_stay_in_place(void **state)
 {
     struct rg_instance instance;
@@ -166,14 +167,14 @@ static void long_lines_stay_in_place(void **state)
     close_overlay(overlay, &instance);
 }
 
-// Along rows of pixels, where all is known to the pixel; a point, and lines that are not seen.
+// Lines along rows of pixels, where every pixel is known; a point, and unseen lines.
 static void plain_lines_are_exact(void **state)
 {
     static const float flat[16] = {2.0f / WIDTH, 0, 0, -1, 0, 2.0f / HEIGHT, 0, -1, 0, 0, 0,
                                    0.5f,         0, 0, 0,  1}; // pixels
     static const struct {
         float a[3], b[3];
-        int x0, x1, y0, y1; // pixels that are covered
+        int x0, x1, y0, y1; // covered pixels
         float width_px;
     } cases[] = {
         {{10.5f, 20.5f, 0}, {30.5f, 20.5f, 0}, 10, 31, 20, 21, 1},
@@ -206,7 +207,7 @@ static void plain_lines_are_exact(void **state)
 
 // --- sheets ---
 
-// How far inside a convex polygon in pixels a point lies, in pixels; negative outside.
+// How far inside a convex polygon a point is, in pixels; negative outside.
 static double inside_by(const struct corner px[4], double x, double y)
 {
     double least = INFINITY, turn = 0;
@@ -244,12 +245,12 @@ static void sheets_fill_their_polygons(void **state)
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const double x = i % WIDTH + 0.5, y = i / WIDTH + 0.5, margin = inside_by(px, x, y);
         if (fabs(margin) < 2.5)
-            continue; // its edges are lines
+            continue; // the edges are lines
         assert_float_equal(texels[4 * i + 3], margin > 0 ? 0.125f : 0, 1e-6f);
         assert_float_equal(texels[4 * i + 1], margin > 0 ? 0.125f : 0, 1e-6f);
         if (margin < 0)
             continue;
-        // The ray of the pixel meets the floor at this distance ahead of the eye.
+        // The pixel's ray meets the floor at this distance ahead of the eye.
         const double down = (2 * y / HEIGHT - 1) * tan(M_PI / 6);
         const double slope = 2.0 / 6, ahead = 2 * sqrt(1 + slope * slope) / (slope + down);
         const double depth = 50 / 49.5 * (1 - 0.5 / ahead);
@@ -286,7 +287,7 @@ static double sum_of(const float *texels)
     return sum;
 }
 
-// The frustum of a light is the box, or the pyramid's stump, that its settings say.
+// A light's frustum is the box or the truncated pyramid of its settings.
 static void check_frustum(struct rg_device *device, const scenery_light *light, float corners[8][3])
 {
     struct rg_instance instance;
@@ -338,13 +339,13 @@ static void frusta_are_where_lights_shine(void **state)
     check_frustum(*state, &b, stump);
 }
 
-// Each edge once: a box's lines hold as much ink as its twelve edges, all in sight and apart.
+// Draws each edge once: a box has as much ink as its twelve edges, all in view and apart.
 static void boxes_have_twelve_edges(void **state)
 {
     static const float flat[16] = {0.5f, 0.11f, 0, 0, 0, 0.5f, 0.17f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 1};
     struct rg_instance instance;
     struct scenery_overlay *overlay = open_overlay(*state, &instance);
-    const struct scenery_ink ink = {1, 1, 1, 0.001f, 1}; // so thin that inks add up
+    const struct scenery_ink ink = {1, 1, 1, 0.001f, 1}; // so faint that inks add up
     float corners[8][3];
     double due = 0;
     for (int k = 0; k < 8; k++)

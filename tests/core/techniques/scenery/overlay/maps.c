@@ -1,5 +1,5 @@
 // Maps of the overlay: maps DEVICE. Plates in the world against the texel that each pixel's ray
-// meets in double precision; insets in the picture's corner.
+// meets, in double precision; insets in the picture's corner.
 #include <math.h>
 #include <stdlib.h>
 
@@ -16,7 +16,7 @@ static double ramp(double v)
 
 enum { MAP_PX = 4 };
 
-// The texel of a map on the floor that a pixel's ray meets, and how far the ray meets it from the
+// The texel of a map on the floor that a pixel's ray meets. Returns the ray's distance from the
 // texel's rim, in texels; negative off the map.
 static double texel_met(double x, double y, int *texel, double *ahead)
 {
@@ -37,7 +37,7 @@ static double texel_met(double x, double y, int *texel, double *ahead)
                           0.5 - fabs(along - floor(along) - 0.5)));
 }
 
-// A map of 4 x 4 different values on the floor, its rows along x, 0.1 black and 0.9 white.
+// A map of 4 x 4 different values on the floor, with rows along x; 0.1 is black and 0.9 white.
 static void plates_show_their_maps(void **state)
 {
     const struct rg_image_desc desc = {RG_D32F, MAP_PX, MAP_PX, 1, 1};

@@ -1,4 +1,4 @@
-// Rain beyond the culling radius: far DEVICE. What layers hide is held against the
+// Rain beyond the culling radius: far DEVICE. The light that layers hide is compared with the
 // cross-sections of the drops that they stand for.
 #include <math.h>
 #include <stdio.h>
@@ -11,8 +11,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-// Rain thick enough for halves, and black, so that a picture over its sky is what comes through. No
-// texel of the map is far from 1 where it is seen.
+// Rain dense enough for halves, and black: the picture over its sky is the light that comes
+// through. All visible texels of the map are near 1.
 #define FAR                                                                                        \
     "geometry=off drops=off splashes=off environment_light=off lights=0 drop_radius_mm=10 "        \
     "rain_width_m=4000 rain_depth_m=4000 rain_height_m=60 packets=grid local_height_m=2 "          \
@@ -25,14 +25,13 @@ static struct streaks *open_far(const char *settings)
     return rain_open(all);
 }
 
-// --- what comes through ---
+// --- the light that comes through ---
 
 struct seen {
     double share[RAIN_HEIGHT][RAIN_WIDTH]; // of the sky's light, after all layers
 };
 
-// The picture of so many layers of the present frame, which must be no more than were opened. The
-// caller frees it.
+// Draws this frame with so many layers, at most those that were opened. The caller frees it.
 static struct seen *look(struct streaks *s, int layers)
 {
     const double sky = (double)rg_unpack_half(rg_pack_half(scenery_day().sky.horizon_g));
@@ -85,7 +84,7 @@ static void test_layers_hide_what_their_drops_would(void **state)
             hidden += -log(average_of(seen).mean) / FRAMES;
             free(seen);
         }
-        // Rays are a little longer than the radius, as the camera sees 17 degrees to the sides.
+        // Rays are slightly longer than the radius, since the camera sees 17 degrees to the sides.
         const double due = 20 / cases[i].fall_m_s * pi * pow(cases[i].drop_radius_mm / 1000, 2) *
                            12 * cases[i].layers * cases[i].opacity;
         if (!(hidden > 0.96 * due && hidden < 1.07 * due))
@@ -97,7 +96,7 @@ static void test_layers_hide_what_their_drops_would(void **state)
 
 // --- how it falls ---
 
-// How alike two pictures are where the second is moved by so many pixels.
+// The correlation of two pictures, with the second one moved by so many pixels.
 static double alike(const struct seen *a, const struct seen *b, int right, int down)
 {
     double ab = 0, aa = 0, bb = 0, ma = 0, mb = 0;
@@ -115,7 +114,7 @@ static double alike(const struct seen *a, const struct seen *b, int right, int d
     return (ab - ma * mb / count) / sqrt((aa - ma * ma / count) * (bb - mb * mb / count));
 }
 
-// The move by which a picture is most like the one a step later.
+// The move by which a picture is most like the picture one step later.
 static void find_move(const char *settings, int *right, int *down)
 {
     struct streaks *s = open_far(settings);
@@ -139,8 +138,8 @@ static void find_move(const char *settings, int *right, int *down)
     rain_close(s);
 }
 
-// In 1/60 s drops of 8.16 m/s fall by 0.136 m: between 12 and 24 m away, seen with 643 pixels a
-// metre at one metre, 3.6 to 7.3 pixels down; leaning rain also goes aside.
+// In 1/60 s drops of 8.16 m/s fall 0.136 m. They are 12 to 24 m away, where 643 pixels a metre at
+// one metre make that 3.6 to 7.3 pixels. Leaning rain also moves sideways.
 static void test_rain_falls(void **state)
 {
     (void)state;
@@ -150,7 +149,7 @@ static void test_rain_falls(void **state)
     assert_at_least(down, 3);
     assert_at_most(down, 8);
     assert_equals(right, 0);
-    // Towards x, which is to the left of a viewer along z.
+    // Towards x, which is on the left for a viewer along z.
     find_move("far_layers=1 view_angle_deg=8 exposure_s=0.004 streak_opacity=8 slant_deg=45",
               &right, &down);
     print_message("it leans by %d pixels, and falls by %d\n", right, down);
@@ -162,7 +161,7 @@ static void test_rain_falls(void **state)
 
 // --- with a scene ---
 
-// How far a pixel's surface is from the observer, as the culling prism counts distances, through a
+// The distance of a pixel's surface from the observer, measured as the culling prism does, for a
 // level camera that looks along z.
 static double across_at(const struct streaks *s, const float *depths, int x, int y)
 {
@@ -174,7 +173,7 @@ static double across_at(const struct streaks *s, const float *depths, int x, int
     return ahead * fmax(1, fabs(x + 0.5 - RAIN_WIDTH / 2) * metres_per_px);
 }
 
-// What is nearer than the first layer is as it was, to the last bit; what is farther is dimmed.
+// Pixels nearer than the first layer keep every bit; farther ones are dimmed.
 static void test_layers_stand_in_the_scene(void **state)
 {
     (void)state;

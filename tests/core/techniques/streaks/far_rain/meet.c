@@ -1,5 +1,5 @@
-// Near rain and far rain agree where they meet: meet DEVICE. Rain to a culling radius with layers
-// behind it is held against rain to where the layers end: mean and variance of a pixel.
+// Near rain and far rain agree: meet DEVICE. Drops up to a culling radius with layers behind them
+// have the mean and variance of drops up to where the layers end.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,23 +11,22 @@
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/tools/expect.h"
 
-// Tests of several devices run side by side.
+// One file for each process, since tests of several devices run side by side.
 static char lights_path[64], map_path[64], mesh_path[64];
 
-// Nothing but the drops' light, so much of it that halves, which cut it off, lose nothing that
-// matters.
+// Light of drops alone, and so much that rounding down to halves loses nothing that matters.
 #define MEET                                                                                       \
     "geometry=off splashes=off time=night cull=exact packets=world rain_width_m=50 "               \
     "rain_depth_m=50 rain_height_m=14 local_height_m=14 view_angle_deg=20 streak_opacity=0 "       \
     "streak_gain=1000 taps=8 drops_m2_s=200 far_layers=2 culling_radius_m=24 step_s=0.9 "
 
-// What pictures sum up to, and their squares.
+// Sums of a picture's light and of its squares.
 struct moments {
     double sum, squares;
     int count;
 };
 
-// The present frame with other settings, which do not change what is open.
+// Draws this frame with other settings, which change nothing that is open.
 static struct rain_texels *draw(struct streaks *s, double radius_m, int layers, int drops)
 {
     s->settings.culling_radius_m = radius_m;
@@ -37,7 +36,7 @@ static struct rain_texels *draw(struct streaks *s, double radius_m, int layers, 
     return rain_read(s);
 }
 
-// Adds what a picture has more than another.
+// Adds the light by which one picture exceeds another.
 static void add(struct moments *m, const struct rain_texels *more, const struct rain_texels *less,
                 const bool *left_out)
 {
@@ -56,7 +55,7 @@ struct figures {
     double mean, variance;
 };
 
-// How far they may be from each other, as a share of them.
+// The allowed difference, as a share.
 static const double within = 0.03;
 
 static struct figures figures_of(const struct moments *m)
@@ -67,7 +66,7 @@ static struct figures figures_of(const struct moments *m)
 
 enum { SEEDS = 12, FRAMES = 4 };
 
-// Drops between both radii are what the larger one adds to a picture of the same drops.
+// The larger radius adds the drops between both radii to a picture of the same drops.
 static void expect_meeting(const char *about, const char *settings, const bool *left_out)
 {
     struct moments layers = {0, 0, 0}, drops = {0, 0, 0};
@@ -148,7 +147,7 @@ static void test_by_day(void **state)
     meet("the sun alone", views[0], "taps=4");
 }
 
-// Most drops are small; a few large ones vary the most.
+// Most drops are small, but the few large ones vary the most.
 static void test_sizes(void **state)
 {
     (void)state;
@@ -165,8 +164,8 @@ static void test_under_lamps(void **state)
     meet("lamps beside the view", views[0], "");
 }
 
-// A disk of so many pixels about a lamp that a level camera 7 m high sees ahead is left out:
-// there the few drops next to the lamp outshine all others.
+// Leaves out a disk about a lamp, seen by a level camera 7 m high. There a few drops beside the
+// lamp outshine all others.
 static void leave_out(bool left_out[RAIN_TEXELS], double x_m, double y_m, double z_m,
                       double radius_m)
 {
@@ -193,7 +192,7 @@ static void test_lamps_in_view(void **state)
     expect_meeting("lamps in view", settings, left_out);
 }
 
-// Denser on one side, so that a map turned over is another.
+// Denser on one side, so that a map turned over would differ.
 static void test_map_with_holes(void **state)
 {
     (void)state;
@@ -216,9 +215,9 @@ static void test_map_with_holes(void **state)
     meet("holes, turned", views[1], more);
 }
 
-// A rectangle as the scene, from its first corner to its last. Meshes are made as wide as the city,
-// with their middle over the origin and their lowest corner on the ground: specks in the city's
-// corners keep the rectangle where it is.
+// The scene is a rectangle between its first and last corner. A mesh is scaled to the city's width,
+// centred over the origin and set on the ground. Specks in the city's corners keep the rectangle in
+// its place.
 static void write_plate(const double corners[4][3])
 {
     const double far = (double)CITY_SIDE_M / 2;
@@ -237,8 +236,8 @@ static void write_plate(const double corners[4][3])
 
 #define PLATE "geometry=on depth_map_px=1024 shadow_map_px=1024 "
 
-// It is dry under a roof that reaches over the nearer half of the layers. A slab asks at three
-// places whether it is dry there: the roof ends between two.
+// A roof keeps the nearer half of the layers dry. A slab tests three places; the roof ends between
+// two of them.
 static void test_roofs(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-// Pictures of far rain against an oracle that draws them pixel by pixel in double precision: oracle
-// DEVICE. It rains so densely that no pixel differs from its mean light; how separate drops make
-// pixels differ, meet.c holds against drops.
+// Pictures of far rain against an oracle that draws each pixel in double precision: oracle DEVICE.
+// The rain is so dense that every pixel has its mean light; meet.c checks variation between pixels
+// against drops.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,8 @@ static struct streak_means means;
 
 enum { LAMP = 1, SPOT = 2, SUN = 4, SKY = 8, ALL = LAMP | SPOT | SUN | SKY };
 
-// A lamp beside the view, a spot from the right whose cone ends in the picture, a sun from behind.
+// A lamp beside the view, a spot from the right whose cone ends inside the picture, a sun from
+// behind.
 static const struct streak_light lights[] = {
     {STREAK_LAMP, {-12, 46, 4}, {0, 0, 0}, {30, 20, 10}, 0, 0},
     {STREAK_SPOT, {-16, 45, -4}, {2 / 7.0, -3 / 7.0, 6 / 7.0}, {200, 300, 400}, 8, 45},
@@ -26,7 +27,7 @@ static const struct streak_light lights[] = {
 static const double nearest_m = 8, slab_m = 2;
 enum { LAYERS = 2 };
 
-// Drops a cubic metre that the settings would not have room for.
+// Drops in a cubic metre, more than the settings have room for.
 static const double drops_m3 = 1e10;
 
 #define DENSE                                                                                      \
@@ -45,7 +46,7 @@ static void compare(const struct streak_view *view, const struct streak_far *far
                     const struct rain_texels *dry, const struct rain_texels *wet,
                     struct tally *tally)
 {
-    // Every second column: the oracle asks for each light at so many places of a ray.
+    // Every second column, since the oracle evaluates each light at so many places of a ray.
     for (int i = 0; i < RAIN_TEXELS; i += 2) {
         const int x = i % RAIN_WIDTH, y = i / RAIN_WIDTH;
         double was[3], due[3], most = 0, error = 0;
@@ -163,7 +164,7 @@ static void test_all(void **state)
     expect_equal("all", ALL, 8);
 }
 
-// As dense everywhere.
+// The map has the same density everywhere.
 static void write_map(void)
 {
     float white[4] = {1, 1, 1, 1};

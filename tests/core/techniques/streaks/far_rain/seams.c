@@ -1,6 +1,6 @@
-// Slabs of far rain do not show: seams DEVICE. Rain so dense that a pixel has nearly its mean light
-// is held against the way of each pixel's ray between the two radii, and against itself where the
-// observer passes from slab to slab.
+// Slabs of far rain do not show: seams DEVICE. Dense rain has nearly its mean light in every pixel.
+// That light is compared with the length of each pixel's ray between the two radii. It is also
+// compared with itself as the observer passes from slab to slab.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/tools/expect.h"
 
-// Light of the sky alone, through a level camera, and nothing that hides it.
+// Only light of the sky, a level camera, and nothing that hides.
 #define SEAMS                                                                                      \
     "geometry=off drops=off splashes=off lights=0 streak_opacity=0 streak_gain=0.01 "              \
     "rain_width_m=60 rain_depth_m=60 rain_height_m=60 packets=world local_height_m=0.5 "           \
@@ -28,7 +28,7 @@ static struct streaks *open_at(double x_m, double z_m, double turned_deg)
     return rain_open(all);
 }
 
-// What the rain adds to a picture.
+// The light that rain adds to a picture.
 struct added {
     double light[RAIN_HEIGHT][RAIN_WIDTH];
 };
@@ -49,7 +49,7 @@ static struct added *added_by(struct streaks *s)
     return added;
 }
 
-// The way of a pixel's ray between squares about the observer along x and z.
+// The length of a pixel's ray between two squares about the observer, along x and z.
 static double way_m(int x, int y, double turned_deg)
 {
     const double turned = turned_deg * acos(-1) / 180;
@@ -61,8 +61,8 @@ static double way_m(int x, int y, double turned_deg)
     return (farthest_m - nearest_m) / fmax(along_x, along_z) * sqrt(1 + right * right + up * up);
 }
 
-// In each column light is as the way of its rays, also where slabs along x meet those along z,
-// which is at 45 degrees.
+// A column's light is proportional to its rays' length, even at 45 degrees, where slabs along x
+// meet those along z.
 static void expect_even(double turned_deg)
 {
     struct streaks *s = open_at(0.7, -0.4, turned_deg);
@@ -100,8 +100,8 @@ static void test_no_seam_is_seen(void **state)
     expect_even(-80);
 }
 
-// How much a picture changes, as a share of its light, when the observer moves by 4 mm ahead about
-// a place.
+// How much a picture changes, as a share of its light, when the observer moves 4 mm ahead around a
+// place.
 static double change_about(double z_m)
 {
     struct added *pictures[2];
@@ -122,7 +122,7 @@ static double change_about(double z_m)
     return change / light;
 }
 
-// A slab that is left behind goes bit by bit, and the pattern of the others stays where it is.
+// A slab behind the observer goes gradually, and the pattern of the others stays in place.
 static void test_nothing_pops(void **state)
 {
     (void)state;
@@ -132,7 +132,7 @@ static void test_nothing_pops(void **state)
     assert_below(passing, 1.5 * within);
 }
 
-// As dense everywhere.
+// The map has the same density everywhere.
 static void write_map(void)
 {
     float white[4] = {1, 1, 1, 1};

@@ -1,4 +1,4 @@
-// Rain in the packets of a grid: as dense as a tree's, by chance and by its map.
+// Rain in the packets of a grid has the density of a tree's rain: by chance, and by its map.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,8 +13,8 @@
 #include "tests/oracle/streaks/packets.h"
 #include "tests/tools/expect.h"
 
-// Particles in the squares of a board, under two schemes that only chance tells apart. A grid
-// scatters no more than single particles do, so that its chi-square may be small, but not large.
+// Counts particles in the squares of a board, under two schemes that differ only by chance. A grid
+// scatters no more than single particles, so that its chi-square may be small but not large.
 static void test_grid_agrees_with_trees(void **state)
 {
     (void)state;
@@ -24,7 +24,7 @@ static void test_grid_agrees_with_trees(void **state)
     for (int size = 0; size < 4; size++) {
         int64_t counts[2][SIDE * SIDE] = {{0}}, totals[2];
         double step = 0;
-        const int side = size >= 2 ? 16 : SIDE; // the grid's own, where its cells are large
+        const int side = size >= 2 ? 16 : SIDE; // the grid's own side if its cells are large
         for (int i = 0; i < 2; i++) {
             struct streaks_packets_settings settings = rig_settings(&rig_space, map, 300000);
             settings.scheme = i ? STREAKS_GRID : STREAKS_KD;
@@ -41,12 +41,12 @@ static void test_grid_agrees_with_trees(void **state)
                           (int)((p->x_m / 200 + 1) / 2 * side)]++;
             }
             totals[i] = all.count;
-            // densities come in 255 steps, and are rounded up or down at random
+            // Densities come in 255 steps, and are rounded up or down at random.
             step = settings.drops_m2_s / 8 * 20 * 400 * 400 / (double)info->places / 255;
             if (i && size >= 2)
                 assert_int_equal(info->grid_x, side);
-            // Buckets repeat, but each place turns them by its own; so 1 in 1000 is not met, but
-            // heights are even to a percent.
+            // Buckets repeat, but each place turns them differently. Thus 1 in 1000 is not reached,
+            // but heights are uniform to a percent.
             oracle_evenness(falls, all.count);
             for (int64_t k = 0; k < all.count; k += 1000)
                 assert_below(fabs(falls[k] - (double)k / (double)all.count), 0.01);
@@ -70,14 +70,14 @@ static void test_grid_agrees_with_trees(void **state)
     rg_density_destroy(map);
 }
 
-// However large packets may be, cells are no larger than the map's forms: the share of the rain
-// that falls in other places of a board of 32 x 32 than the map says, but for chance.
+// However large packets may be, cells are no larger than the map's shapes. Measured by the share of
+// the rain that falls in the wrong squares of a 32 x 32 board, apart from chance.
 static void test_grid_has_the_forms_of_its_map(void **state)
 {
     (void)state;
     enum { SIDE = 32 };
     float texels[SIDE * SIDE];
-    for (int i = 0; i < SIDE * SIDE; i++) // a hole in the middle, and a checkered edge
+    for (int i = 0; i < SIDE * SIDE; i++) // a hole in the middle and a chequered edge
         texels[i] = abs(i % SIDE - 16) + abs(i / SIDE - 16) < 9 ? 0.0f
                     : i % SIDE < 5                              ? (float)((i + i / SIDE) % 2)
                                                                 : 0.7f;
@@ -104,7 +104,7 @@ static void test_grid_has_the_forms_of_its_map(void **state)
     rg_density_destroy(map);
 }
 
-// A map of as many texels as the grid has cells keeps its densities exactly.
+// A map with a texel for each of the grid's cells keeps its densities exactly.
 static void test_grid_is_exact_on_its_own_map(void **state)
 {
     (void)state;
@@ -127,7 +127,7 @@ static void test_grid_is_exact_on_its_own_map(void **state)
     rg_density_destroy(map);
 }
 
-// Two places of one bucket are turned differently, and the same in every frame.
+// Two places of one bucket turn differently, and the same way in every frame.
 static void test_grid_places_turn_differently(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Rain in packets: what a packet holds, which scheme is taken, and what is refused.
+// Rain in packets: their contents, the choice of scheme, and refusals.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,8 +11,8 @@
 #include "tests/core/techniques/rigs/packets.h"
 #include "tests/tools/expect.h"
 
-// Each particle lies in exactly one packet, which is no larger than asked for, and inside that
-// packet's place.
+// Each particle is in exactly one packet, inside that packet's rectangle. A packet is no larger
+// than asked for.
 static void check_packets(const struct streaks_packets *packets, int size)
 {
     const struct streaks_packets_info *info = streaks_packets_info(packets);
@@ -38,7 +38,7 @@ static void check_packets(const struct streaks_packets *packets, int size)
     free(all.all);
 }
 
-// Of views of one packet's place only, that packet's particles lie inside it.
+// A view of one packet's place selects that packet, whose particles are inside it.
 static void check_places(const struct streaks_packets *packets, enum streaks_scheme scheme)
 {
     const struct streaks_packets_info *info = streaks_packets_info(packets);
@@ -88,7 +88,7 @@ static void test_packets_are_sound(void **state)
     rg_density_destroy(map);
 }
 
-// Halving until no part exceeds the size leaves parts of n / 2^k, rounded either way.
+// Halving until no part exceeds the size leaves parts of n / 2^k, rounded up or down.
 static void test_kd_halves_are_alike(void **state)
 {
     (void)state;
@@ -113,7 +113,7 @@ static void test_kd_halves_are_alike(void **state)
     rg_density_destroy(map);
 }
 
-// A map with rain on one texel of many: packets stay small where particles crowd, down to the same
+// The map has rain on one texel of many: packets stay small even where particles crowd into one
 // place.
 static void test_crowded(void **state)
 {
@@ -157,8 +157,8 @@ static int64_t packets_of(const struct rg_density *map, struct streaks_packets_s
 static void test_auto_takes_the_fewest(void **state)
 {
     (void)state;
-    // Rain of which most falls in one quarter, and nowhere as much as anywhere else: 7 quarters of
-    // a quad-tree, 8 halves, or a grid of 16 different cells.
+    // Most of this rain falls in one quarter, and the density differs everywhere. It takes 7
+    // quarters of a quad-tree, 8 halves, or a grid of 16 different cells.
     static const float quarter[16] = {1,     0.98f, 0.26f, 0.25f, 0.96f, 0.94f, 0.24f, 0.23f,
                                       0.27f, 0.22f, 0.28f, 0.21f, 0.2f,  0.29f, 0.3f,  0.19f};
     struct rg_density *maps[3] = {rig_uneven_map(), rg_density_gradient(), rig_map(4, 4, quarter)};
@@ -206,7 +206,7 @@ static void test_wrong_settings(void **state)
     wrong[count++].packet_size = 0;
     wrong[count++].packet_size = -5;
     wrong[count++].scheme = (enum streaks_scheme)9;
-    for (int i = 0; i < 4; i++, count++) { // each scheme, without memory for it
+    for (int i = 0; i < 4; i++, count++) { // each scheme without enough memory
         wrong[count].scheme = rig_schemes[i];
         wrong[count].packet_size = 50000;
         wrong[count].memory_bytes = rig_schemes[i] == STREAKS_GRID ? 10000 : 12 * 50000 - 1;
@@ -216,7 +216,7 @@ static void test_wrong_settings(void **state)
         assert_null(streaks_packets_create(&rig_space, map, &wrong[i]));
         assert_int_equal(rig_errors(), 1);
     }
-    // one particle a packet where rain crowds: more cells than a grid may have
+    // One particle a packet with crowded rain: more cells than a grid may have.
     float texels[64 * 64] = {[777] = 1};
     struct rg_density *dot = rig_map(64, 64, texels);
     struct streaks_packets_settings crowded = rig_settings(&rig_space, dot, 50000);
@@ -229,7 +229,7 @@ static void test_wrong_settings(void **state)
     rg_density_destroy(map);
 }
 
-// What is told about memory before it is taken is no less than what is taken, and not far more.
+// The memory announced beforehand is at least the memory taken, and not far more.
 static void test_memory_is_told(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void test_memory_is_told(void **state)
         assert_at_least(info.peak_bytes, sum);
         assert_at_most(info.peak_bytes, 4 * sum);
         streaks_packets_destroy(packets);
-        // exactly this much is enough, and a byte less is not
+        // Exactly this much is enough, and a byte less is not.
         settings.memory_bytes = info.peak_bytes;
         packets = rig_packets(&rig_space, map, &settings);
         streaks_packets_forget(packets);

@@ -1,5 +1,5 @@
-// The particles of rain in packets: where they are, and that they are the same in all trees, at any
-// packet size, with any number of threads.
+// The particles of rain in packets: their places, which are the same in all trees, for any packet
+// size and any number of threads.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,8 +17,8 @@
 
 // --- where particles are ---
 
-// Particles counted over across x down bins of the rain space, and the chi-square of the expected
-// shares; a bin without rain must stay empty.
+// Counts particles over across x down bins of the rain space. Returns the chi-square probability
+// for the expected shares; a bin without rain must stay empty.
 static double binned_chance(const struct rig_particles *all, const double *shares, int across,
                             int down)
 {
@@ -44,7 +44,7 @@ static double binned_chance(const struct rig_particles *all, const double *share
     }
     free(counts);
     const double p = oracle_chi_square_tail(chi_square, degrees);
-    return fmin(p, 2 * (1 - p)); // too good is no chance, either
+    return fmin(p, 2 * (1 - p)); // a fit too good is not chance, either
 }
 
 static void test_counts_follow_the_map(void **state)
@@ -88,7 +88,7 @@ static void test_counts_follow_the_gradient(void **state)
     rg_density_destroy(map);
 }
 
-// Inside a texel of the map rain is even, in x, in y, and in height; and streaks differ evenly.
+// In a texel of the map rain is uniform in x, y and height, and oscillations are equally frequent.
 static void check_evenness(const struct rig_particles *all)
 {
     double *numbers = malloc((size_t)all->count * sizeof(*numbers));
@@ -133,7 +133,7 @@ static void test_particles_are_even(void **state)
     rg_density_destroy(map);
 }
 
-// The table's number (Creus, table 5.3), and what heights make of it.
+// The table's number (Creus, table 5.3), and its change with the height.
 static void test_default_amount(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static int compare_values(const void *a, const void *b)
     return memcmp(a, b, 3 * sizeof(float));
 }
 
-// x, y and packed value of all particles, sorted.
+// The sorted x, y and packed values of all particles.
 static float *sorted_particles(const struct streaks_packets *packets, int64_t *count)
 {
     const struct rig_particles all = rig_read_all(packets, &rig_space, 20);
@@ -276,7 +276,7 @@ static void test_seeds_differ(void **state)
     int64_t same = 0;
     for (int64_t i = 0; i < bytes / 4; i++)
         same += a[i] == b[i];
-    assert_below(same, 100); // zeros of the padding
+    assert_below(same, 100); // zeroes of the padding
     free(a);
     free(b);
     rg_density_destroy(map);

@@ -1,4 +1,5 @@
-// Which packets a view selects: never too few, against brute force in double precision.
+// A view's selection of packets never misses one that is seen, against brute force in double
+// precision.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +21,7 @@ static const float texels[MAP_SIDE * MAP_SIDE] = {
     0.2f, 0.9f, 1,    1,    0.3f, 0,    0.7f, 1, 1,    0.6f, 0.2f, 0.4f,
     0,    0.1f, 0.5f, 0.8f, 1,    0.3f, 0.9f, 0, 0.6f, 0.2f, 0.7f, 1};
 
-// A rain space, what the library makes of it, and the oracle's frame of the same.
+// A rain space with its map, and the oracle's frame of the same space.
 struct scene {
     struct rg_rain_space space;
     struct oracle_frame frame;
@@ -50,7 +51,7 @@ static struct scene make_scene(uint64_t *random, bool slanted)
     return scene;
 }
 
-// What is looked at from where, and what particles draw.
+// A view, the oracle's camera, and the height of the local space.
 struct look {
     struct streaks_view view;
     struct oracle_camera camera;
@@ -67,7 +68,7 @@ static struct look make_look(const struct scene *scene, double height_m, uint64_
     oracle_to_world(&scene->frame, rain, eye);
     struct rg_camera camera = {
         .angle_deg = (float)oracle_uniform(random, 20, 100), .near_plane = 0.1f, .far_plane = 50};
-    for (int i = 0; i < 3; i++) { // of floats, as the camera has them
+    for (int i = 0; i < 3; i++) { // rounded to floats, as the camera has them
         eye[i] = (double)(camera.position[i] = (float)eye[i]);
         target[i] = eye[i] + oracle_uniform(random, -1, 1);
         target[i] = (double)(camera.target[i] = (float)target[i]);
@@ -96,8 +97,8 @@ static bool sees(const struct scene *scene, const struct look *look, const struc
                               random);
 }
 
-// Whether anything that the particle may draw is seen from inside the culling prism: at its
-// packet's height, any, or at its own. One that has just come in may still be a splash where it
+// Whether anything that the particle may draw is seen from inside the culling prism, at any height
+// of its packet or at its own. A particle that has just entered may still be a splash where it
 // left.
 static bool visible(const struct scene *scene, const struct look *look,
                     const struct rig_particle *p, uint64_t *random)
@@ -118,7 +119,7 @@ struct tally {
     int64_t visible, drawn[2], selected, all;
 };
 
-// Selects by rectangles, or the hull. Every particle of which something is seen has to be drawn.
+// Selects by rectangles or by the hull. Every particle with a visible part must be drawn.
 static void check_view(const struct streaks_packets *packets, const struct scene *scene,
                        const struct look *look, const struct rig_particles *all, const bool *seen,
                        struct tally *tally)
@@ -255,8 +256,8 @@ static void test_orders_select_alike(void **state)
     rg_density_destroy(scene.map);
 }
 
-// The hull is as tight as it can be: a packet that it selects has a point near which, to within the
-// margin, something is seen. Looked for on a fine lattice over the packet.
+// The hull is as tight as possible: a packet that it selects has a point near which something is
+// seen, within the margin. The test tries 4000 random points of the packet.
 static void test_hull_is_tight(void **state)
 {
     (void)state;
@@ -291,13 +292,13 @@ static void test_hull_is_tight(void **state)
         }
     }
     assert_above(selected, 200);
-    assert_below(idle * 20, selected); // the lattice misses what is seen of a corner alone
+    assert_below(idle * 20, selected); // random points may miss a corner
     streaks_selection_release(&selection);
     streaks_packets_destroy(packets);
     rg_density_destroy(scene.map);
 }
 
-// A camera that looks away from all rain, or from outside, selects nothing; the world is drawn
+// A camera outside the rain, or that looks away from it, selects nothing. STREAKS_WORLD is drawn
 // anyway.
 static void test_looking_away(void **state)
 {
@@ -322,7 +323,7 @@ static void test_looking_away(void **state)
     rg_density_destroy(map);
 }
 
-// A slab that the frustum does not meet: the hull knows, rectangles do not.
+// A slab that the frustum does not meet: the hull excludes it, and rectangles do not.
 static void test_hull_knows_the_local_space(void **state)
 {
     (void)state;
@@ -352,7 +353,7 @@ static bool lists(const struct streaks_selection *all, const uint32_t *block)
     return false;
 }
 
-// How many of the blocks there are where one in `sparse` is kept, each one of all.
+// How many blocks are kept if one in `sparse` is; each must be one of all blocks.
 static int64_t count_kept(const struct streaks_packets *packets, int sparse)
 {
     struct streaks_view view = rig_everywhere(&rig_space, 20);
@@ -373,8 +374,8 @@ static int64_t count_kept(const struct streaks_packets *packets, int sparse)
     return count;
 }
 
-// Of a sparse rain's blocks one in so many is listed, of large packets and of packets that have
-// fewer blocks than that.
+// A sparse rain lists one block in `sparse`, for large packets and for packets with fewer blocks
+// than that.
 static void test_sparse_rain_is_one_block_in_so_many(void **state)
 {
     (void)state;
@@ -421,7 +422,7 @@ static void test_wrong_views(void **state)
     rg_density_destroy(map);
 }
 
-// More particles than a buffer holds: each is drawn once, from the buffer in which it lies.
+// More particles than one buffer holds: each is drawn once, from its own buffer.
 static void test_packets_across_buffers(void **state)
 {
     (void)state;

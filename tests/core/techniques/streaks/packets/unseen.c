@@ -1,5 +1,5 @@
-// Which particles the rain says are unseen (kernels/streaks/taps/unseen.h): none of which a corner
-// could be drawn, in views of all kinds, and most of those out of sight.
+// Particles that the rain reports as unseen (kernels/streaks/taps/unseen.h). In views of all kinds
+// none of them has a corner to draw, and they include most particles out of sight.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@
 enum { VIEWS = 1500, BLOCKS = 32, PARTICLES = BLOCKS * STREAKS_BLOCK, SIZES = 4, SIDE = 8 };
 enum { FIRST_BLOCK = SIZES * STREAKS_SIZE_WORDS, SURFACES = 20 };
 
-// The images have a level of SIDE x SIDE texels behind their header.
+// After its header an image has one level of SIDE x SIDE texels.
 struct scene {
     float particles[3 * PARTICLES];
     uint blocks[FIRST_BLOCK + BLOCKS * STREAKS_BLOCK_WORDS];
@@ -66,7 +66,7 @@ static void fill(struct scene *s)
         s->surfaces[i] = rg_random(seed, drawn++, 0, 0).x;
 }
 
-// A view along `turn` about s, then tilted, from a place in the rain space, in perspective.
+// A perspective view from a place in the rain space, along `turn` about s, then tilted.
 static m4 view_of(float x, float y, float s)
 {
     const double turn = (double)within(0, 6.2831853f), tilt = (double)within(-1.5f, 1.5f);
@@ -133,7 +133,7 @@ static streaks_params params_of(void)
     return p;
 }
 
-// Of a view's particles, those that the rain says are unseen, and those that are not drawn.
+// Counts a view's particles that the rain reports as unseen, and those that are not drawn.
 static void look(const rg_ctx rg, const streaks_params p, int *unseen, int *dead)
 {
     const rg_draw_state draw = {

@@ -1,7 +1,6 @@
-// What streaks cover, by a law that needs no atlas: cover DEVICE. At each moment of the exposure a
-// drop covers its cross-section, which swings. So the light that drops under an even sky add to a
-// picture is the sum of their mean cross-sections there, whatever the exposure, the speed, the
-// resolution and the view.
+// The area that streaks cover, by a law that needs no atlas: cover DEVICE. At each moment of the
+// exposure a drop covers its cross-section, which swings. So under an even sky drops add the sum of
+// their mean cross-sections to a picture, for any exposure, speed, resolution and view.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +10,13 @@
 
 static const double pi = 3.14159265358979323846;
 
-// So much light that the background of the night counts for nothing.
+// So much light that the night's background does not count.
 enum { MOMENTS = 32, GAIN = 1000, SKY = 16 };
 
 // --- cross-sections ---
 
-// How far a drop's surface is from its middle, in radii: docs/atlas.md. `n` has a length of 1; y
-// is up.
+// The distance of a drop's surface from its middle, in radii (docs/atlas.md). `n` is a unit vector;
+// y is up.
 static double surface_at(double a, double b, double phi, const double n[3])
 {
     const double c = n[1], s = sqrt(fmax(1 - c * c, 0));
@@ -25,8 +24,8 @@ static double surface_at(double a, double b, double phi, const double n[3])
     return 1 + a * (3 * c * c - 1) / 2 + b * 1.5 * s * (5 * c * c - 1) * towards;
 }
 
-// How far the outline of a drop is from its middle, seen from an elevation, in a direction about
-// the view: as far as the surface reaches beside the view.
+// The distance of a drop's outline from its middle, seen from an elevation, in a direction about
+// the view. It is the farthest that the surface reaches to that side.
 static double outline_at(double a, double b, double phi, double elevation, double about)
 {
     double farthest = 0;
@@ -39,7 +38,7 @@ static double outline_at(double a, double b, double phi, double elevation, doubl
     return farthest;
 }
 
-// The mean cross-section of an oscillation over a whole swing, in those of the drop at rest.
+// The mean cross-section of an oscillation over a whole swing, over that of the drop at rest.
 static double section_of(int oscillation, double elevation)
 {
     enum { TIMES = 16, WAYS = 24 };
@@ -58,7 +57,7 @@ static double section_of(int oscillation, double elevation)
 
 enum { STEPS = 18 };
 
-// Of all oscillations, which are equally frequent, at every 5 degrees.
+// The mean of all oscillations, which are equally frequent, at every 5 degrees.
 static double sections[STEPS + 1];
 
 static void find_sections(void)
@@ -70,8 +69,8 @@ static void find_sections(void)
 
 // --- the law ---
 
-// The pixels that a sphere covers, seen in perspective, where its middle is in the picture: those
-// of its solid angle.
+// The pixels of a sphere's solid angle in perspective, if its middle is in the picture; otherwise
+// 0.
 static double pixels_of(const struct streaks *s, double x, double y, double z, double radius_m)
 {
     const streaks_params *p = &s->params;
@@ -85,14 +84,14 @@ static double pixels_of(const struct streaks *s, double x, double y, double z, d
     return section * pi * pow(radius_m / away * focal, 2) / pow(cosine, 3);
 }
 
-// By the settings, or of a spectrum's drops by Atlas' fit.
+// The settings' speed, or Atlas' fit for drops of a spectrum.
 static double speed_of(const struct streaks *s, double radius_m)
 {
     return s->settings.spectrum ? 9.65 - 10.3 * exp(-0.6 * 2000 * radius_m)
                                 : s->settings.fall_speed_m_s;
 }
 
-// The pixels that all drops cover in the mean over the exposure, and how many are seen.
+// The pixels that all drops cover in the mean over the exposure. Counts the drops that are seen.
 static double pixels_due(const struct streaks *s, int *seen)
 {
     const struct rain_places places = rain_read_places(s);
@@ -117,7 +116,7 @@ static double pixels_due(const struct streaks *s, int *seen)
     return sum;
 }
 
-// Of a picture, which is freed.
+// The light of a picture, which is freed.
 static double light_of(struct rain_texels *picture)
 {
     double sum = 0;
@@ -148,7 +147,7 @@ static struct streaks *open_drops(const char *settings, int gain)
     return s;
 }
 
-// The pixels that drops cover, and those that they should.
+// The pixels that drops cover, and those that they should cover.
 struct cover {
     double is, due;
 };
@@ -172,7 +171,7 @@ static void expect_cross_sections(const char *about, const char *settings)
     cover_of(about, settings, GAIN, SKY);
 }
 
-// From so far away that no drop counts much more than another.
+// From so far away that all drops count about the same.
 #define BESIDE "eye_z_m=-26 target_y_m=3 target_z_m=0 "
 
 static void test_views(void **state)
@@ -216,7 +215,7 @@ static void test_sizes(void **state)
                                  "rain_mm_h=10 least_diameter_mm=0.6 kept=section kept_share=0.02");
 }
 
-// --- at the defaults' gain, before the sky by day and by night ---
+// --- at the default gain, before the sky by day and by night ---
 
 static void expect_ratio(const char *about, const struct cover *c, const struct cover *of,
                          double due)
@@ -227,8 +226,8 @@ static void expect_ratio(const char *about, const struct cover *c, const struct 
         fail_msg("%s: %.4f of the light, not %.2f", about, c->is / of->is, due);
 }
 
-// Of as many drops: the light is the same however long they fall and however fast, and goes with
-// the square of their radius. The sky is as bright as it is by day, or a thirtieth of that.
+// For the same number of drops, light does not depend on exposure or speed, and grows with the
+// square of the radius. The sky is as bright as by day, or a thirtieth of that.
 static void test_faint_light(void **state)
 {
     (void)state;
@@ -253,7 +252,7 @@ static void test_faint_light(void **state)
     }
 }
 
-// The most light of the pixels around one.
+// The most light among a pixel and its neighbours.
 static double most_around(const struct rain_texels *picture, int column, int row)
 {
     double most = 0;
@@ -263,7 +262,7 @@ static double most_around(const struct rain_texels *picture, int column, int row
     return most;
 }
 
-// Each drop is seen, however thin its streak is: here a fortieth of a pixel, and for the shorter
+// Every drop is seen, however thin its streak: here a fortieth of a pixel, and with the shorter
 // exposure a fiftieth long.
 static void expect_all_seen(const char *settings)
 {

@@ -1,6 +1,6 @@
-// Furnaces, whose light needs no oracle: furnace DEVICE. Rain before a background as bright as the
-// sky is not seen, and suns that together are that sky light rain as it does. Colours of lights are
-// radiances of a white matt surface (docs/lights.md).
+// Furnaces, whose light needs no oracle: furnace DEVICE. Rain in front of a background as bright as
+// the sky is not seen. Suns that together make a sky light rain as the sky does. Colours of lights
+// are radiances of a white matt surface (docs/lights.md).
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +11,13 @@
 
 static const double pi = 3.14159265358979323846;
 
-// Tests of several devices run side by side.
+// One file for each process, since tests of several devices run side by side.
 static char path[64];
 
-enum { SUNS = 16 }; // a file's most
+enum { SUNS = 16 }; // the most in a file
 
 struct sun {
-    double direction[3]; // the way its light travels
+    double direction[3]; // in which its light travels
     double colour;
 };
 
@@ -46,10 +46,10 @@ static struct rain_texels *draw(const char *settings)
 
 static const struct sun none = {{0, -1, 0}, 0};
 
-// --- before a background as bright as the sky ---
+// --- in front of a background as bright as the sky ---
 
-// How far a picture is from the background, in shares of it: at most, and in the mean, where what
-// is darker counts as positive.
+// The difference of a picture from its background, as shares of it: the largest, and the mean,
+// which counts darker pixels as positive.
 struct distance {
     double farthest, mean;
 };
@@ -67,7 +67,7 @@ static struct distance distance_of(const struct rain_texels *picture, const floa
     return d;
 }
 
-// From the side, from above and from below, with each number of textures.
+// From the side, above and below, with each number of textures.
 static const char *const views[] = {
     "taps=2 target_y_m=3 target_z_m=40",
     "taps=4 eye_y_m=4 target_y_m=0 target_z_m=5",
@@ -75,7 +75,7 @@ static const char *const views[] = {
 };
 enum { VIEWS = sizeof(views) / sizeof(views[0]) };
 
-// What is drawn is rounded to halves once: by less than a thousandth of the background.
+// The picture is rounded to halves once: by less than a thousandth of the background.
 static void expect_unseen(const char *what, const char *view, const float sky[3])
 {
     static const float dark[3] = {0, 0, 0};
@@ -90,7 +90,7 @@ static void expect_unseen(const char *what, const char *view, const float sky[3]
     picture = draw(settings);
     const struct distance shaded = distance_of(picture, sky);
     free(picture);
-    // Black rain is seen, so that there is some.
+    // Black rain is seen, which proves that there is rain.
     assert_above(shaded.mean, 0.02);
     if (!(even.farthest < 1 / 255.0 && fabs(even.mean) < 0.005 * shaded.mean + 1e-3))
         fail_msg("%s, %s: rain is seen before its own sky, by %g of it, and %g in the mean, of %g",
@@ -135,8 +135,8 @@ static double light_with(const struct sun *suns, int count, const float sky[3],
     return light;
 }
 
-// Rings of suns about the vertical, 20 degrees apart, and one at either pole: each as bright as its
-// part of the sphere at a radiance of 1.
+// Rings of suns about the vertical, 20 degrees apart, and one at each pole. Each is as bright as
+// its part of a sphere of radiance 1.
 static int make_suns(struct sun *suns)
 {
     int count = 0;
@@ -160,7 +160,7 @@ static void expect_as_sky(const char *what, const char *view)
     struct sun suns[200];
     const int count = make_suns(suns);
     char settings[384];
-    // So much light that the background counts for nothing.
+    // So much light that the background does not count.
     snprintf(settings, sizeof(settings),
              "time=night streak_gain=300 splash_gain=100 streak_opacity=0 splash_opacity=0 %s %s",
              what, view);

@@ -22,7 +22,7 @@ static const uint16_t *read_level(struct rg_image *image, int which, int layer, 
     return to;
 }
 
-// The pictures as they are on the device, the ends of each joined, and the factors.
+// Reads the device's pictures, whose ends are joined, and the factors.
 static void take_atlas(void)
 {
     struct streaks *s = rain_open("");
@@ -107,7 +107,7 @@ static void make_unit(double a[3])
         a[i] /= length;
 }
 
-// Upright in the picture is the world's y; who looks along z has x on the left.
+// The world's y is up in the picture. For a viewer along z, x is on the left.
 static void look(struct streak_view *view, const struct streaks_settings *set)
 {
     const double eye[3] = {set->eye_x_m, set->eye_y_m, set->eye_z_m};

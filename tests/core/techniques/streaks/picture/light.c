@@ -1,7 +1,7 @@
-// How much of their light rain's layers show, at the gains of the defaults: light DEVICE. What
-// rain adds to a picture is its gain times something, so that the light shown at a gain of 1 is
-// due a hundredth of that at a gain of 100: tests/core/techniques/streaks/picture/cover.c and
-// oracle.c hold the latter against optics.
+// The share of their light that rain's layers show at the default gains: light DEVICE. Rain adds
+// its gain times a constant to a picture. The light at a gain of 1 is thus due a hundredth of the
+// light at a gain of 100. tests/core/techniques/streaks/picture/cover.c and oracle.c check the
+// latter against optics.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static struct streaks *open_sized(const char *settings, int width, int height)
     return (struct streaks *)instance;
 }
 
-// The sum of a picture's greens, with these gains of the rain.
+// The sum of a picture's green, with this gain of drops and splashes.
 static double light_with(struct streaks *s, float gain)
 {
     struct rg_picture picture = {0};

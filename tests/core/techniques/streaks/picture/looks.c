@@ -1,6 +1,6 @@
-// What decides how rain looks, in cases that need no picture of it: looks DEVICE. A part of the
-// atlas is left blank, and what is then missing tells what was read; suns shine from one side, and
-// light is compared with an oracle's through a drop at rest.
+// The look of rain in cases that need no reference picture: looks DEVICE. A blank part of the atlas
+// shows, by what is then missing, what was read. Suns shine from one side, and their light is
+// compared with an oracle's through a drop at rest.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,10 +13,10 @@
 
 static const double pi = 3.14159265358979323846;
 
-// So much light that halves, which cut it off, lose nothing that matters.
+// So much light that rounding down to halves loses nothing that matters.
 enum { GAIN = 1000, SKY = 16 };
 
-// Seen from the side, a pixel is 2 cm and less; level 2 is the first of the small atlas, and the
+// Seen from the side, a pixel is at most 2 cm. Level 2 is the first of the small atlas, and the
 // only one that is read.
 static struct streaks *open_beside(const char *settings)
 {
@@ -33,7 +33,7 @@ static struct streaks *open_beside(const char *settings)
 
 // --- pictures ---
 
-// What the rain adds to the picture, in a colour that all lights and the sky have.
+// The light that rain adds to the picture, in a colour of all lights and the sky.
 struct added {
     double at[RAIN_HEIGHT][RAIN_WIDTH];
 };
@@ -68,7 +68,7 @@ struct seen_at {
     double x, y, pixels_a_metre;
 };
 
-// False where a place is not in the picture.
+// False if a place is not in the picture.
 static bool see(const struct streaks *s, double x, double y, double along, struct seen_at *at)
 {
     const rg_corner c = m4_project(s->params.to_clip, v3_make((float)x, (float)y, (float)along));
@@ -80,11 +80,11 @@ static bool see(const struct streaks *s, double x, double y, double along, struc
 
 // --- atlases with blanks ---
 
-// The first view's rows are 1050 of an atlas' 3606.
+// The first view has 1050 of an atlas' 3606 rows.
 enum { LAYERS = 10 };
 static const double half_a_swing = 1050 / 2.0 / 3606;
 
-// An image's first levels, which are put back as they were.
+// An image's first levels, which are restored afterwards.
 struct kept {
     struct rg_image *image;
     int levels;
@@ -109,7 +109,7 @@ static struct kept keep(struct rg_image *image, int levels)
     return kept;
 }
 
-// Leaves nothing of a share of a layer's rows.
+// Makes a share of a layer's rows blank.
 static void blank(const struct kept *kept, int layer, double share)
 {
     for (int level = 0; level < kept->levels; level++) {
@@ -167,10 +167,10 @@ static void test_oscillations_differ(void **state)
     rain_close(s);
 }
 
-// One whole swing lies in a row of the atlas, from top to bottom. Where its first half is blank,
-// drops are seen in the second half of their swings, which they are in at known heights: each is
-// somewhere in its swing at the end of the exposure, and was cycles before that at its beginning.
-// `faster`: how much faster than the settings' drops theirs swing, as those of another size do.
+// A row of the atlas holds one whole swing, from top to bottom. With its first half blank, drops
+// are seen only in the second half of their swings, at known heights. A drop has some phase at the
+// end of the exposure, and was `cycles` before that at its beginning. Drops swing `faster` times as
+// fast as those of the settings, as other sizes do.
 static void expect_swings(const char *settings, double cycles, float faster)
 {
     char all[256];
@@ -214,7 +214,7 @@ static void expect_swings(const char *settings, double cycles, float faster)
     rain_close(s);
 }
 
-// Rayleigh's frequency of water of 0.0728 N/m.
+// Rayleigh's frequency for water of 0.0728 N/m.
 static double frequency(double radius_m)
 {
     return sqrt(8 * 0.0728 / (1000 * pow(radius_m, 3))) / (2 * pi);
@@ -228,7 +228,7 @@ static void test_drops_swing_as_they_fall(void **state)
     expect_swings("drop_radius_mm=4 exposure_s=0.1", frequency(0.004) * 0.1 * 1.5, 1.5f);
 }
 
-// Drops that fall half as fast as the settings' make streaks half as long.
+// Drops at half the settings' speed make streaks half as long.
 static void test_streaks_are_as_long_as_drops_fall(void **state)
 {
     (void)state;
@@ -270,7 +270,7 @@ static void test_streaks_are_as_long_as_drops_fall(void **state)
 
 static char path[64];
 
-// From an elevation and an azimuth, counted from the viewer's to the right.
+// A sun at an elevation and an azimuth, counted from the viewer's to the right.
 static void write_sun(double elevation, double azimuth, bool shadows)
 {
     const double level = cos(elevation * pi / 180), turned = azimuth * pi / 180;
@@ -285,8 +285,8 @@ static void write_sun(double elevation, double azimuth, bool shadows)
     assert_int_equal(fclose(file), 0);
 }
 
-// Of a drop at rest that a light of irradiance 1 shines on, seen from elevation 0: the mean
-// radiance, and how far to the right of the middle the light is, in radii.
+// A drop at rest under a light of irradiance 1, seen from elevation 0. Its mean radiance, and the
+// distance of its light from the middle to the right, in radii.
 struct glow {
     double radiance, aside;
 };
@@ -318,7 +318,7 @@ static struct glow glow_of(double elevation, double azimuth)
     return (struct glow){sum / hits, moment / sum};
 }
 
-// What a sun adds, and where: the middle of its light, in pixels.
+// A sun's added light, and the middle of that light, in pixels.
 struct lit {
     double light, middle;
 };
@@ -350,8 +350,9 @@ static struct lit lit_by(double elevation, double azimuth, const char *view, dou
     return lit;
 }
 
-// The oracle's rays are few for lobes of 3 degrees, and the atlas blends; light from behind is a
-// hundred times light from beside, and both are off the middle by half a radius and more.
+// Bounds are wide: the oracle's rays are few for lobes of 3 degrees, and the atlas blends. Light
+// from behind is a hundred times light from beside. Both are off the middle by at least half a
+// radius.
 static void test_light_has_a_side(void **state)
 {
     (void)state;
@@ -377,8 +378,8 @@ static void test_light_has_a_side(void **state)
     }
 }
 
-// Light goes on ahead through drops: who looks up at them sees one that stands behind them, above,
-// and who looks down one below.
+// Light goes ahead through drops: looking up, one sees a sun above and behind them; looking down,
+// one below.
 static void test_light_goes_by_the_view(void **state)
 {
     (void)state;
@@ -394,8 +395,8 @@ static void test_light_goes_by_the_view(void **state)
     }
 }
 
-// A map in which all is near the sun leaves the rain dark; one in which all is far leaves it as it
-// is without shadows.
+// A shadow map with everything near the sun darkens the rain; one with everything far away leaves
+// it as without shadows.
 static void expect_shadows(const char *what)
 {
     double light[3];
@@ -458,7 +459,7 @@ static void test_splashes_go_forwards(void **state)
         old += share > 0.6;
         old_seen += share > 0.6 && most > 0;
     }
-    // Some of the old ones lie behind younger ones.
+    // Some old splashes are behind younger ones.
     assert_above(young, 10);
     assert_above(old, 10);
     assert_above(young_seen, 0.9 * young);

@@ -1,6 +1,6 @@
-// Pictures of streaks against an oracle that draws them pixel by pixel in double precision: oracle
-// DEVICE. Where drops are is read back (tests/core/techniques/streaks/particles.c holds that); all
-// else, from the camera to the light that reaches the eye, is the oracle's.
+// Pictures of streaks against an oracle that draws each pixel in double precision: oracle DEVICE.
+// Places of drops are read back (tests/core/techniques/streaks/particles.c checks them). The oracle
+// does all else, from the camera to the light that reaches the eye.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static char path[64];
 
 enum { LAMP = 1, SPOT = 2, SUN = 4, SKY = 8, ALL = LAMP | SPOT | SUN | SKY };
 
-// A lamp among the drops to the left, a spot from the right that holds a part of them, a sun from
+// A lamp among the drops on the left; a spot from the right that lights a part of them; a sun from
 // behind on the right.
 static const struct streak_light lights[] = {
     {STREAK_LAMP, {1.5, 6, -1}, {0, 0, 0}, {30, 20, 10}, 0, 0},
@@ -47,7 +47,7 @@ static struct streak_drop *drops_of(const struct streaks *s, int *count)
         drop->weight = 1;
         drop->oscillation = (int)place[7];
         drop->turn = (double)place[7] - floor((double)place[7]);
-        // Rayleigh's frequency of water.
+        // Rayleigh's frequency for water.
         drop->cycles =
             sqrt(8 * 0.0728 / (1000 * pow(drop->radius_m, 3))) / (2 * pi) * s->settings.exposure_s;
     }
@@ -92,7 +92,7 @@ static struct streak_pixel *pixels_of(const struct rain_texels *dry)
     return pixels;
 }
 
-// Draws rain with these lights, and adds up how far it is from the oracle's.
+// Draws rain with these lights, and adds up its differences from the oracle's.
 static void draw_both(int kinds, int taps, const char *settings, struct tally *tally)
 {
     char all[800];
@@ -166,7 +166,7 @@ static void expect_equal(const char *about, int kinds, int taps)
 static void test_sky(void **state)
 {
     (void)state;
-    // Whatever the textures a light.
+    // The sky does not depend on the number of textures for a light.
     expect_equal("sky", SKY, 2);
 }
 

@@ -1,6 +1,6 @@
-// The view from outside: outside DEVICE. Marks are where the particles of the state are and have
-// the colour of their height, maps lie over what they show, frusta have their lights' colours: all
-// in double precision, from a camera that this test finds for itself.
+// The view from outside: outside DEVICE. Marks are at the particles of the state and have the
+// colour of their height. Maps lie over the places that they show. Frusta have their lights'
+// colours. All in double precision, with a camera that this test finds itself.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/tools/expect.h"
 
-// As the rig's small rain has it.
+// The rig's small rain.
 static const double half_m = 30, height_m = 40, radius_m = 12, local_m = 20, eye_m = 3;
 
 // --- a camera that sees a box whole ---
@@ -44,7 +44,8 @@ static bool project(const struct view *v, const double at[3], double px[2])
     return ahead > 0;
 }
 
-// The largest share of the picture's half that a corner of the box is away from its middle.
+// The largest distance of the box's corners from the picture's middle, as a share of half the
+// picture.
 static double filled(const struct view *v, const struct box *box)
 {
     double most = 0;
@@ -60,7 +61,7 @@ static double filled(const struct view *v, const struct box *box)
     return most;
 }
 
-// From a direction, with an angle of view of 30 degrees, so that the box fills 94 % of the picture.
+// From a direction, with an angle of view of 30 degrees; the box fills 94 % of the picture.
 static struct view look_at(const struct box *box, double turn_deg, double rise_deg)
 {
     const double turn = turn_deg / 180 * M_PI, rise = rise_deg / 180 * M_PI;
@@ -88,7 +89,7 @@ struct mark {
     double fallen;     // 0 at the top, 1 on the ground
 };
 
-// The mark of a particle of the state; false: there is none.
+// The mark of a particle of the state; false if there is none.
 static bool mark_of(const struct view *v, const float *place, struct mark *mark)
 {
     const int state = (int)place[5];
@@ -120,7 +121,7 @@ static double covered(const struct mark *m, double x, double y)
     return ramp(1.25 - off) * ramp(1.25 - fmax(-along, along - length));
 }
 
-// The marks that touch each pixel, and the last of them.
+// How many marks touch each pixel, and the last of them.
 struct touched {
     int count[RAIN_TEXELS];
     double share[RAIN_TEXELS], fallen[RAIN_TEXELS];
@@ -196,7 +197,7 @@ static void check_marks(const char *settings, const struct box *box, double turn
 static void test_marks(void **state)
 {
     (void)state;
-    // The eye stands half way between the local top and ground.
+    // The eye is halfway between the local top and ground.
     const struct box volume = {{-radius_m, eye_m - local_m / 2, -radius_m},
                                {radius_m, eye_m + local_m / 2, radius_m}};
     check_marks("outside=space local_height_m=40 eye_y_m=20 target_y_m=20 culling_radius_m=29 "
@@ -212,7 +213,8 @@ static void test_marks(void **state)
 
 // --- maps ---
 
-// The round gradient over the top plane: 1 in the middle, 0 where the rain space's sides begin.
+// The round gradient over the top plane: 1 in the middle, and 0 from the sides of the rain space
+// on.
 static void test_density_map(void **state)
 {
     (void)state;
@@ -242,7 +244,7 @@ static void test_density_map(void **state)
     rain_close(s);
 }
 
-// A dynamic depth map lies over the culling prism alone, and is as high as the scene there.
+// A dynamic depth map covers only the culling prism, and shows the scene's height there.
 static void test_depth_map(void **state)
 {
     (void)state;
@@ -279,8 +281,8 @@ static void write_light(char path[64])
     fclose(file);
 }
 
-// A frustum of green light is green; and what is drawn over the picture is lines, which leave the
-// most of it as it was.
+// A frustum of green light is green. Only lines are drawn over the picture, so that most of it
+// stays as it was.
 static void test_frusta_and_lines(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
-// How splashes stand: splash DEVICE. Their textures are replaced by a row or a frame of white, and
-// what is lit is held against where it must be: on the surface that is hit, along its normal, as
-// large and for as long as the animation was synthesised, one unlike another, lit by Lambert's law.
+// The shape of splashes: splash DEVICE. With their textures replaced by a row or a frame of white,
+// the lit pixels show their geometry. A splash is on the surface that is hit, along its normal. It
+// has the size and duration of the synthesised animation, differs from others, and is lit by
+// Lambert's law.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,19 +11,19 @@
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/tools/expect.h"
 
-// Of an image of crowns: 21 frames of 6 ms, 48 x 32 texels that show 60 x 40 mm, the impact 8 mm
-// above the lower edge.
+// Crowns have 21 frames of 6 ms and 48 x 32 texels, which show 60 x 40 mm; the impact is 8 mm above
+// the lower edge.
 enum { FADE_RADIUS_M = 20 };
 enum { FRAMES = 21, TEXELS_X = 48, TEXELS_Y = 32, FOOT_ROW = 25, WHITE = 0x3c00 };
 static const double frame_s = 0.006, width_mm = 60, foot = 8.0 / 40, size_differs = 0.15;
 
-// Splashes here are forty times as large, so that rows of their texels are pixels.
+// Splashes here are forty times as large, so that a row of their texels is pixels wide.
 #define WIDE_M 2.4
 
 // --- textures ---
 
-// White in rows first to last of frames first to last, of all materials; black elsewhere, and at
-// all levels but the first unless all rows are white. The textures are this test's own device's.
+// White in these rows of these frames, of all materials; black elsewhere. Levels after the first
+// are black unless all rows are white. The textures belong to this test's own device.
 static void paint(struct streaks *s, int first_row, int last_row, int first_frame, int last_frame)
 {
     static uint16_t texels[TEXELS_Y][TEXELS_X], other[TEXELS_Y][TEXELS_X];
@@ -77,21 +78,21 @@ static bool is_splash(const float *place)
     return (int)place[5] == STREAKS_SPLASH;
 }
 
-// Whether a splash of this reach is in the picture, all but what is below it.
+// Whether a splash with this reach is in the picture, except for its part below the impact.
 static bool is_inside(struct spot at, double reach_px)
 {
     return at.is_seen && at.x > reach_px && at.x < RAIN_WIDTH - reach_px && at.y > reach_px &&
            at.y < RAIN_HEIGHT - reach_px / 2;
 }
 
-// --- what is lit ---
+// --- lit pixels ---
 
 struct lit {
-    double sum, x, y, left, right; // left and right: where the light's halves end
+    double sum, x, y, left, right; // left and right: where half of the light ends
     double most;
 };
 
-// What particle i of the state, alone, adds to the picture without rain.
+// The light that particle i of the state, alone, adds to the picture without rain.
 static double *added_by(struct streaks *s, int64_t i, const struct rain_texels *dry)
 {
     for (int64_t block = 0; block < s->selection.block_count; block++)
@@ -118,7 +119,7 @@ static struct rain_texels *dry_picture(struct streaks *s)
     return dry;
 }
 
-// Calls `see` for splashes that are in the picture, each alone, at some moments.
+// Calls `see` for each splash in the picture, drawn alone, at several moments.
 typedef void see_fn(struct streaks *s, const float *place, const double *added, void *user);
 static void each_splash(struct streaks *s, int moments, see_fn *see, void *user)
 {
@@ -183,7 +184,7 @@ static struct streaks *open_large(const char *settings)
 
 static char path[64];
 
-// A plane that rises towards -z, as wide as the scene's space, which it is scaled to.
+// A plane that rises towards -z, scaled to the width of the scene's space.
 static void write_slope(double degrees)
 {
     const double rise = 2 * tan(degrees / 180 * acos(-1));
@@ -196,13 +197,13 @@ static void write_slope(double degrees)
 
 // --- where they stand ---
 
-// Splashes whose texture is one row of white, and what was seen of them.
+// Splashes whose texture is one white row, and their measurements.
 struct row {
     const double *normal;
-    double above;             // that the row is above the impact, of the picture's height
-    double least_height_m;    // of what is hit
-    int seen, missed, hidden; // in part, by what stands before
-    double least, most;       // times as wide as the settings say
+    double above;             // of the row above the impact, in picture heights
+    double least_height_m;    // of the surface that is hit
+    int seen, missed, hidden; // in part, by things in front
+    double least, most;       // widths over the settings' width
 };
 
 static void see_row(struct streaks *s, const float *place, const double *added, void *user)
@@ -224,14 +225,14 @@ static void see_row(struct streaks *s, const float *place, const double *added, 
     row->hidden += wide < 0.78;
     if (wide < 0.78)
         return;
-    // As high as its size says, which differs.
+    // The height follows the splash's size, which differs.
     const struct spot low =
         spot_of(s, world, row->normal, row->above * tall_m * (1 - size_differs));
     const struct spot high =
         spot_of(s, world, row->normal, row->above * tall_m * (1 + size_differs));
     const double from_x = fmin(low.x, high.x), to_x = fmax(low.x, high.x);
     const double from_y = fmin(low.y, high.y), to_y = fmax(low.y, high.y);
-    // Splashes face the eye, so that off the middle of the picture their nearer half is larger.
+    // Splashes face the eye. Off the picture's middle their nearer half is thus larger.
     if (!(lit.x > from_x - 1.5 && lit.x < to_x + 1.5 && lit.y > from_y - 1 && lit.y < to_y + 1))
         fail_msg("%.2f above: lit at %.2f, %.2f, not %.2f..%.2f, %.2f..%.2f", row->above, lit.x,
                  lit.y, from_x, to_x, from_y, to_y);
@@ -262,7 +263,7 @@ static void expect_row(const char *settings, const double normal[3], int number,
 }
 
 #define STREET "eye_x_m=0 eye_y_m=3 eye_z_m=-15 target_x_m=0 target_y_m=0.3 target_z_m=-4 "
-// So little of a slope that it lies above the ground plane and is as level.
+// A slope so slight that it is level, above the ground plane.
 #define LEVEL                                                                                      \
     "scene=%s rain_height_m=80 eye_x_m=0 eye_y_m=3.2 eye_z_m=-11 target_x_m=0 target_y_m=0.5 "     \
     "target_z_m=0 "
@@ -278,7 +279,7 @@ static void test_on_the_ground(void **state)
     expect_row(settings, upright, 1, 0.1);
     snprintf(settings, sizeof(settings), LEVEL "splash_up=vertical", path);
     expect_row(settings, upright, FOOT_ROW, 0.1);
-    // From near the ground, where what lies below the impact would be hidden.
+    // From near the ground, where parts below the impact would be hidden.
     snprintf(settings, sizeof(settings), LEVEL "eye_y_m=1.8 target_y_m=0.7", path);
     expect_row(settings, upright, FOOT_ROW, 0.1);
     remove(path);
@@ -327,7 +328,8 @@ static double brightest(const double *added)
     return most;
 }
 
-// The frame in white is the seventh: splashes shine as much as their age is near its middle.
+// The seventh frame is white: a splash shines the more, the nearer its age is to that frame's
+// middle.
 enum { SHOWN = 6 };
 
 static void see_frame(struct streaks *s, const float *place, const double *added, void *user)
@@ -355,7 +357,7 @@ static void test_frames_have_their_times(void **state)
     rain_close(s);
 }
 
-// All frames are white: a splash is whole until its last frame, in which it goes out.
+// All frames are white: a splash is whole until its last frame, in which it fades out.
 static void see_end(struct streaks *s, const float *place, const double *added, void *user)
 {
     (void)s;
@@ -380,8 +382,8 @@ static void test_splashes_go_out(void **state)
     rain_close(s);
 }
 
-// Whole up to three quarters of the culling radius, gone at its end, and in between by the way that
-// is left.
+// A splash is whole up to three quarters of the culling radius and gone at its end; in between it
+// fades with the remaining distance.
 static void see_fading(struct streaks *s, const float *place, const double *added, void *user)
 {
     int *counts = user;
@@ -426,7 +428,7 @@ static void see_sun(struct streaks *s, const float *place, const double *added, 
         fail_msg("lit by %.3f, not %.3f", is, *due);
 }
 
-// A sun shines on splashes by the cosine to the normal on which they stand.
+// A sun lights splashes by the cosine to their normal.
 static void test_lamberts_law(void **state)
 {
     (void)state;

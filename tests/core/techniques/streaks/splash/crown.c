@@ -20,7 +20,6 @@ static void cross_unit(const double a[3], const double b[3], double of[3])
         of[i] /= sqrt(squared);
 }
 
-// Sizes of a level.
 static int wide_at(int level)
 {
     return CROWN_WIDE >> level;
@@ -31,13 +30,14 @@ static int tall_at(int level)
     return CROWN_TALL >> level;
 }
 
-// The atlas keeps no opacity below the least normal half.
+// The atlas stores opacities below the smallest normal half as 0.
 static double kept(double opacity)
 {
     return opacity < 1.0 / 16384 ? 0 : opacity;
 }
 
-// The mean of what a texel of a level covers of the level above it, where a side may be odd.
+// The mean of the texels that a texel of a level covers in the level before, whose sides may be
+// odd.
 static double mean_of(const double *above, int level, int x, int y)
 {
     const int wide = wide_at(level - 1), tall = tall_at(level - 1);
@@ -59,7 +59,7 @@ void crown_halve(struct crown_film *film, int frame)
                     kept(mean_of(film->texels[frame][level - 1], level, x, y));
 }
 
-// --- what makes splashes differ: docs/streaks.md ---
+// --- differences between splashes: docs/streaks.md ---
 
 static uint32_t chance_of(uint32_t number)
 {
@@ -83,7 +83,7 @@ static double texel(const struct crown_film *film, int frame, int level, int x, 
     return film->texels[frame][level][y * wide + x];
 }
 
-// At a place from the upper left, 0 to 1.
+// At a place from the upper left corner, 0 to 1.
 static double frame_at(const struct crown_film *film, int frame, int level, double u, double v)
 {
     const double x = u * wide_at(level) - 0.5, y = v * tall_at(level) - 0.5;
@@ -95,7 +95,7 @@ static double frame_at(const struct crown_film *film, int frame, int level, doub
                 s * texel(film, frame, level, x0 + 1, y0 + 1));
 }
 
-// A frame shows the middle of its time, and the last one goes out.
+// A frame shows the middle of its time, and the last one fades out.
 static double film_at(const struct crown_splash *splash, int level, double u, double v)
 {
     const double passed = splash->age_s / splash->lasts_s * CROWN_FRAMES;
@@ -127,8 +127,8 @@ void crown_reach(const struct crown_eye *eye, const struct crown_splash *splash,
     box[3] = is_known ? (int)fmin(y + reach + 1, eye->height) : eye->height;
 }
 
-// Whether a picture from `c` on, `s` across and `t` along in clip space, covers a pixel. Its
-// corners are snapped to 1/256 pixel, as what is drawn is.
+// Whether a picture covers a pixel. It begins at `c` and spans `s` and `t` in clip space; its
+// corners are snapped to 1/256 pixel, as when drawn.
 static bool covers(const struct crown_eye *eye, const double c[4], const double s[4],
                    const double t[4], int x, int y)
 {
@@ -145,8 +145,8 @@ static bool covers(const struct crown_eye *eye, const double c[4], const double 
     return oracle_covers(corners, 4, x, y);
 }
 
-// The picture stands on its foot, a fifth of its height above its lower edge, and faces the eye as
-// far as its axis lets it.
+// The picture stands on its foot, which is a fifth of its height above its lower edge. It turns to
+// the eye as far as its axis allows.
 bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, int x, int y,
                 struct crown_pixel *pixel)
 {
@@ -170,7 +170,7 @@ bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, 
     clip_of(eye, across, 0, s);
     clip_of(eye, along, 0, t);
     clip_of(eye, middle, 1, m);
-    // The place whose clip coordinates over w are the pixel's.
+    // Solves for the place whose clip coordinates over w are the pixel's.
     const double px = (x + 0.5) / eye->width * 2 - 1, py = (y + 0.5) / eye->height * 2 - 1;
     const double a = s[0] - px * s[3], b = t[0] - px * t[3], e = px * c[3] - c[0];
     const double d = s[1] - py * s[3], f = t[1] - py * t[3], g = py * c[3] - c[1];

@@ -1,5 +1,6 @@
 // Pictures of splashes against an oracle, one pixel at a time: pictures DEVICE. With an opacity of
-// 0 splashes only add light, with a gain of 0 they only hide, so that their order does not matter.
+// 0 splashes only add light, and with a gain of 0 they only hide. In both cases their order does
+// not matter.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,7 +84,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The radiance of what is matt and white, by Lambert's law.
+// The radiance of a white matt surface, by Lambert's law.
 static double light_at(const struct lamp *lamp, const double at[3], const double normal[3])
 {
     double towards[3], squared = 0;
@@ -107,11 +108,11 @@ static double light_at(const struct lamp *lamp, const double at[3], const double
 
 // --- scenes ---
 
-// A plane that rises towards -z, with a normal that its ten bits a component hold exactly, as wide
-// as the small city; and a fence on it that hides what is behind.
+// A plane that rises towards -z, as wide as the small city. Ten bits a component hold its normal
+// exactly. A fence on it hides things behind.
 static double slope[3] = {0, 55 / 73.0, 48 / 73.0};
 static const double on_slope[3] = {0, 115, 0};
-// In the file's units: the scene is made as high as the city.
+// The file's unit in metres: the scene is scaled to the city's height.
 static double unit_m = 115 * 55 / 48.0;
 static const double fence_x[2] = {-0.03, 0.004}, fence_z = 0.004, fence_m = 2;
 
@@ -137,7 +138,7 @@ static bool is_cut(const struct crown_eye *eye, const struct crown_pixel *pixel)
     const double fence[3] = {0, 0, unit_m * fence_z};
     if (crown_hidden(eye, pixel, on_slope, slope))
         return true;
-    // Where the ray goes through the fence's plane.
+    // The place where the ray crosses the fence's plane.
     const double met = (fence[2] - eye->at[2]) / (pixel->at[2] - eye->at[2]);
     const double x = eye->at[0] + met * (pixel->at[0] - eye->at[0]);
     const double y = eye->at[1] + met * (pixel->at[1] - eye->at[1]);
@@ -172,14 +173,14 @@ enum { VIEWS = sizeof(views) / sizeof(views[0]) };
     "drops=off splash_width_mm=%d drops_m2_s=%g view_angle_deg=30 packets=world blocks=all "       \
     "splash_gain=%g splash_opacity=%g time=%s culling_radius_m=30 %s"
 
-// --- what must be seen ---
+// --- expected pictures ---
 
 struct due {
     double light[RAIN_TEXELS], left[RAIN_TEXELS], peak[RAIN_TEXELS], most_hidden;
     int layers[RAIN_TEXELS], splashes, cut;
 };
 
-// What a picture is drawn with.
+// The inputs of a picture.
 struct asked {
     const struct view *view;
     const struct lamp *lamp;
@@ -214,14 +215,14 @@ static struct crown_splash splash_of(const struct streaks *s, const struct view 
     };
     rg_rain_world_point(&s->space, rain, splash.foot);
     memcpy(splash.up, view->normal, sizeof(splash.up));
-    // On the plane itself, where the map of what is hit has a height a texel.
+    // On the plane itself, since the map of heights has one height a texel.
     const double from[3] = {splash.foot[0] - on_slope[0], 0, splash.foot[2] - on_slope[2]};
     if (view->normal[2] > 0)
         splash.foot[1] = on_slope[1] - dot(from, slope) / slope[1];
     return splash;
 }
 
-// A splash's light at a pixel, and what it hides there. Where it is cut off, it would have shone.
+// A splash's light at a pixel. A splash that is cut off there would have had `full`.
 struct glow {
     double full;
     bool is_there, is_cut;
@@ -293,7 +294,7 @@ struct verdict {
     double is, due;
 };
 
-// Light is rounded in each layer: by `rounded` at most.
+// Each layer rounds light, by `rounded` at most.
 static void judge(struct verdict *v, double is, double due, double peak, double rounded)
 {
     if (!(peak > 0))
@@ -369,7 +370,7 @@ static void test_light_of_small_ones(void **state)
     expect_light(&views[0], &lamps[3], 300, 40);
 }
 
-// Ten bits a component turn this normal by 0.02 degrees, and would make it longer by 0.13 %.
+// Ten bits a component turn this normal by 0.02 degrees, and would lengthen it by 0.13 %.
 static void test_light_on_thirty_degrees(void **state)
 {
     (void)state;
