@@ -1,11 +1,11 @@
-// What the styles are told. Colours are display values, 0 to 1: their squares are light.
+// The parameters of the styles. Colours are display values, 0 to 1: their squares are light.
 #ifndef RG_KERNELS_CARTOON_SCENE_SHADE_PARAMS_H
 #define RG_KERNELS_CARTOON_SCENE_SHADE_PARAMS_H
 
 #include "kernels/dialect/matrix.h"
 
-// Tones of hatching, the last of which is blank paper. Two layers of the strokes hold them in their
-// channels: tones 0 to 3 and 3 to 6.
+// Tones of hatching with strokes, the darkest first; the one after them, 6, is blank paper. The
+// channels of two layers of strokes hold tones 0 to 3 and 3 to 6.
 #define CARTOON_TONES 6
 
 RG_STRUCT(cartoon_shade_params)
@@ -39,10 +39,10 @@ RG_STRUCT(cartoon_shade_params)
     // Cartoon.
     float shadow_tone; // what the material's colour is multiplied by
     float middle_tone;
-    float middle_from; // from which cosine on
+    float middle_from; // the cosine from which on a tone begins
     float lit_from;
     float per_softness; // 1 over the width of the step between tones, as cosine
-    float glint_from;   // where a highlight ends, of its brightest place
+    float glint_from;   // a highlight's edge, as a share of its brightest place
     float shadow_blue;  // that the darkest shadow gets
     // Hatching.
     float ambient;  // tone of what faces away from the light
