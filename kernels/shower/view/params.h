@@ -1,4 +1,4 @@
-// What the pictures of shower are drawn with.
+// The parameters of shower's pictures.
 #ifndef RG_KERNELS_SHOWER_VIEW_PARAMS_H
 #define RG_KERNELS_SHOWER_VIEW_PARAMS_H
 
@@ -12,7 +12,7 @@ RG_STRUCT(shower_view_params)
     float focal_px;                // pixels a metre at a distance of one
     float opacity;                 // of a drop as wide as a pixel or wider
     float mean;                    // of the drop's texture, 0 to 1
-    float r, g, b;                 // light of what is opaque
+    float r, g, b;                 // light of an opaque drop
 };
 RG_STRUCT_SIZE(shower_view_params, 88)
 
