@@ -30,7 +30,7 @@ struct rg_camera_axes {
 };
 struct rg_camera_axes rg_camera_axes(const struct rg_camera *camera);
 
-// Where a thing stands in the world, whatever its own bounds are.
+// The placement of a thing in the world, whatever its own bounds are.
 struct rg_placement {
     float size;        // the longest side of its bounds is scaled to this
     float turn_deg[3]; // about its centre: first the x axis, then y, then z; right-handed

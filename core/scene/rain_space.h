@@ -1,5 +1,5 @@
 // The rain space is the box in which it rains (Creus, section 4.2). This file also has the rain
-// frame, the local space around the observer, and how far drops have fallen.
+// frame, the local space around the observer, and the distance that drops have fallen.
 //
 // The rain frame has coordinates in metres along three orthonormal axes: s along the fall, x and y
 // across it, measured from the middle of the box's top plane. x cross y is s; rain that falls
