@@ -5,9 +5,9 @@
 #include "kernels/dialect/vec.h"
 
 // The share of unpolarised light that is reflected, by Fresnel's equations. `ratio` is the index of
-// refraction on the side that the light comes from over that on the other side; the cosines, not
-// negative, are those of the angles between the surface's normal and the light before and after.
-// Callers do not ask if nothing passes (rg_cos_refracted2 is not above 0).
+// refraction on the side that the light comes from, over that on the other side. The cosines, not
+// negative, are of the angles between the surface's normal and the light before and after. Callers
+// do not ask if nothing passes (rg_cos_refracted2 is not above 0).
 RG_FN float rg_reflectance(float cos_in, float cos_out, float ratio)
 {
     float across = (ratio * cos_in - cos_out) / (ratio * cos_in + cos_out + 1e-12f);

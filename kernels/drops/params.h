@@ -161,7 +161,7 @@ RG_FN bool drops_holds(drops_params p, float x, float y)
            y < rg_to_float(p.rows) * p.cell_mm;
 }
 
-// How many cells away a change acts in one pass.
+// The distance in cells over which a change acts in one pass.
 RG_FN int drops_reach(drops_params p)
 {
     return 2 * p.apart;

@@ -48,7 +48,7 @@ RG_FN drops_way drops_way_of(drops_params p, uint mass, float x0, float y0, floa
     return w;
 }
 
-// How far along the way a hemisphere stands.
+// The place of a hemisphere along the way.
 RG_FN float drops_place_of(drops_params p, drops_way w, int place)
 {
     return place == w.places - 1 ? w.far : rg_to_float(place + 1) * p.spacing_mm;

@@ -4,9 +4,9 @@
 
 #include "kernels/dialect/lang.h"
 
-// Floats a quad: centre x and y in clip space; half its length and half its width in the target's
-// heights; its angle at the start in radians; the growth of the angle for each 1 of `turned`, -1 to
-// 1; depth; a colour.
+// Floats of a quad: centre x and y in clip space; half its length and half its width in the
+// target's heights; its angle at the start in radians; the growth of the angle for each 1 of
+// `turned`, -1 to 1; depth; a colour.
 #define RASTER_QUAD_WORDS 11
 
 RG_STRUCT(raster_quads_params)

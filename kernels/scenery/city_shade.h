@@ -68,7 +68,7 @@ RG_FN uint scenery_word(rg_ctx rg, scenery_seen s, int word)
     return surfaces_at(rg, s.first_word + word);
 }
 
-// How wet a surface gets, 0 to 1.
+// The wetness that a surface gets, 0 to 1.
 RG_FN float scenery_wetness(uint normal)
 {
     return rg_to_float(normal >> 30) * (1.0f / 3.0f);

@@ -68,8 +68,8 @@ RG_STRUCT(shower_params)
     float wind_x, wind_z; // m/s (eqs. 9 and 11)
     float fall_m_s;       // of a new particle (eq. 10)
     float gravity_m_s2;   // (eq. 13)
-    // The wind through the region, relative to the viewer. Of the particles that leave on the left,
-    // the share that comes in again on the right, as many as the wind blows in there; and vice
+    // The wind through the region, relative to the viewer: the share of the particles leaving on
+    // the left that comes in again on the right, as many as the wind blows in there; and vice
     // versa.
     float left_to_right, right_to_left;
     float thinning_m; // distance that it carries away from the viewer in a step, or 0
@@ -87,7 +87,7 @@ RG_STRUCT(shower_params)
     // The ground, and the scene seen from above.
     float ground_m;
     float map_x, map_z;         // its first texel's corner
-    float map_per_x, map_per_z; // maps a metre
+    float map_per_x, map_per_z; // maps per metre
     float map_top_m, map_height_m;
 };
 RG_STRUCT_SIZE(shower_params, 64)

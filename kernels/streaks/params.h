@@ -26,7 +26,7 @@ RG_STRUCT(streaks_params)
     float eye_x, eye_y, eye_s;
     float radius;               // of the culling prism, where particles are culled one by one
     float map_x, map_y;         // the depth map's first texel
-    float map_per_x, map_per_y; // maps a metre
+    float map_per_x, map_per_y; // maps per metre
     float map_top, map_height;  // s of depth 0, and from there to depth 1
     float ground;               // s of the ground plane, which is hit off the map
     float fall;                 // way of a drop in the exposure, upwards; of the settings' drop
@@ -50,7 +50,7 @@ RG_STRUCT(streaks_params)
     int paper_angles;          // whether a view from below counts as one from above (section 4.3.1)
     int first_level;           // the first of the full atlas' levels that is stored
     int last_level;            // the last one that is read
-    float focal_px;            // pixels a metre at a distance of one
+    float focal_px;            // pixels per metre at a distance of one
     float sky_r, sky_g, sky_b; // light from all around
     float gain, opacity;       // of streaks
     float splash_gain, splash_opacity;

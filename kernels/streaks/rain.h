@@ -1,6 +1,6 @@
 // streaks: particles as billboards, drops and splashes alike (Creus, section 4.4.2). A program
-// includes taps/light.h, and before it defines STREAKS_TAPS, the streak textures that are read for
-// each light: 2 blend views, 4 the light's azimuths too, and 8 its elevations as well.
+// defines STREAKS_TAPS, the number of streak textures that are read for each light, and includes
+// taps/light.h. 2 textures blend views, 4 the light's azimuths too, and 8 its elevations as well.
 #include "kernels/dialect/math.h"
 #include "kernels/streaks/cells.h"
 #include "kernels/scenery/light.h"
@@ -36,8 +36,9 @@ RG_STRUCT(streaks_billboard)
     float nearer; // distance by which it is drawn nearer than it is, in metres along the view
     uint up;      // of a splash: streaks_up_pack of its upward direction
     float shown;  // a drop's elevation of the camera, in steps of the atlas; a splash's frame
-    // The time that a drop covers a place on its way, relative to the atlas' drop, times the number
-    // of drops that it stands for; for a splash, that number faded at its end and in the distance.
+    // For a drop, the time for which it covers a place on its way, relative to the atlas' drop,
+    // times the number of drops that it stands for. For a splash, that number, faded at its end and
+    // in the distance.
     float share;
     // For drops. Lengths are in its radii, as the eye sees them.
     float way;     // how far it falls in the exposure
@@ -374,7 +375,7 @@ RG_STRUCT(streaks_spot)
     float depth;
 };
 
-// From the eye through a place of the picture, as long as 1 along the view.
+// The ray from the eye through a place of the picture, as long as 1 along the view.
 RG_FN v3 streaks_ray(streaks_params p, float x, float y)
 {
     return v3_make(p.rays.xx * x + p.rays.xy * y + p.rays.xz,

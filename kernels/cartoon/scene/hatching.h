@@ -71,7 +71,7 @@ RG_FN float cartoon_level(rg_ctx rg, cartoon_uv at, int tone, float t, int level
     return cartoon_mix(above, below, y - top);
 }
 
-// How light the strokes are, 0 to 1, for a light of 0 to 1.
+// The lightness of the strokes, 0 to 1, for a light of 0 to 1.
 RG_FN float cartoon_hatch(rg_ctx rg, cartoon_uv at, float light, float lod)
 {
     float tones = rg_clamp(light, 0.0f, 1.0f) * rg_to_float(CARTOON_TONES);

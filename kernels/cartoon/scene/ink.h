@@ -2,9 +2,9 @@
 // pixels (McGuire and Hughes, 2004). A pixel keeps 1 - ink as its depth, so that the darkest of
 // crossing lines stays, in whatever order they are drawn.
 //
-// A pixel of a line is drawn if the nearest point of the line's axis is seen: if the depth map has
-// nothing nearer in that point's pixel, or in one beside it. So a line keeps its whole width beside
-// surfaces that it bounds, and ends where it goes behind another.
+// A pixel of a line is drawn if the nearest point of the line's axis is seen. It is if the depth
+// map has nothing nearer in that point's pixel, or in one beside it. So a line keeps its whole
+// width beside surfaces that it bounds, and ends where it goes behind another.
 #include "kernels/cartoon/scene/ink_params.h"
 #include "kernels/dialect/draw/line.h"
 

@@ -49,7 +49,7 @@ RG_STRUCT(cartoon_shade_params)
     float lit;      // and of what faces it
     float wash;     // the material's share
     float per_tile; // tiles of strokes a metre
-    float lod;      // level of the strokes at a distance of 1 m: log2 of their texels a pixel
+    float lod;      // level of the strokes at a distance of 1 m: log2 of their texels per pixel
 };
 RG_STRUCT_SIZE(cartoon_shade_params, 52)
 

@@ -19,7 +19,7 @@ RG_STRUCT(cartoon_water_params)
     // the grid
     float low_x;
     float low_z;
-    float per_column_x; // columns a metre
+    float per_column_x; // columns per metre
     float per_column_z;
     // volumes
     float units; // of the heaviest drop

@@ -54,7 +54,7 @@
 // and must return the same. `cpu` lists pixels of plain records apart; on other devices
 // rg_all_plain is 0.
 //
-// A program whose fragments read most words of a long record defines RG_COLUMNS: `cpu` then reads
+// A program whose fragments read most words of a long record defines RG_COLUMNS. `cpu` then reads
 // the record once for a primitive's listed pixels, and spreads its words, instead of gathering
 // them.
 #ifndef RG_KERNELS_DIALECT_DRAW_DRAW_H

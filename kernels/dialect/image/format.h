@@ -9,7 +9,7 @@
 
 #include "kernels/dialect/lang.h"
 
-// --- RGBA8: unsigned normalised, 1 word a texel ---
+// --- RGBA8: unsigned normalised, 1 word per texel ---
 
 RG_FN uint rg_unorm8(float v)
 {
@@ -27,13 +27,13 @@ RG_FN rgba rg_rounded_RGBA8(rgba c)
                    rg_rounded_unorm8(c.a));
 }
 
-// Drivers may multiply by 1/255 where we divide by 255; the integer behind both is the same.
+// Drivers may multiply by 1/255 where we divide by 255; both give the same integer.
 RG_FN rgba rg_fetched_RGBA8(rgba c)
 {
     return rg_rounded_RGBA8(c);
 }
 
-// --- RGBA16F: half floats, 2 words a texel. Subnormal halves are stored as zero. ---
+// --- RGBA16F: half floats, 2 words per texel. Subnormal halves are stored as zero. ---
 
 // The magnitude cut off to one that a half can hold, as a float's bits: at most 65504, also for
 // NaN.
@@ -56,8 +56,8 @@ RG_FN rgba rg_rounded_RGBA16F(rgba c)
                    rg_rounded_half(c.a));
 }
 
-// The half nearest to a float; of two as near, the even one. Between 0 and the least normal half
-// there is none.
+// The half nearest to a float; of two as near, the even one. There is none between 0 and the least
+// normal half.
 RG_FN float rg_nearest_half(float v)
 {
     uint bits = rg_float_bits(v);
@@ -114,14 +114,14 @@ RG_FN float rg_unpack_half(uint half_bits)
     return rg_unpack_upper_half(half_bits << 16);
 }
 
-// --- R16F: one half float, half a word a texel; fetched only ---
+// --- R16F: one half float, half a word per texel; fetched only ---
 
 RG_FN rgba rg_fetched_R16F(rgba c)
 {
     return c;
 }
 
-// --- RGBA32F and R32F: floats as they are, 4 words and 1 word a texel ---
+// --- RGBA32F and R32F: floats as they are, 4 words and 1 word per texel ---
 
 RG_FN rgba rg_rounded_RGBA32F(rgba c)
 {
@@ -143,14 +143,14 @@ RG_FN rgba rg_fetched_R32F(rgba c)
     return c;
 }
 
-// --- D32F: the depth of a DRAW pass's target, a float from 0 to 1, 1 word a texel ---
+// --- D32F: the depth of a DRAW pass's target, a float from 0 to 1, 1 word per texel ---
 
 RG_FN rgba rg_fetched_D32F(rgba c)
 {
     return rg_rgba(c.r, 0.0f, 0.0f, 1.0f);
 }
 
-// --- RG11B10F: unsigned floats of 11, 11 and 10 bits, 1 word a texel; fetched only ---
+// --- RG11B10F: unsigned floats of 11, 11 and 10 bits, 1 word per texel; fetched only ---
 
 RG_FN float rg_unpack_float11(uint bits)
 {

@@ -1,5 +1,5 @@
-// The water's surface between the cells of the slot height, which the program that includes this
-// file has: a bicubic B-spline over 4 x 4 cells, with its slope and bend, which are continuous.
+// The water's surface between the cells of the slot height, which the including program has. It is
+// a bicubic B-spline over 4 x 4 cells, with its slope and bend, which are continuous.
 #ifndef RG_KERNELS_DROPS_VIEW_SURFACE_H
 #define RG_KERNELS_DROPS_VIEW_SURFACE_H
 

@@ -123,8 +123,8 @@ RG_FN uint or_else(uint first, uint second, uint third)
     return two | (third & mask_of(two == 0u));
 }
 
-// The owner that spreads to a cell, as in two passes over the cells without one: the first takes it
-// from below, else from the right; the second, after that, from above, else from the left.
+// The owner that spreads to a cell, as in two passes over the cells without one. The first takes it
+// from below, else from the right. The second, after that, takes it from above, else from the left.
 RG_FN uint owner_around(rg_ctx rg, drops_params p, int cell)
 {
     int down = p.down_cell;

@@ -1,6 +1,6 @@
 // flow: spreads the glow along one direction. Weights are the square of the distance to the blur's
-// end, over their sum, and light that would leave the image is mirrored back, so that none is made
-// or lost.
+// end, over their sum. Light that would leave the image is mirrored back. So no light is made or
+// lost.
 #include "kernels/flow/glow/params.h"
 
 #define RG_PARAMS flow_glow_params

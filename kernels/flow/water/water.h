@@ -38,7 +38,7 @@ RG_STRUCT(flow_params)
     float capacity;         // most water that a texel keeps
     float remainder_scale;  // entries of the remainder map per unit of water
     int noise_size;         // texels along a side of the noise map
-    float noise_step;       // noise texels a pane texel
+    float noise_step;       // noise texels per pane texel
     float noise_x, noise_y; // where the window begins, in noise texels
     float sweep; // for texels that keep directions: the neighbours' share in a texel's own
 };
@@ -90,8 +90,8 @@ RG_FN float flow_given(flow_params p, float speed, float water, float remainder,
 }
 
 // The parts of a texel's given water in each of two directions: to the next texel, to the one after
-// it (section 4.2.3, figure 13), and, if thresholds let it, to the two beyond, which the paper
-// leaves open. They add up to `given` exactly.
+// it (section 4.2.3, figure 13), and, if thresholds let it, to the two beyond. The paper leaves
+// these two open. All parts add up to `given` exactly.
 RG_STRUCT(flow_parts)
 {
     float near_a;

@@ -124,8 +124,9 @@ RG_STRUCT(streaks_far_lit)
     float square;
 };
 
-// Weights of two neighbours along an axis of the atlas: of each for the mean; for the mean square,
-// of the first one's square, of the product of both, and of the second one's square.
+// Weights of two neighbours along an axis of the atlas. `parts` has those of each for the mean.
+// `squares` has those for the mean square: of the first one's square, of the product of both, and
+// of the second one's square.
 RG_STRUCT(streaks_far_blend)
 {
     int low; // the first neighbour
@@ -260,7 +261,8 @@ RG_FN float streaks_far_strength(float beside2, float x)
     return 1.0f / (beside2 + x * x);
 }
 
-// From the middle to a place of Gauss' rule of two points, which is at 1 / sqrt(3) of the half.
+// The distance from the middle to a place of Gauss' rule of two points, which is at 1 / sqrt(3) of
+// the half.
 #define STREAKS_FAR_NODE 0.288675135f
 
 RG_FN float streaks_far_tangent(float angle)
@@ -386,8 +388,8 @@ RG_FN float streaks_far_grain(streaks_far_params p, streaks_far_way way)
     return streaks_far_random(slab, column, rg_to_uint(rg_to_int(row)) & 0xffffu);
 }
 
-// Turns uniform numbers, 0 to 1, into numbers with a mean of 1 and this variance: uniform ones up
-// to a variance of a third, beyond it with more and more zeroes.
+// Turns uniform numbers, 0 to 1, into numbers with a mean of 1 and this variance. These are uniform
+// up to a variance of a third; beyond it, more and more of them are 0.
 RG_FN float streaks_far_spread(float random, float variance)
 {
     float some = rg_min(4.0f / (3.0f * (1.0f + variance)), 1.0f);

@@ -64,7 +64,7 @@ RG_STRUCT(cartoon_hit)
 {
     v3 at;
     float share; // of the way, there
-    float step;  // the drop had not hit yet this much of the way before
+    float step;  // at share - step the drop had not hit yet
 };
 
 // Bisects the way from the drop's old place to its new one, until the ends are precision_m apart.
