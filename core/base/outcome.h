@@ -1,5 +1,5 @@
-// How work on a device ended: one enum with one word per value, used from a worker that crashed up
-// to the exit status. Bad usage and bad input are no outcomes, because no work began.
+// The outcome of work on a device: one enum with one word per value, used from a worker that
+// crashed up to the exit status. Bad usage and bad input are no outcomes, because no work began.
 #ifndef RG_CORE_BASE_OUTCOME_H
 #define RG_CORE_BASE_OUTCOME_H
 

@@ -1,9 +1,9 @@
 // The checked device: every call of a backend goes through core/device.
 //
-// It checks all arguments and refuses with one logged line that names the object and the number;
-// splits runs that exceed a device's work-group limits; counts work; and finds what was not
-// destroyed. This header has devices, and includes what is done on them: objects.h, buffers and
-// images; pass.h, runs of kernels; work.h, the counts.
+// It checks all arguments, and refuses bad ones with one logged line that names the object and the
+// number. It also splits runs that exceed a device's work-group limits, counts work, and finds
+// objects that were not destroyed. This header has devices, and includes their operations:
+// objects.h, buffers and images; pass.h, runs of kernels; work.h, the counts.
 #ifndef RG_CORE_DEVICE_DEVICE_H
 #define RG_CORE_DEVICE_DEVICE_H
 

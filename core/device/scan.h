@@ -1,8 +1,8 @@
 // Prefix sums and stable compaction on a device: how items find their place without atomics.
 //
 // The dialect has no memory shared by a work group, so each item sums a chunk of RG_SCAN_CHUNK
-// elements one after the other, and the chunks' sums are scanned in the same way, level by level.
-// The result is the same in any order of the items. Buffers hold uints, one word for each element.
+// elements one after the other. The chunks' sums are scanned in the same way, level by level. The
+// result is the same in any order of the items. Buffers hold uints, one word for each element.
 #ifndef RG_CORE_DEVICE_SCAN_H
 #define RG_CORE_DEVICE_SCAN_H
 

@@ -1,5 +1,5 @@
-// Counts of the work done on a device since it was opened, and on request exact counts of what its
-// passes do: devices that do the same work have the same counts, however they schedule it.
+// Counts of the work done on a device since it was opened, and on request exact counts of its
+// passes' work. Devices that do the same work have the same counts, however they schedule it.
 //
 // Exact counting makes each draw wait and reads its primitives on the host, so that counting runs
 // are never timing runs.

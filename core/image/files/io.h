@@ -1,7 +1,7 @@
 // Picture files: EXR, PNG, Radiance HDR and TIFF, chosen by the file's extension.
 //
 // EXR and PNG go through their own C libraries, because OpenImageIO takes a quarter of a second to
-// load its 260 shared libraries; the other formats, and OpenImageIO's comparison, load it when they
+// load its 260 shared libraries. The other formats, and OpenImageIO's comparison, load it when they
 // first need it.
 #ifndef RG_CORE_IMAGE_FILES_IO_H
 #define RG_CORE_IMAGE_FILES_IO_H

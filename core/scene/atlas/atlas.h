@@ -1,6 +1,6 @@
-// The streak atlas: how an oscillating, falling drop looks in an exposure of 1/60 s under a light
-// from any direction (Garg and Nayar, 2006), packed as Creus (2010, section 4.3.1) packs it, and
-// the animation of a splash. docs/atlas.md explains the model and the lookup.
+// The streak atlas: pictures of an oscillating, falling drop in an exposure of 1/60 s under a light
+// from any direction (Garg and Nayar, 2006), packed as by Creus (2010, section 4.3.1), and the
+// animation of a splash. docs/atlas.md explains the model and the lookup.
 //
 // Three images, each an array of layers with mip levels, of half floats (R16F):
 //

@@ -13,9 +13,9 @@
 // Particles lie in buffers of at most STREAKS_BUFFER_PARTICLES. Each packet begins at a multiple of
 // 32, and zeros fill up its last 32.
 //
-// A frame draws blocks of 32 particles of one buffer: STREAKS_BLOCK_WORDS words each, which are the
+// A frame draws blocks of 32 particles of one buffer. A block has STREAKS_BLOCK_WORDS words: the
 // first particle's place in the buffer, a mask of the particles that count (bit k: the k-th),
-// shift_x and shift_y to add to x and y (float bits), and turn in [0, 1) (float bits): the particle
+// shift_x and shift_y to add to x and y (float bits), and turn in [0, 1) (float bits). A particle
 // is at s = top + height * fract(start + turn).
 //
 // One struct of packets may serve several threads and instances: nothing changes it but
@@ -114,10 +114,10 @@ struct streaks_view {
     double radius_m;      // half a side of the culling prism; INFINITY: no prism
     double top_m;         // of the local space (rg_rain_local_top)
     double run;           // rg_rain_run
-    // How far a streak or splash may reach from its particle's place: across the fall, above the
-    // local top and below the local ground. Splashes outlast drops on surfaces that these have
-    // passed, so that above_m is a streak's length, a drop's fall while a splash lasts, and a
-    // splash's height. No particle is culled whose streak or splash could touch the frustum.
+    // The reach of a streak or splash from its particle's place: across the fall, above the local
+    // top and below the local ground. Splashes outlast drops on surfaces that these have passed, so
+    // that above_m is a streak's length, a drop's fall while a splash lasts, and a splash's height.
+    // No particle is culled whose streak or splash could touch the frustum.
     double across_m, above_m, below_m;
     // If true, selection is exact: by the convex hull of the visible part of the local space within
     // the prism. If false, it is Creus's: by the bounding rectangles of prism and frustum on the
