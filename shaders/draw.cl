@@ -60,7 +60,7 @@ RG_FN int rg_will_be_seen(const rg_shading *s, RG_RECORD record, int px, int py)
 }
 
 // Adds one light after the other, in the order of kernels/dialect/draw/lit.h, each for pixels side
-// by side: PoCL would not vectorise the loop over pixels if a loop over lights lay inside it.
+// by side. PoCL would not vectorise the loop over pixels if a loop over lights lay inside it.
 // Instead of a pixel that will not be seen it lights one that will, since programs may read memory
 // for no others.
 RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triangle ta,

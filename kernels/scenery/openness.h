@@ -1,5 +1,5 @@
-// The share of the sky that is seen from a place of the scene: a grid of 4 m, with four neighbours
-// in one word, so that interpolation between eight points takes two words. Programs include this
+// The share of the sky that is seen from a place of the scene, on a grid of 4 m. A word holds four
+// neighbours, so that interpolation between eight points takes two words. Programs include this
 // file after their slots, which have IN(n, uint, openness).
 #ifndef RG_KERNELS_SCENERY_OPENNESS_H
 #define RG_KERNELS_SCENERY_OPENNESS_H

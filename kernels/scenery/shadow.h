@@ -98,8 +98,8 @@ RG_FN float scenery_unshadowed_soft(rg_ctx rg, scenery_light l, v3 at)
     return place.known != 0 ? upper * (1.0f - fy) + lower * fy : 1.0f;
 }
 
-// The point to ask about for a surface's point, whose unit normal is on the light's side: off the
-// surface by two texels' width, so that a slanting surface does not shade itself.
+// The point to ask about for a point of a surface. It lies two texels' width off the surface, along
+// the unit normal on the light's side, so that a slanting surface does not shade itself.
 RG_FN v3 scenery_off_surface(scenery_light l, v3 at, v3 normal)
 {
     v3 away = v3_make(l.x - at.x, l.y - at.y, l.z - at.z);

@@ -9,7 +9,7 @@ RG_STRUCT(scenery_sky)
 {
     float zenith_r, zenith_g, zenith_b; // light from above
     float horizon_r, horizon_g, horizon_b;
-    float clouds; // how much their light varies, 0 to 1
+    float clouds; // variation of their light, 0 to 1
     float haze_per_m;
 };
 RG_STRUCT_SIZE(scenery_sky, 8)

@@ -69,8 +69,8 @@ RG_STRUCT(shower_params)
     float fall_m_s;       // of a new particle (eq. 10)
     float gravity_m_s2;   // (eq. 13)
     // The wind through the region, relative to the viewer: the share of the particles leaving on
-    // the left that comes in again on the right, as many as the wind blows in there; and vice
-    // versa.
+    // the left that comes in again on the right, and vice versa. As many come in as the wind blows
+    // in there.
     float left_to_right, right_to_left;
     float thinning_m; // distance that it carries away from the viewer in a step, or 0
     float to_left;    // of those that it then brings in at the sides, the share on the left

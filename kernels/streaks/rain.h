@@ -41,7 +41,7 @@ RG_STRUCT(streaks_billboard)
     // in the distance.
     float share;
     // For drops. Lengths are in its radii, as the eye sees them.
-    float way;     // how far it falls in the exposure
+    float way;     // way of its fall in the exposure
     float lacking; // at either end for a pixel's length
     float turn;    // its swing at the lower end, in cycles
     float cycles;  // of its slower swing, in the exposure

@@ -22,7 +22,7 @@ RG_STRUCT(cartoon_line)
 {
     rg_line line;
     float reach; // from the axis to where the smooth side ends
-    float slack; // how far behind the depth map it may lie
+    float slack; // depth by which it may lie behind the depth map
 };
 #define RG_RECORD cartoon_line
 #include "kernels/dialect/draw/draw.h"

@@ -20,7 +20,7 @@ RG_STRUCT(cartoon_ink_params)
     float down_x; // and to the one below
     float down_y;
     float down_z;
-    float depth_fall; // how depth changes with 1 over the distance ahead
+    float depth_fall; // fall of depth as 1 / distance ahead grows by 1
     float cos_crease; // faces that differ by more make a crease
     float contour_px; // width of lines
     float crease_px;

@@ -37,13 +37,13 @@ RG_STRUCT(cartoon_shade_params)
     float alpha; // the material's share of cool light
     float beta;  // and of warm light
     // Cartoon.
-    float shadow_tone; // what the material's colour is multiplied by
+    float shadow_tone; // factor of the material's colour
     float middle_tone;
     float middle_from; // the cosine from which on a tone begins
     float lit_from;
     float per_softness; // 1 over the width of the step between tones, as cosine
     float glint_from;   // a highlight's edge, as a share of its brightest place
-    float shadow_blue;  // that the darkest shadow gets
+    float shadow_blue;  // blue light that the darkest shadow gets
     // Hatching.
     float ambient;  // tone of what faces away from the light
     float lit;      // and of what faces it

@@ -13,8 +13,8 @@
 
 // A driver draws in a viewport of RG_VIEWPORT_PX around the target's centre. Snapped coordinates
 // need 22 bits there, so it computes them without rounding, and clips nothing itself
-// (docs/drawing.md). The guard band is narrower, because llvmpipe cuts edge functions to 32 bits:
-// it loses triangles of more than 4 million pixels that reach off the target's upper left corner
+// (docs/drawing.md). The guard band is narrower, because llvmpipe cuts edge functions to 32 bits.
+// It loses triangles of more than 4 million pixels that reach off the target's upper left corner
 // and end within 64 pixels of it.
 #define RG_VIEWPORT_PX 16384
 #define RG_FARTHEST_PX 8190.0f // of the guard band from the target's centre

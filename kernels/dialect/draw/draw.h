@@ -1,8 +1,8 @@
 // A DRAW program: items that become polygons, and the colour and depth of their pixels.
 //
 // A program's header defines RG_PARAMS and RG_SLOTS (slots 1 to RG_DRAW_SLOTS - 1) like a GRID
-// kernel's, RG_CORNERS (3 or 4: corners of an item) and RG_RECORD (the struct of 4-byte scalars
-// that its fragments read). It includes this file, and has three functions:
+// kernel's. It also defines RG_CORNERS (3 or 4: corners of an item) and RG_RECORD (the struct of
+// 4-byte scalars that its fragments read), includes this file, and has three functions:
 //
 //   RG_DRAW_ITEM(name)      { ... }  returns item i's corners in clip space (clip.h). It runs for
 //                                    every item, so it is short and has no branches.

@@ -37,8 +37,8 @@ RG_FN rg_line_part rg_part_inside(rg_line_part part, float a, float b)
     return inside;
 }
 
-// The part of the line from a to b that is seen: cut at the near plane, and `beyond_px` outside the
-// target's sides, so that the rest is near enough for a float to place it.
+// The part of the line from a to b that is seen. It is cut at the near plane, and `beyond_px`
+// outside the target's sides, so that the rest is near enough for a float to place it.
 RG_FN rg_line rg_line_seen(rg_draw_state draw, rg_corner a, rg_corner b, float beyond_px)
 {
     float across = (draw.half_width + beyond_px) / draw.half_width;

@@ -8,7 +8,7 @@
 // of a level, which has `size` texels along a face. The outermost texels of a face have their
 // centres on the cube's edges (core/scene/environment/cube.h), so that light is the same on both
 // sides of an edge. A place on a face always lies between texels' centres, so that the bounds
-// checks of filter.h are left out. It pays, because half of a draw's work is light from here.
+// checks of filter.h are left out. It pays, because half of all that is drawn is light from here.
 RG_FN v3 light_from(rg_ctx rg, v3 d, int level, int size)
 {
     cube_point c = cube_locate(d, size - 1);

@@ -66,7 +66,7 @@ RG_STRUCT(drops_surface)
     float height;  // mm
     float slope_x; // mm/mm, to the right
     float slope_y; // down
-    float bend;    // how fast the slope changes, 1/mm: the root of its squares in all directions
+    float bend;    // change of the slope, 1/mm: the root of its squares in all directions
 };
 
 // The cells of columns `first` to `first` + 3; beyond the pane's edges the outermost repeat, so

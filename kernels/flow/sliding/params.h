@@ -61,8 +61,8 @@ RG_FN flow_between flow_between_at(flow_slide_params p, int z, float u, float v)
     return b;
 }
 
-// The index in a map of the lattice that was interpolated across (across.h): it has a column for
-// each of a pane's map, and a row for each of the lattice, with a margin of one.
+// The index in a map of the lattice that was interpolated across (across.h). Such a map has a
+// column for each of a pane's map, and a row for each of the lattice, with a margin of one.
 RG_FN int flow_rows_index(flow_slide_params p, int pane, int x, int row)
 {
     return (pane * (p.cells + 2) + row + 1) * (p.size + 2 * FLOW_MARGIN) + x;

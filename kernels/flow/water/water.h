@@ -39,7 +39,7 @@ RG_STRUCT(flow_params)
     float remainder_scale;  // entries of the remainder map per unit of water
     int noise_size;         // texels along a side of the noise map
     float noise_step;       // noise texels per pane texel
-    float noise_x, noise_y; // where the window begins, in noise texels
+    float noise_x, noise_y; // beginning of the window, in noise texels
     float sweep; // for texels that keep directions: the neighbours' share in a texel's own
 };
 RG_STRUCT_SIZE(flow_params, 13)

@@ -1,8 +1,8 @@
 // streaks: rain beyond the culling radius, as slabs of the rain space (Creus, section 5.5, after
 // section 3.2.1). A slab adds and hides as much as the drops between its planes would, in the mean
-// and the variance of a pixel: drops per cubic metre, times their light, times the length of the
-// pixel's ray in the slab. Slabs stand still in the rain space: x = i * thickness for rays that run
-// along x more than along y, and y = i * thickness for the others.
+// and the variance of a pixel. The mean is drops per cubic metre, times their light, times the
+// length of the pixel's ray in the slab. Slabs stand still in the rain space: x = i * thickness for
+// rays that run along x more than along y, and y = i * thickness for the others.
 #include "kernels/dialect/math.h"
 #include "kernels/dialect/rng.h"
 #include "kernels/scenery/light.h"

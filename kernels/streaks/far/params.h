@@ -23,7 +23,7 @@ RG_STRUCT(streaks_far_params)
 {
     streaks_params rain;
     int lights;    // as kernels/dialect/draw/draw.h asks for them
-    float nearest; // where far rain begins, as the culling prism counts distances, and ends
+    float nearest; // distance at which far rain begins, as the culling prism counts it, and ends
     float farthest;
     float thickness; // of a slab
     float fallen;    // way of the rain since frame 0
