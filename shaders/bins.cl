@@ -10,7 +10,8 @@ typedef struct rg_tile_box {
     int last_y;
 } rg_tile_box;
 
-// The tiles that the box of a primitive's corners meets; none: a last one is below its first.
+// The tiles that meet the box of a primitive's corners; if there are none, a last one is below its
+// first.
 static inline rg_tile_box rg_tiles_of(rg_draw_state draw, rg_snapped s)
 {
     int low_x = rg_imax((rg_ileast4(s.x0, s.x1, s.x2, s.x3) + 127) >> 8, draw.x0);
@@ -34,7 +35,7 @@ static inline void rg_place(__global uint *place, __global uint *list, int i, in
     *place = at + 1;
 }
 
-// A primitive that meets several tiles: those that it really touches.
+// Places a primitive whose box meets several tiles into those that it really touches.
 static inline void rg_place_large(rg_bins bins, rg_draw_state draw, rg_snapped s, rg_tile_box box,
                                   __global uint *places, __global uint *list, int i, int scatter)
 {
@@ -51,7 +52,7 @@ static inline void rg_place_large(rg_bins bins, rg_draw_state draw, rg_snapped s
     }
 }
 
-// A work item a lane. Without `scatter`, places that were 0 become counts.
+// Runs one work item for each lane. Without `scatter`, places that were 0 become counts.
 __kernel void rg_bins_walk(rg_bins bins, rg_draw_state draw, int scatter, __global const int *prims,
                            __global const uint *args, __global uint *places, __global uint *list)
 {
@@ -77,8 +78,8 @@ __kernel void rg_bins_walk(rg_bins bins, rg_draw_state draw, int scatter, __glob
     }
 }
 
-// One group: sums of parts, what lies before each part, then each place. Tells the host how many
-// pairs there are, or 2^32 - 1 where there are more.
+// Scans in one group: sums each part, then the parts before it, then sets each place. Tells the
+// host the number of pairs, at most 2^32 - 1.
 __attribute__((reqd_work_group_size(RG_SCAN_ITEMS, 1, 1)))
 __kernel void rg_bins_scan(rg_bins bins, __global const uint *args, __global uint *places,
                            __global uint *round)

@@ -6,7 +6,7 @@
 #include "kernels/dialect/draw/coverage.h"
 #include "kernels/dialect/draw/bins.h"
 
-// What a work item draws with and to.
+// The inputs and the target of a work item.
 typedef struct rg_shading {
     rg_ctx rg;
     RG_RUN_PARAMS p;
@@ -26,7 +26,7 @@ RG_PROC void rg_blend(const rg_shading *s, int texel, rgba c)
         rg_blend_RGBA32F(s->colour, texel * 4, c, blend);
 }
 
-// Draws a pixel that is covered; 1 where it is visible.
+// Draws a covered pixel; returns 1 if it is visible.
 RG_FN uint rg_draw_pixel(const rg_shading *s, rg_fragment fragment, int px, int py)
 {
     rg_fragment f = rg_settled(fragment);
@@ -44,7 +44,7 @@ RG_FN uint rg_draw_pixel(const rg_shading *s, rg_fragment fragment, int px, int 
 
 #if defined(RG_LIGHTS)
 
-// What lights add to the pixels of a block's row.
+// The sums of lights for the pixels of a block's row.
 typedef struct rg_lit_row {
     float r[RG_TILE_PX], g[RG_TILE_PX], b[RG_TILE_PX], a[RG_TILE_PX];
 } rg_lit_row;
@@ -60,8 +60,9 @@ RG_FN int rg_will_be_seen(const rg_shading *s, RG_RECORD record, int px, int py)
 }
 
 // Adds one light after the other, in the order of kernels/dialect/draw/lit.h, each for pixels side
-// by side: PoCL would not vectorise the loop over pixels if a loop over lights lay inside it. A
-// pixel that will be seen is lit in place of one that will not: programs may read for no others.
+// by side. PoCL would not vectorise the loop over pixels if a loop over lights lay inside it.
+// Instead of a pixel that will not be seen it lights one that will, since programs may read memory
+// for no others.
 RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triangle ta,
                           rg_block_triangle tb, int x0, int py, int y, int count, rg_lit_row *lit)
 {
@@ -102,7 +103,8 @@ RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triang
 #define RG_LIT
 #endif
 
-// The block's pixels that one or both of two triangles cover, each once. Returns the visible.
+// The block's pixels that one or both of two triangles cover, each once. Returns the number of
+// visible ones.
 RG_FN uint rg_draw_triangles(const rg_shading *s, RG_RECORD record, rg_triangle a,
                                      rg_triangle b)
 {
@@ -118,7 +120,7 @@ RG_FN uint rg_draw_triangles(const rg_shading *s, RG_RECORD record, rg_triangle 
         rg_lit_row lit;
         rg_light_row(s, record, ta, tb, x0, y0 + y, y, x1 - x0, &lit);
 #endif
-// Pixels touch no memory in common. Wider than 8 is more than most rows hold.
+// Pixels share no memory. Vectors wider than 8 would exceed most rows.
 #pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
         for (int x = 0; x < x1 - x0; x++)
             if ((rg_block_inside(ta, x, y) & rg_block_inside(tb, x, y)) >= 0)
@@ -181,7 +183,7 @@ __kernel void rg_draw(RG_RUN_PARAMS params, rg_bins bins, __global const rg_prim
     uint k = tile == 0 ? 0u : ends[tile * bins.lanes - 1];
     uint end = ends[(tile + 1) * bins.lanes - 1];
     s.p = params;
-    // The build options say how the draw blends: nothing is left to decide for a pixel.
+    // The build options say how the draw blends, so that no pixel has to decide.
     s.p.draw.colour_format = RG_VARIANT_FORMAT;
     s.p.draw.blend = RG_VARIANT_BLEND;
     s.p.draw.depth_mode = RG_VARIANT_DEPTH;

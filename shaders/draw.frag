@@ -1,4 +1,4 @@
-// The fragment stage of a DRAW program: everything from the packed record and the pixel's place.
+// The fragment stage of a DRAW program, whose inputs are the packed record and the pixel's place.
 #define RG_STAGE_FRAGMENT 1
 #include "kernels/dialect/rounding.h"
 #include RG_KERNEL_HEADER

@@ -1,6 +1,6 @@
-// The vertex stage of a DRAW program: three or six vertices a packed primitive, placed on its
-// corners. In a viewport of RG_VIEWPORT_PX every step below is exact, so the driver snaps to the very
-// integers that were packed.
+// The vertex stage of a DRAW program: three or six vertices for each packed primitive, placed on
+// its corners. In a viewport of RG_VIEWPORT_PX every step below is exact, so the driver snaps to
+// the very integers that were packed.
 #define RG_STAGE_VERTEX 1
 #include "kernels/dialect/rounding.h"
 #include RG_KERNEL_HEADER
@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform rg_run_block
     RG_RUN_PARAMS params;
 } rg_run;
 
-// Packed primitives with their corners as an array, so that a vertex reads its own alone.
+// Packed primitives with their corners as an array, so that a vertex reads only its own.
 struct rg_prim_corners
 {
     int at[8];

@@ -1,4 +1,4 @@
-// Makes a compute stage of a GRID kernel. One work item an item; the host folds large grids.
+// Makes a compute stage of a GRID kernel. Each work item runs one item; the host folds large grids.
 #include "kernels/dialect/rounding.h"
 #include RG_KERNEL_HEADER
 

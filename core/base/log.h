@@ -62,7 +62,7 @@ bool rg_setup_error(const char *format, ...) __attribute__((format(printf, 1, 2)
 bool rg_crash_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 bool rg_timeout_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-// Whose fault a failure is.
+// The party at fault in a failure.
 enum rg_fault {
     RG_FAULT_INPUT,   // the user's, bad usage or input: rg_error
     RG_FAULT_HARNESS, // raingauge's own: rg_harness_error

@@ -1,4 +1,4 @@
-// How much memory may be taken; callers ask here before they take large pieces.
+// The memory that may be taken; callers ask here before they take large pieces.
 //
 // Devices that run on the CPU count their buffers and images here as long as these live; what
 // worker processes have taken is added. Short-lived memory of the host is checked but not counted.

@@ -1,5 +1,5 @@
-// How work on a device ended: one enum with one word per value, used from a worker that crashed up
-// to the exit status. Bad usage and bad input are no outcomes, because no work began.
+// The outcome of work on a device: one enum with one word per value, used from a worker that
+// crashed up to the exit status. Bad usage and bad input are no outcomes, because no work began.
 #ifndef RG_CORE_BASE_OUTCOME_H
 #define RG_CORE_BASE_OUTCOME_H
 
@@ -13,8 +13,8 @@ enum rg_outcome {
     RG_CRASH,       // a driver ended the process in which it ran
     RG_TIMEOUT,     // a driver did not return in time
     RG_NOTHING,     // done, but proves nothing: there was no rain to compare or to time
-    RG_LACKING, // not done: raingauge itself lacked memory, a process, a descriptor or disk space,
-                // which says nothing of a driver
+    RG_LACKING, // not done: raingauge itself lacked memory, a process, a descriptor or disk space;
+                // that is no fault of a driver
     RG_SETUP,   // not done: a driver is installed, and its files or settings are broken
 };
 enum { RG_OUTCOME_COUNT = RG_SETUP + 1 };

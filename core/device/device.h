@@ -1,9 +1,9 @@
 // The checked device: every call of a backend goes through core/device.
 //
-// It checks all arguments and refuses with one logged line that names the object and the number;
-// splits runs that exceed a device's work-group limits; counts work; and finds what was not
-// destroyed. This header has devices, and includes what is done on them: objects.h, buffers and
-// images; pass.h, runs of kernels; work.h, the counts.
+// It checks all arguments, and refuses bad ones with one logged line that names the object and the
+// number. It also splits runs that exceed a device's work-group limits, counts work, and finds
+// objects that were not destroyed. This header has devices, and includes their operations:
+// objects.h, buffers and images; pass.h, runs of kernels; work.h, the counts.
 #ifndef RG_CORE_DEVICE_DEVICE_H
 #define RG_CORE_DEVICE_DEVICE_H
 
@@ -18,7 +18,7 @@
 struct rg_device_list {
     int count;
     struct rg_device_info infos[RG_MAX_DEVICES];
-    int backend_index[RG_MAX_DEVICES]; // what backend->create takes
+    int backend_index[RG_MAX_DEVICES]; // the index that backend->create takes
     const struct rg_backend *backends[RG_MAX_DEVICES];
     int missing_count; // backends without a device
     struct rg_missing {
@@ -38,7 +38,8 @@ const struct rg_backend *rg_backend_of(const char *name);
 // part of the device's name, case ignored). NULL, and one logged line, on failure: an input error
 // for an unknown name, unsupported where the driver is absent, a driver error where it fails.
 struct rg_device *rg_device_open(const char *name);
-// Waits, logs what still lives on the device as an error, and closes it. Returns false on a leak.
+// Waits, logs an error for objects that still live on the device, and closes it. Returns false on a
+// leak.
 bool rg_device_close(struct rg_device *device);
 
 // Counts of the work done so far; the struct stays the device's.
@@ -51,7 +52,7 @@ bool rg_device_sync(struct rg_device *device);
 // does. False, and one logged line, on failure; unsupported where the device has no clock.
 bool rg_device_time(struct rg_device *device, int64_t *time_ns);
 
-// Begins to measure how much memory things need that are opened after this call and closed before
+// Begins to measure the memory of things that are opened after this call and closed before
 // rg_room_end. `room` is RG_ROOM_COUNTED, or RG_ROOM_WATCHED, which takes the memory unless it
 // exceeds a quarter of what is left, or a GiB. Nothing is logged while objects are only counted.
 void rg_room_begin(struct rg_device *device, enum rg_room room);

@@ -1,4 +1,4 @@
-// Passes of GRID kernels, and what DRAW passes (core/device/draw.h) share with them. Only
+// Passes of GRID kernels, and functions that DRAW passes (core/device/draw.h) share with them. Only
 // core/device includes it; others use core/device/pass.h.
 #ifndef RG_CORE_DEVICE_GRID_H
 #define RG_CORE_DEVICE_GRID_H

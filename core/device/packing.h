@@ -16,10 +16,10 @@ struct rg_packer {
 bool rg_packer_create(struct rg_pass *pass);
 void rg_packer_destroy(struct rg_pass *pass);
 
-// Makes room for the primitives of a batch of up to `items` items: as many as the device's buffer
-// size allows, rounded down to a multiple of `whole` if they are fewer (0: any number). Returns the
-// number of items; 0, and one logged line, when memory runs out. `capacity` gets the number of
-// primitives that fit.
+// Makes room for the primitives of a batch of up to `items` items, as many as the device's buffer
+// size allows. If these are fewer than `items`, they are rounded down to a multiple of `whole` (0:
+// any number). Returns the number of items; 0, and one logged line, when memory runs out.
+// `capacity` gets the number of primitives that fit.
 int rg_packing_prepare(struct rg_pass *pass, int items, int whole, int *capacity);
 // Packs the batch of items that `state` names, and draws it. False, and one logged line, on
 // failure.

@@ -1,5 +1,5 @@
-// Counts of the work done on a device since it was opened, and on request exact counts of what its
-// passes do: devices that do the same work have the same counts, however they schedule it.
+// Counts of the work done on a device since it was opened, and on request exact counts of its
+// passes' work. Devices that do the same work have the same counts, however they schedule it.
 //
 // Exact counting makes each draw wait and reads its primitives on the host, so that counting runs
 // are never timing runs.
@@ -42,12 +42,12 @@ struct rg_work {
 // -1 marks a count that this device cannot take exactly.
 struct rg_tally {
     int64_t runs;                      // pass runs asked for
-    int64_t dispatches;                // what the device made of them: split, packed, in batches
+    int64_t dispatches;                // the device's runs for them: split, packed, in batches
     int64_t items;                     // of all runs
     int64_t records;                   // items of draws that are seen
     int64_t fragments;                 // pixels that their primitives cover
     int64_t fragments_kept;            // fragments neither discarded nor hidden
-    int64_t light_evaluations;         // lights of lit programs, each counted once a fragment
+    int64_t light_evaluations;         // lights of lit programs, once for each fragment
     int64_t texels_fetched;            // texel fetches from images
     int64_t bytes_written, bytes_read; // between host and device
 };

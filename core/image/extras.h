@@ -1,5 +1,6 @@
-// Extras: what a picture file holds besides the texels that we read. Examples are further channels,
-// parts, pages and frames, colour information that is not applied, and where the picture is shown.
+// Extras: the contents of a picture file besides the texels that we read. Examples are further
+// channels, parts, pages and frames, colour information that is not applied, and the place at which
+// the picture is shown.
 //
 // Extras are a text, so that the reader's process can return them unchanged: a line for each, "name
 // TAB value". A '!' before it marks an extra that would change the picture and is not applied. Each

@@ -1,4 +1,4 @@
-// 16-bit floats (halves), as picture files hold them.
+// 16-bit floats (halves), as in picture files.
 #ifndef RG_CORE_IMAGE_HALF_H
 #define RG_CORE_IMAGE_HALF_H
 

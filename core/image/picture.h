@@ -19,7 +19,7 @@ struct rg_picture {
     bool decoded;       // read from integer codes, which were made linear
     bool is_associated; // read from a file whose colours are already multiplied by alpha
     double gamma;       // light is code^gamma of the codes read; 0: sRGB's curve
-    char *extras;       // what else the file holds (core/image/extras.h); NULL: nothing; owned
+    char *extras;       // other contents of the file (core/image/extras.h); NULL: none; owned
 };
 
 // Makes a picture of undefined texels. False for a size outside the limits or when memory runs out,

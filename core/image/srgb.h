@@ -5,8 +5,9 @@
 #include <stdint.h>
 #include <string.h>
 
-// Encoding finds a code by the upper bits of the float, 128 steps an octave from 2^-13 to 1; a step
-// is narrower than a code, so one comparison with the next code's threshold makes it exact.
+// Encoding finds a code by the upper bits of the float, 128 steps in each octave from 2^-13 to 1. A
+// step is narrower than a code, so that one comparison with the next code's threshold makes it
+// exact.
 enum { RG_SRGB_STEPS = 13 * 128, RG_SRGB_LOWEST_BITS = 114 << 23 };
 
 struct rg_srgb {

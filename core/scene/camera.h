@@ -1,8 +1,8 @@
 // Cameras and placements: the way from a mesh's own coordinates to clip space.
 //
 // Matrices are 16 floats, row by row (core/scene/matrix.h): clip = matrix * (x, y, z, 1). The world
-// is right-handed. Clip space is what kernels expect (kernels/dialect/draw/clip.h): x to the right,
-// y DOWN, since row 0 of a target is its top, depth 0 on the near plane and 1 on the far plane, w
+// is right-handed. Clip space is that of kernels (kernels/dialect/draw/clip.h): x to the right; y
+// DOWN, since row 0 of a target is its top; depth 0 on the near plane and 1 on the far plane; w is
 // the distance ahead of the camera.
 #ifndef RG_CORE_SCENE_CAMERA_H
 #define RG_CORE_SCENE_CAMERA_H
@@ -30,7 +30,7 @@ struct rg_camera_axes {
 };
 struct rg_camera_axes rg_camera_axes(const struct rg_camera *camera);
 
-// Where a thing stands in the world, whatever its own bounds are.
+// The placement of a thing in the world, whatever its own bounds are.
 struct rg_placement {
     float size;        // the longest side of its bounds is scaled to this
     float turn_deg[3]; // about its centre: first the x axis, then y, then z; right-handed

@@ -1,4 +1,4 @@
-// Density maps: how much rain falls where, as an artist draws it (Creus, section 4.2).
+// Density maps: the amount of rain at each place, as an artist draws it (Creus, section 4.2).
 //
 // A map lies over a rectangle; its density, 0 to 1, is constant over each texel. A summed-area
 // table holds it, so that the rain over any rectangle takes 16 entries however large it is, and is
@@ -10,7 +10,7 @@
 
 #include "core/image/picture.h"
 
-// The largest map; it takes 8 bytes a texel, so 512 MiB.
+// The largest map; it takes 8 bytes for each texel, so 512 MiB.
 #define RG_DENSITY_MAX_TEXELS ((int64_t)1 << 26)
 
 struct rg_density {

@@ -1,11 +1,11 @@
 // The rain space is the box in which it rains (Creus, section 4.2). This file also has the rain
-// frame, the local space around the observer, and how far drops have fallen.
+// frame, the local space around the observer, and the distance that drops have fallen.
 //
-// The rain frame has coordinates in metres along three orthonormal axes: s along the fall, x and y
-// across it, measured from the middle of the box's top plane. x cross y is s; rain that falls
-// straight down has x and y along the world's x and z. The box is |x| <= half_x_m, |y| <= half_y_m,
-// 0 <= s <= height_m. Clip coordinates across are x / half_x_m and y / half_y_m. A density map lies
-// over the top plane, its columns along x, its rows along y.
+// The rain frame has coordinates in metres along three orthonormal axes, from the middle of the
+// box's top plane: s along the fall, x and y across it. The cross product of x and y is s. For rain
+// that falls straight down, x and y are along the world's x and z. The box is |x| <= half_x_m, |y|
+// <= half_y_m, 0 <= s <= height_m. Clip coordinates across are x / half_x_m and y / half_y_m. A
+// density map lies over the top plane, its columns along x, its rows along y.
 #ifndef RG_CORE_SCENE_RAIN_SPACE_H
 #define RG_CORE_SCENE_RAIN_SPACE_H
 

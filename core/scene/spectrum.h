@@ -1,10 +1,10 @@
-// The size distribution of raindrops, and how fast they fall.
+// The size distribution of raindrops, and their speeds of fall.
 //
-// Sources: Marshall and Palmer, 1948: N(D) = 8000 exp(-4.1 R^-0.21 D) a cubic metre and millimetre.
-// Best, 1950: of the water in the air, 67 R^0.846 cubic millimetres a cubic metre, the share
-// exp(-(D / a)^2.25) is in drops wider than D, a = 1.30 R^0.232 mm. Terminal speeds: Gunn and
-// Kinzer, 1949, linearly interpolated; Atlas, Srivastava and Sekhon, 1973: 9.65 - 10.3 exp(-0.6 D)
-// m/s. R is the rain rate in millimetres an hour, D a diameter in millimetres.
+// Sources: Marshall and Palmer, 1948: N(D) = 8000 exp(-4.1 R^-0.21 D) per cubic metre and
+// millimetre. Best, 1950: air holds 67 R^0.846 cubic millimetres of water per cubic metre, of which
+// the share exp(-(D / a)^2.25) is in drops wider than D, a = 1.30 R^0.232 mm. Terminal speeds: Gunn
+// and Kinzer, 1949, linearly interpolated; Atlas, Srivastava and Sekhon, 1973: 9.65 - 10.3 exp(-0.6
+// D) m/s. R is the rain rate in millimetres an hour, D a diameter in millimetres.
 #ifndef RG_CORE_SCENE_SPECTRUM_H
 #define RG_CORE_SCENE_SPECTRUM_H
 
@@ -24,13 +24,13 @@ struct rg_spectrum {
 #define RG_LARGEST_DROP_MM  6.0
 #define RG_SMALLEST_DROP_MM 0.1
 
-// The number of drops of a diameter, a cubic metre and millimetre, whatever the bounds.
+// The number of drops of a diameter, per cubic metre and millimetre, whatever the bounds.
 double rg_spectrum_density(const struct rg_spectrum *spectrum, double diameter_mm);
 double rg_terminal_speed(enum rg_speed_law law, double diameter_mm); // m/s
 
 // Totals over the drops between the bounds.
 struct rg_rainfall {
-    double drops_m3;     // a cubic metre
+    double drops_m3;     // per cubic metre
     double water_mm3_m3; // in a cubic metre of air
     double rain_mm_h;    // rate of rain on level ground
     double drops_m2_s;

@@ -1,6 +1,6 @@
 // The evidence by which `raingauge verify` proves a technique: scenes to run, laws that its state
-// obeys, and small changes of the model that a comparison of images must notice. One set of data a
-// technique.
+// obeys, and small changes of the model that a comparison of images must notice. One set of data
+// for each technique.
 #ifndef RG_CORE_TECHNIQUES_PROOF_H
 #define RG_CORE_TECHNIQUES_PROOF_H
 

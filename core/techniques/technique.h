@@ -59,13 +59,13 @@ const struct rg_technique *rg_technique_find(const char *name);
 extern const struct rg_technique *const rg_techniques[];
 
 // Opens a technique on a device with a target of width x height pixels, at frame 0. `settings` is
-// copied. NULL, with one logged line, on failure; also where it needs more memory than is allowed
-// (core/base/memory.h), and then it holds none.
+// copied. NULL, with one logged line, on failure; also if it would need more memory than is allowed
+// (core/base/memory.h), and then it has taken none.
 struct rg_instance *rg_instance_open(const struct rg_technique *technique, struct rg_device *device,
                                      const void *settings, int width, int height);
 // The bytes of buffers and images that an instance takes on the device after its first frame, found
-// by opening, stepping and drawing with objects that are only counted. Where the technique fails on
-// contents of zeroes, the bytes asked for until then.
+// by opening, stepping and drawing with objects that are only counted. If the technique fails on
+// contents of zeroes, the result is the bytes asked for until then.
 int64_t rg_instance_bytes(const struct rg_technique *technique, struct rg_device *device,
                           const void *settings, int width, int height);
 // Frees the instance with its assets and stages; NULL is accepted.

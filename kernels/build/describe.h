@@ -12,7 +12,7 @@
 #define IMAGE(slot, F, name)     {#name, slot, RG_SLOT_IMAGE, 0, RG_##F, NULL},
 #define OUT_IMAGE(slot, F, name) {#name, slot, RG_SLOT_OUT_IMAGE, 0, RG_##F, NULL},
 
-// What the words of a type are (enum rg_word), behind a comma; a type without a row here has NULL.
+// The kinds of a type's words (enum rg_word), after a comma; a type without a row here has NULL.
 // tests/structure/words.py compares them with the structs.
 #define RG_WORDS_float            , "f"
 #define RG_WORDS_int              , "i"

@@ -1,10 +1,10 @@
-// The kernel dialect: what C11, OpenCL C 1.2 and GLSL 4.50 agree on, and the few words that differ.
+// The kernel dialect: the common part of C11, OpenCL C 1.2 and GLSL 4.50, and words for the few
+// differences.
 //
 // A kernel body is a pure function over float, int, uint and structs of them, passed and returned
-// by value: no pointers, no native vectors, no arrays, no recursion. It uses exactly rounded
-// operations alone, + - * /, sqrt, floor, comparisons and integers; math.h writes everything else
-// out in these. So every device computes the same bits.
-// docs/dialect.md is the guide.
+// by value: no pointers, no native vectors, no arrays, no recursion. It uses only exactly rounded
+// operations: + - * /, sqrt, floor, comparisons and integers; math.h builds everything else from
+// these. So every device computes the same bits. docs/dialect.md is the guide.
 //
 // The build defines RG_GLSL or RG_OPENCL when it flattens a kernel for a driver
 // (kernels/build/flatten.py); a C compiler defines neither. Feature words are 0 or 1 and tested
@@ -20,11 +20,11 @@
 #endif
 
 // RG_STRUCT(name) { int a; float b; }; is a struct of 4-byte scalars that crosses the host
-// boundary; RG_STRUCT_SIZE(name, words) states its size where it is declared. RG_FN starts every
-// function that returns a value, RG_PROC every one that returns nothing, RG_SELDOM a long one that
-// few items need. RG_APART before a loop says that no turn of it reads what another one writes, so
-// that compilers for processors do several at once; RG_KEPT before one keeps it a loop, for the
-// same end, where its turns are few.
+// boundary; RG_STRUCT_SIZE(name, words) checks its size. RG_FN starts every function that returns a
+// value, RG_PROC every one that returns nothing, RG_SELDOM a long one that few items need. RG_APART
+// before a loop says that no iteration reads what another one writes, so that compilers for
+// processors vectorise it. RG_KEPT before a loop of few iterations keeps compilers from unrolling
+// it, for the same end.
 #if RG_GLSL
 
 #define RG_STRUCT(name) struct name
@@ -59,11 +59,11 @@ RG_FN uint rg_mul_hi(uint a, uint b)
     typedef struct name name;                                                                      \
     struct name
 #define RG_STRUCT_SIZE(name, words)
-#define RG_GLOBAL __global // memory that slots lie in
-// Inlined early: else structs that functions return keep LLVM from vectorising.
+#define RG_GLOBAL __global // the memory of slots
+// Inlined early; else structs that functions return keep LLVM from vectorising.
 #define RG_FN     static inline __attribute__((always_inline))
 #define RG_PROC   static inline __attribute__((always_inline))
-// Called: PoCL compiles the kernels around it in two thirds of the time.
+// Called, not inlined: PoCL then compiles the kernels in two thirds of the time.
 #define RG_SELDOM static __attribute__((noinline))
 #define RG_APART
 #define RG_KEPT
@@ -135,7 +135,7 @@ RG_FN uint rg_mul_hi(uint a, uint b)
 
 #endif
 
-// Written out rather than left to each language's min and max, which differ on -0 and NaN.
+// Written out, because each language's min and max differ on -0 and NaN.
 RG_FN float rg_min(float a, float b)
 {
     return b < a ? b : a;

@@ -1,4 +1,4 @@
-// What a kernel may have at most, for kernels and their host alike.
+// The limits of a kernel, for kernels and their host alike.
 #ifndef RG_KERNELS_DIALECT_LIMITS_H
 #define RG_KERNELS_DIALECT_LIMITS_H
 

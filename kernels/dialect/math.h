@@ -1,10 +1,11 @@
 // The dialect's mathematics, from exactly rounded operations alone, so that every device computes
-// the same bits. No branches and no tables, so that a C compiler can run several in one vector.
+// the same bits. The functions have no branches and no tables, so that a C compiler can vectorise
+// them.
 //
 // Bounds are measured against double precision over all exponents and millions of values, and
 // tests/dialect/math.c measures them again. An ulp is the distance of two neighbouring floats at
-// the true result. Results are finite and never subnormal: RG_LARGEST or 0 stand for what would not
-// be. No argument may be NaN, and none subnormal unless a function says what then happens.
+// the true result. Results are finite and never subnormal: RG_LARGEST or 0 replace those that would
+// not be. No argument may be NaN, and none subnormal unless a function says what then happens.
 #ifndef RG_KERNELS_DIALECT_MATH_H
 #define RG_KERNELS_DIALECT_MATH_H
 
@@ -79,8 +80,8 @@ RG_FN float rg_cos(float x)
 // --- the angle of a direction ---
 
 // The angle of (x, y) from the x axis towards the y axis, in radians, -pi to pi. The larger
-// magnitude within 1e-30 to 1.7e38; where both are smaller, the result is 0. Where y = 0, of either
-// sign, and x < 0, it is pi. At most 3.0 ulp.
+// magnitude within 1e-30 to 1.7e38; if both are smaller, the result is 0. If y = 0, of either sign,
+// and x < 0, it is pi. At most 3.0 ulp.
 RG_FN float rg_atan2(float y, float x)
 {
     float across = rg_abs(x);
@@ -103,8 +104,8 @@ RG_FN float rg_atan2(float y, float x)
     return y < 0.0f ? -r : r;
 }
 
-// Angles in radians whose sine or cosine is x: -pi/2 to pi/2, and 0 to pi. An x beyond -1 or 1
-// counts as that. At most 3.5 ulp of the angle.
+// Angles in radians whose sine or cosine is x: -pi/2 to pi/2, and 0 to pi. An x beyond -1 or 1 is
+// clamped. At most 3.5 ulp of the angle.
 RG_FN float rg_asin(float x)
 {
     float s = rg_clamp(x, -1.0f, 1.0f);
@@ -119,7 +120,7 @@ RG_FN float rg_acos(float x)
 
 // --- powers ---
 
-// v 2^n for v within 0.7 to 1.42 and n within -126 to 128; 0 where that is no normal number.
+// v 2^n for v within 0.7 to 1.42 and n within -126 to 128; 0 if that is no normal number.
 RG_FN float rg_scale(float v, int n)
 {
     uint bits = rg_float_bits(v) + (rg_to_uint(n) << 23);
@@ -168,14 +169,14 @@ RG_FN float rg_exp(float x)
 
 // --- logarithms ---
 
-// Its first 12 bits, so that a product of two such floats is exact.
+// The first 12 bits of v, so that a product of two such floats is exact.
 RG_FN float rg_high_bits(float v)
 {
     return rg_bits_float(rg_float_bits(v) & 0xfffff000u);
 }
 
-// x = 2^exponent m with m within sqrt(1/2) to sqrt(2), and ln m = high + low, where low holds what
-// high lacks of about 30 correct bits.
+// x = 2^exponent m with m within sqrt(1/2) to sqrt(2), and ln m = high + low, where low completes
+// high to about 30 correct bits.
 RG_STRUCT(rg_log_parts)
 {
     float exponent;
@@ -246,8 +247,8 @@ RG_FN float rg_log2(float x)
     return rg_log2_split(x).high;
 }
 
-// x^y for x >= 0 and |y| <= 1e30. An x below the smallest normal counts as 0 where y > 0, else as
-// the smallest normal; x^0 is 1. At most 8 ulp.
+// x^y for x >= 0 and |y| <= 1e30. An x below the smallest normal counts as 0 if y > 0, else as the
+// smallest normal; x^0 is 1. At most 8 ulp.
 RG_FN float rg_pow(float x, float y)
 {
     rg_log2_parts l = rg_log2_split(x);
@@ -270,7 +271,7 @@ RG_FN float rg_cbrt_step(float x, float y)
 }
 
 // The cube root of x >= 0; that of an x below the smallest normal is 0. At most 1 ulp. A third of a
-// number's bits is its root to within a twentieth, and each step squares the error.
+// number's bits gives its root to within a twentieth, and each step squares the error.
 RG_FN float rg_cbrt(float x)
 {
     float y = rg_bits_float(rg_float_bits(x) / 3u + 0x2a5137a0u);
@@ -278,8 +279,8 @@ RG_FN float rg_cbrt(float x)
     return x < RG_SMALLEST_NORMAL ? 0.0f : y;
 }
 
-// x to a whole power from 0 to 15, by squaring. Roundings that squaring doubles add up to a
-// relative error of 14 * 2^-24 at most, for the power 15: below 14 ulp, 9.7 ulp seen.
+// x to a whole power from 0 to 15, by squaring. Squaring doubles rounding errors. They add up to a
+// relative error of at most 14 * 2^-24, for the power 15: below 14 ulp, 9.7 ulp seen.
 RG_FN float rg_pow_whole(float x, int power)
 {
     float x2 = x * x;

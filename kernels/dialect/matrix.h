@@ -1,4 +1,4 @@
-// Matrices of four rows, by value: a row's dot product is written out so that all devices round
+// Matrices of four rows, by value. A row's dot product is written out, so that all devices round
 // alike.
 #ifndef RG_KERNELS_DIALECT_MATRIX_H
 #define RG_KERNELS_DIALECT_MATRIX_H

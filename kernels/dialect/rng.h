@@ -27,7 +27,7 @@ RG_FN rg_uint4 rg_philox_round(rg_uint4 c, uint key_0, uint key_1)
     return r;
 }
 
-// Philox4x32-10 of a counter under a key of two words, as Random123 has it.
+// Philox4x32-10 of a counter under a key of two words, as in Random123.
 RG_FN rg_uint4 rg_philox(rg_uint4 counter, uint key_0, uint key_1)
 {
     rg_uint4 c = counter;

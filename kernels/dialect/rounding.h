@@ -1,12 +1,12 @@
-// Quotients and roots as C rounds them, for drivers that do not: GLSL lets a quotient be 2.5 ulp
-// off and promises less of a root. The build puts these two behind every `/` of floats and every
-// rg_sqrt of GLSL (kernels/build/quotients.py); programs use them on devices whose own are not
-// exact (backends/rounding.h).
+// Quotients and roots rounded as in C, for drivers that round differently: GLSL lets a quotient be
+// 2.5 ulp off, and promises less for a root. The build can replace every `/` of floats and every
+// rg_sqrt of GLSL by these two (kernels/build/quotients.py). Programs use them on devices whose own
+// are not exact (backends/rounding.h).
 //
-// The driver's result for significands within [1, 4) is a first guess. What is left of the dividend
-// behind it is a small whole number, exact in 32 bits, and says how many steps of an ulp the guess
-// is off: 3 at most of a quotient, 5 of a root, which a driver may make of two operations.
-// RG_ROUGH_QUOTIENT(a, b) and RG_ROUGH_ROOT(x) are the driver's.
+// The driver's result for significands within [1, 4) is a first guess. The remainder of the
+// dividend after it is a small whole number, exact in 32 bits, which tells by how many ulps the
+// guess is off. These are at most 3 for a quotient, and 5 for a root, which a driver may compute by
+// two operations. RG_ROUGH_QUOTIENT(a, b) and RG_ROUGH_ROOT(x) are the driver's own.
 #ifndef RG_KERNELS_DIALECT_ROUNDING_H
 #define RG_KERNELS_DIALECT_ROUNDING_H
 
@@ -18,7 +18,7 @@ RG_FN uint rg_significand(uint float_bits)
     return (float_bits & 0x7fffffu) | 0x800000u;
 }
 
-// The significand of a guess that the true result puts within [1, 2).
+// The significand of a guess, clamped to [1, 2), where the true result lies.
 RG_FN uint rg_guessed_significand(float guess)
 {
     uint bits = rg_float_bits(guess);
@@ -31,8 +31,8 @@ RG_FN bool rg_is_normal_exponent(int exponent)
     return exponent > 0 && exponent < 255;
 }
 
-// a / b, to nearest, of normal numbers whose quotient is normal; else the driver's. No quotient of
-// two floats lies halfway between two others.
+// a / b, to nearest, for normal numbers whose quotient is normal; else the driver's result. No
+// quotient of two floats lies halfway between two others.
 RG_FN float rg_rounded_quotient(float a, float b)
 {
     uint a_bits = rg_float_bits(a);
@@ -63,8 +63,8 @@ RG_FN float rg_rounded_quotient(float a, float b)
     return normal ? rg_bits_float(bits) : rough;
 }
 
-// The square root of x, to nearest, of normal numbers above 0; else the driver's. No root of a
-// float lies halfway between two others.
+// The square root of x, to nearest, for normal numbers above 0; else the driver's result. No root
+// of a float lies halfway between two others.
 RG_FN float rg_rounded_root(float x)
 {
     uint x_bits = rg_float_bits(x);

@@ -1,5 +1,5 @@
-// Vectors of three floats, by value, each operation written out so that all devices round alike;
-// and corners of four.
+// Vectors of three floats, by value, each operation written out, so that all devices round alike;
+// and corners of four floats.
 #ifndef RG_KERNELS_DIALECT_VEC_H
 #define RG_KERNELS_DIALECT_VEC_H
 
@@ -47,7 +47,7 @@ RG_FN v3 v3_unit(v3 a)
     return v3_scale(a, 1.0f / rg_sqrt(v3_dot(a, a)));
 }
 
-// The direction of a ray along `incident` after a mirror with unit normal `n`.
+// The direction of a ray along `incident` after its reflection at a mirror with unit normal `n`.
 RG_FN v3 v3_reflect(v3 incident, v3 n)
 {
     return v3_add(incident, v3_scale(n, -2.0f * v3_dot(incident, n)));

@@ -1,4 +1,4 @@
-// What all kernels of drops are told, and what they share with the host: Chin, "Animating Raindrops
+// Parameters and buffers of all kernels of drops, shared with the host: Chin, "Animating Raindrops
 // on a Surface". Lengths are in mm, masses in mg, times in s, as in the paper.
 #ifndef RG_KERNELS_DROPS_PARAMS_H
 #define RG_KERNELS_DROPS_PARAMS_H
@@ -7,14 +7,14 @@
 
 #define DROPS_MARGIN 10 // cells around the pane, always dry
 
-// Maps are worked on in tiles of cells, each of which sleeps while nothing in it changes.
+// Kernels work on maps by tiles of cells; a tile sleeps while nothing in it changes.
 #define DROPS_TILE_COLUMNS 32
 #define DROPS_TILE_ROWS    8
 
 #define DROPS_ROWS_A_DROP                                                                          \
-    8 // items of a stage over the cells of drops: each takes every so many rows
+    8 // items for each drop, in a stage over its cells: each takes every eighth row
 
-#define DROPS_HEIGHTS_A_MM 4096.0f // smoothed heights are whole ones
+#define DROPS_HEIGHTS_A_MM 4096.0f // smoothed heights are multiples of 1 / this
 
 // Masses are whole quanta, so that they are conserved exactly.
 #define DROPS_QUANTA_MG 1024.0f
@@ -34,8 +34,8 @@
 #define DROPS_TILES    11 // tiles that were awake, in all steps, modulo 2^32
 #define DROPS_TALLY    12
 
-// What came about in this step: a drop that others left or became, and one that landed, which is
-// not on the pane's maps before the next step.
+// A drop that is new in this step: one that others left or became, or one that landed, which is on
+// the pane's maps from the next step on.
 #define DROPS_BORN_NOW   1u
 #define DROPS_LANDED_NOW 2u
 
@@ -47,9 +47,9 @@
 #define DROPS_RESIDUAL    5u
 #define DROPS_LAND_CHANCE 6u
 
-// Bits of the buffer `tiles`, of what each tile is.
+// Bits of the buffer `tiles`, one word for each tile.
 #define DROPS_AWAKE   1u // worked on in this step
-#define DROPS_STIRRED 2u // in the next one
+#define DROPS_STIRRED 2u // worked on in the next one
 #define DROPS_SPOILED 4u // drops at rest in it have come or gone in this step
 
 #define DROPS_NOBODY 0xffffffffu
@@ -71,13 +71,13 @@ RG_STRUCT(drops_drop)
 };
 RG_STRUCT_SIZE(drops_drop, 11)
 
-// What drops that merge come to, in words of the buffer `sums`, at the drop that leads them.
+// The sums over drops that merge: words of the buffer `sums`, at the drop that leads them.
 #define DROPS_SUM_MASS    0 // quanta
 #define DROPS_SUM_X       1 // momentum in steps of 1/4 mg mm/s, modulo 2^32
 #define DROPS_SUM_Y       2
 #define DROPS_SUM_MEMBERS 3
-#define DROPS_SUM_DEEPEST 4 // bits of how far down the lowest is
-#define DROPS_SUM_LOWEST  5 // which one
+#define DROPS_SUM_DEEPEST 4 // bits of the lowest one's drops_depth
+#define DROPS_SUM_LOWEST  5 // its index
 #define DROPS_SUM         6
 
 RG_STRUCT(drops_params)
@@ -95,11 +95,11 @@ RG_STRUCT(drops_params)
     int substep;
     int substeps;
     int count;    // drops
-    int most;     // that there may be
+    int most;     // most drops that there may be
     int arrivals; // in this step
     float least_mg;
     float most_mg;
-    // Forces (eq. 2): gravity along the pane, and what holds a drop, whatever its mass.
+    // Forces (eq. 2): gravity along the pane, and the force that holds a drop, whatever its mass.
     float down_x; // unit vector
     float down_y;
     float gravity_mm_s2;
@@ -112,27 +112,26 @@ RG_STRUCT(drops_params)
     float residual_max_s;
     float residual_low; // shares of the parent's mass
     float residual_high;
-    // What a drop looks at ahead (section 4.1).
+    // The regions ahead that a drop chooses among (section 4.1).
     float ahead_mm;
     float beside_mm;
     float patch_mm;  // side of the squares that have one affinity
-    int reach_cells; // a region is so many cells to each side of its middle one
+    int reach_cells; // cells of a region to each side of its middle one
     // Trails.
     int lines; // 1: swept along the way, 0: hemispheres so far apart
     float spacing_mm;
-    // Height and ID maps, in passes, of which a step has one or more.
-    int apart; // cells, from one to the next that it flattens and thins with; by the paper's rules
-               // 1
-    float dry_mm;   // above 0; lower water is none
-    float owned_mm; // above 0; lower water is nobody's
+    // The passes over height and ID maps, one or more in a step.
+    int apart; // cells between those that it is flattened and thinned with; 1 by the paper's rules
+    float dry_mm;   // above 0; lower water is removed
+    float owned_mm; // above 0; lower water has no owner
     int down_cell;  // from a cell to the one below it, in cells of a map, as drops run
     int right_cell;
-    int is_upright; // 1: it runs down the grid's columns, 0: along its rows
+    int is_upright; // 1: water runs down the grid's columns, 0: along its rows
     int does_smooth;
     int does_spread;
     int does_erode;
     int does_sleep; // 0: no tile does
-    int slots;      // that drops may be in: old ones, their children, and those that merge
+    int slots;      // slots of drops: old ones, their children, and merged ones
     int has_joined; // 1: some have merged in this step
     int is_removal; // 1: all drops go in this step
 };
@@ -149,7 +148,7 @@ RG_FN bool drops_on_pane(drops_params p, int column, int row)
     return column >= 0 && column < p.columns && row >= 0 && row < p.rows;
 }
 
-// Whose a cell is, whether its water rose in this step or not.
+// The owner of a cell, without the mark that its water rose in this step.
 RG_FN uint drops_owner(uint id)
 {
     return id & ~DROPS_RISEN;
@@ -162,7 +161,7 @@ RG_FN bool drops_holds(drops_params p, float x, float y)
            y < rg_to_float(p.rows) * p.cell_mm;
 }
 
-// Cells, by which a change acts in a pass.
+// The distance in cells over which a change acts in one pass.
 RG_FN int drops_reach(drops_params p)
 {
     return 2 * p.apart;

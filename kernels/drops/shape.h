@@ -1,4 +1,4 @@
-// A drop as the height map has it: hemispheres (eqs. 7 to 9).
+// A drop's shape on the height map: hemispheres (eqs. 7 to 9).
 #ifndef RG_KERNELS_DROPS_SHAPE_H
 #define RG_KERNELS_DROPS_SHAPE_H
 
@@ -24,9 +24,9 @@ RG_STRUCT(drops_way)
 {
     float x;
     float y;
-    float along_x; // unit vector; 0 where it went nowhere
+    float along_x; // unit vector; 0 if the drop did not move
     float along_y;
-    float far; // how long it is
+    float far; // its length
     float radius;
     int places; // of hemispheres, the last one at the end of the way
 };
@@ -48,14 +48,14 @@ RG_FN drops_way drops_way_of(drops_params p, uint mass, float x0, float y0, floa
     return w;
 }
 
-// How far along the way a hemisphere stands.
+// The place of a hemisphere along the way.
 RG_FN float drops_place_of(drops_params p, drops_way w, int place)
 {
     return place == w.places - 1 ? w.far : rg_to_float(place + 1) * p.spacing_mm;
 }
 
-// The water's height at a cell under one of the way's hemispheres, or under all that a line of them
-// sweeps; 0: none.
+// The water's height at a cell: of one of the way's hemispheres, or of one swept along the way if
+// p.lines. 0: none.
 RG_FN float drops_height(drops_params p, drops_way w, int place, int column, int row)
 {
     float t = drops_place_of(p, w, place);
@@ -69,7 +69,7 @@ RG_FN float drops_height(drops_params p, drops_way w, int place, int column, int
     return h2 > 0.0f ? rg_sqrt(h2) : 0.0f;
 }
 
-// The cells that a hemisphere, or a line of them, may cover.
+// The cells that a hemisphere, or one swept along the way, may cover.
 RG_STRUCT(drops_block)
 {
     int left;

@@ -1,6 +1,6 @@
 // The water of drops on the pane's maps: the highest of all hemispheres, whichever drop is drawn
-// first. Where it rises, the ID map is marked, and then claimed by the drops that reach the height:
-// the oldest one gets it. For kernels with the slots height and ids, as uint.
+// first. A cell whose water rises is marked on the ID map. The drops that reach its height then
+// claim it, and the oldest one gets it. For kernels with the slots height and ids, as uint.
 #ifndef RG_KERNELS_DROPS_WET_H
 #define RG_KERNELS_DROPS_WET_H
 

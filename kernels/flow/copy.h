@@ -1,4 +1,4 @@
-// flow: what lies behind the panes, onto the target.
+// flow: copies the picture behind the panes to the target.
 #include "kernels/flow/panes/view_params.h"
 
 #define RG_PARAMS flow_view_params

@@ -1,5 +1,5 @@
-// flow: a model inside the box, matt with a sheen, lit by the environment and by a lamp, in
-// whose light the drops on the panes cast shadows (Tatarchuk 2006, which the paper points to).
+// flow: a model inside the box, matt with a sheen, lit by the environment and by a lamp. In the
+// lamp's light the drops on the panes cast shadows (Tatarchuk 2006, which the paper points to).
 #include "kernels/flow/panes/panes.h"
 #include "kernels/dialect/math.h"
 #include "kernels/dialect/mesh/mesh.h"
@@ -27,7 +27,7 @@ RG_DRAW_RECORD(flow_model)
     return mesh_record_of(rg, draw, p.to_clip, i);
 }
 
-// How far from `at` the box's side is along `d`; both are components of one axis.
+// The distance from `at` to the box's side along `d`; both are components along one axis.
 RG_FN float to_side(float at, float d)
 {
     float side = d < 0.0f ? -1.0f : 1.0f;
@@ -36,8 +36,8 @@ RG_FN float to_side(float at, float d)
 }
 
 // The height of the water where the way to the lamp leaves the box. Panes 0 to 5 are front, back,
-// right, left, top and bottom; pane 0's frame is the box's own, from which the others' places
-// follow. It selects between numbers, so that compilers run pixels side by side.
+// right, left, top and bottom. Pane 0's frame is the box's own; the others' places follow from it.
+// The code selects between numbers instead of branching, so that compilers vectorise over pixels.
 RG_FN float water_before_lamp(rg_ctx rg, flow_view_params p, v3 at)
 {
     v3 right = v3_make(p.turn.xx, p.turn.yx, p.turn.zx);

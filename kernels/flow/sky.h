@@ -1,4 +1,4 @@
-// flow: the environment behind everything, one quad that fills the view.
+// flow: the environment behind everything, as one quad that fills the view.
 #include "kernels/flow/panes/view_params.h"
 
 #define RG_PARAMS flow_view_params

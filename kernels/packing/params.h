@@ -8,7 +8,7 @@ RG_STRUCT(packing_params)
 {
     int chunks;         // of items, RG_DRAW_CHUNK each
     int chunks_a_query; // the last query may have fewer
-    int vertices;       // a primitive
+    int vertices;       // of a primitive
 };
 RG_STRUCT_SIZE(packing_params, 3)
 

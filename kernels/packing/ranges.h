@@ -1,5 +1,5 @@
-// An indirect draw for each occlusion query, of the primitives of its items: vertices, instances,
-// first vertex, first instance (core/device/packing.h).
+// Writes the arguments of an indirect draw for each occlusion query, which draws its items'
+// primitives: vertices, instances, first vertex, first instance (core/device/packing.h).
 #include "kernels/packing/params.h"
 
 #define RG_PARAMS packing_params

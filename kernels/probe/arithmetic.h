@@ -1,5 +1,5 @@
-// Multiplies and adds as fast as a device can: eight chains of x * factor + term that do not depend
-// on one another, 32 steps each, and their sum. What doctor calls the arithmetic limit.
+// Multiplies and adds as fast as a device can: eight independent chains of x * factor + term, 32
+// steps each, and their sum. doctor calls this rate the arithmetic limit.
 #include "kernels/probe/arithmetic_params.h"
 
 #define RG_PARAMS probe_arithmetic_params

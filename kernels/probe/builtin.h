@@ -1,5 +1,5 @@
 // Applies one operation of RG_PROBE_BUILTINS to every item: each language's own functions, which
-// the dialect forbids. Nothing else may use them; `doctor` shows how far drivers differ.
+// the dialect forbids everywhere else. `doctor` shows how far drivers differ in them.
 #include "kernels/probe/slots.h"
 
 #if RG_GLSL

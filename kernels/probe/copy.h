@@ -1,4 +1,4 @@
-// Copies words and remembers who wrote them: tests of buffers, folding and origins.
+// Copies words, marked with the run's salt, for tests of buffers, folding and origins.
 #include "kernels/probe/copy_params.h"
 
 #define RG_PARAMS probe_copy_params

@@ -2,15 +2,15 @@
 //
 //   X(number, name, inputs, result, expression)
 //
-// `expression` is over the floats a, b, c and their bits ua, ub, uc; `result` says what it gives,
-// FLOAT or UINT; `inputs` names where a, b and c are drawn from (core/device/probe.c). Numbers
-// count from 0 in each list. No operation of the first list may result in a subnormal number, an
-// infinity or a NaN; the ones called _far leave the domain of their function.
+// `expression` is over the floats a, b, c and their bits ua, ub, uc; `result` is its type, FLOAT or
+// UINT; `inputs` names the set from which a, b and c are drawn (core/device/probe.c). Numbers count
+// from 0 in each list. No operation of the first list may result in a subnormal number, an infinity
+// or a NaN. Operations called _far leave the domain of their function.
 #ifndef RG_KERNELS_PROBE_LIST_H
 #define RG_KERNELS_PROBE_LIST_H
 
-// What the dialect allows, and what math.h, rng.h and image/format.h build from it: exact
-// everywhere.
+// The operations that the dialect allows, and functions that math.h, rng.h and image/format.h build
+// from them: exact everywhere.
 #define RG_PROBE_OPS(X)                                                                            \
     X(0, add, WIDE, FLOAT, a + b)                                                                  \
     X(1, subtract, WIDE, FLOAT, a - b)                                                             \
@@ -68,7 +68,7 @@
     X(53, rg_asin, SMALL, FLOAT, rg_asin(a))                                                       \
     X(54, rg_acos, SMALL, FLOAT, rg_acos(a))
 
-// What the dialect forbids, because each language's own differs from driver to driver: how much?
+// The functions that the dialect forbids, because each language's own differ from driver to driver.
 #define RG_PROBE_BUILTINS(X)                                                                       \
     X(0, fma, WIDE, FLOAT, probe_fma(a, b, c))                                                     \
     X(1, mix, SMALL, FLOAT, probe_mix(a, b, c))                                                    \

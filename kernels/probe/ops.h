@@ -1,15 +1,15 @@
-// Applies one operation of RG_PROBE_OPS to every item: the proof that devices agree on each.
+// Applies one operation of RG_PROBE_OPS to every item, to prove that devices agree on it.
 #include "kernels/probe/slots.h"
 #include "kernels/dialect/math.h"
 #include "kernels/dialect/rng.h"
 
-// Written plainly, where a compiler that contracts would fuse.
+// Written so that a compiler which contracts would fuse it.
 RG_FN float probe_multiply_add(float a, float b, float c)
 {
     return a * b + c;
 }
 
-// The same, of a struct's members.
+// The same over a struct's members.
 RG_FN float probe_member_multiply_add(rgba v)
 {
     return rg_rgba(v.r * v.g + v.b, v.g, v.b, v.a).r;

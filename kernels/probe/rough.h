@@ -1,4 +1,4 @@
-// The two operations that GLSL lets be inexact, alone: a device is asked for them when it is opened
+// The two operations that GLSL lets be inexact. Each device is tested on them when it is opened
 // (backends/rounding.h).
 #include "kernels/probe/rough_params.h"
 

@@ -1,4 +1,4 @@
-// What ops.h and builtin.h share: bits of three inputs an item, and the result's bits.
+// The slots of ops.h and builtin.h: the bits of three inputs for each item, and the result's bits.
 #include "kernels/probe/list.h"
 #include "kernels/probe/ops_params.h"
 

@@ -1,5 +1,5 @@
-// raster: where drops are at the start, evenly in the box: all x, then all y, then all z, each 0 to
-// 1, so that neighbouring drops are read side by side.
+// raster: the drops' first places, uniform in the box. All x, then all y, then all z, each 0 to 1,
+// so that neighbouring drops are read side by side.
 #include "kernels/raster/streaks_params.h"
 #include "kernels/dialect/rng.h"
 

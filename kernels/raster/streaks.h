@@ -1,5 +1,5 @@
 // raster: streaks of falling drops in a box of air ahead of the eye, as billboards that turn about
-// their axis towards the eye. No branches in the item: compilers run several side by side.
+// their axis towards the eye. The item has no branches, so that compilers run several side by side.
 #include "kernels/raster/streaks_params.h"
 #include "kernels/dialect/vec.h"
 
@@ -14,7 +14,8 @@ RG_STRUCT(raster_streak)
 #define RG_RECORD raster_streak
 #include "kernels/dialect/draw/draw.h"
 
-// A coordinate of a drop that has fallen so far, in boxes; below the box it comes in above.
+// A coordinate of a drop that has fallen so far, in boxes; a drop that leaves below comes in again
+// above.
 RG_FN float raster_wrapped(float start, float fallen)
 {
     float now = start + fallen;
@@ -29,7 +30,7 @@ RG_FN v3 raster_head(rg_ctx rg, raster_streaks_params p, int i)
                        p.size_z * raster_wrapped(drops_at(rg, 2 * p.count + i), p.fallen_z));
 }
 
-// From a streak's axis to its rim, beside the axis as the eye sees it.
+// The vector from a streak's axis to its rim, across the axis as the eye sees it.
 RG_FN v3 raster_side(v3 head, v3 streak, float radius_m)
 {
     v3 beside = v3_cross(streak, head);

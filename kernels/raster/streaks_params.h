@@ -17,7 +17,7 @@ RG_STRUCT(raster_streaks_params)
     int count;                          // of drops in the buffer
     float corner_x, corner_y, corner_z; // of the box of air: least x, y and z
     float size_x, size_y, size_z;       // of the box
-    float fallen_x, fallen_y, fallen_z; // how far the drops have come, in boxes, 0 to 1
+    float fallen_x, fallen_y, fallen_z; // way of the drops so far, in boxes, 0 to 1
     float streak_x, streak_y, streak_z; // from a streak's head to its tail
     float radius_m;
     float scale_x; // clip space: x' = scale_x x, y' = scale_y y, z' = depth_scale z + depth_offset,

@@ -1,4 +1,5 @@
-// The indices of the elements that are not 0, in order, and their number (core/device/scan.h).
+// Writes the indices of the elements that are not 0, in order, and their number
+// (core/device/scan.h).
 #include "kernels/scan/params.h"
 
 #define RG_PARAMS scan_params

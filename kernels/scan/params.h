@@ -4,12 +4,12 @@
 
 #include "kernels/dialect/lang.h"
 
-#define RG_SCAN_CHUNK 64 // elements an item
+#define RG_SCAN_CHUNK 64 // elements for each item
 
 RG_STRUCT(scan_params)
 {
     int count;    // elements
-    int flags;    // 1: an element counts as 1 where it is not 0
+    int flags;    // 1: an element counts as 1 if it is not 0
     int capacity; // of the indices of scan_compact
 };
 RG_STRUCT_SIZE(scan_params, 3)

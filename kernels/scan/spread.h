@@ -1,5 +1,5 @@
 // Prefix sums within each chunk, starting with the sum of all chunks before it: the way down of a
-// prefix sum (core/device/scan.h). The last chunk also writes the total, behind its own.
+// prefix sum (core/device/scan.h). The last chunk also writes the total, after its own sums.
 #include "kernels/scan/params.h"
 
 #define RG_PARAMS scan_params

@@ -1,6 +1,6 @@
 // Draws the scene's faces: each pixel gets the number of its surface, and its depth.
-// What a pixel looks like is reckoned once, when all faces are drawn (city_shade.h). Drawn
-// without a colour target, it makes depth maps.
+// city_shade.h then computes each pixel's look once, after all faces are drawn. Drawn without a
+// colour target, the faces make depth maps.
 #include "kernels/scenery/city_params.h"
 #include "kernels/dialect/draw/triangle.h"
 
@@ -8,7 +8,7 @@
 #define RG_SLOTS   IN(1, float, faces) IN(2, uint, surface_of) IN(3, uint, blocks)
 #define RG_CORNERS 4
 
-// What depth needs of rg_planes.
+// The part of rg_planes that depth needs.
 RG_STRUCT(scenery_city_record)
 {
     float origin_x;
@@ -64,8 +64,8 @@ RG_DRAW_RECORD(streaks_city)
     r.origin_x = s.origin_x;
     r.origin_y = s.origin_y;
     r.depth = s.depth;
-    // Planes are made of three corners; the fourth may lie nearer or farther. A face that is cut
-    // has no bounds.
+    // Planes are made of three corners; the fourth may lie nearer or farther. A face that the near
+    // plane cuts has no bounds.
     float fourth = t.d.w > RG_LEAST_W ? t.d.z / rg_max(t.d.w, RG_LEAST_W) : s.nearest;
     r.nearest = t.d.w > RG_LEAST_W ? rg_min(s.nearest, fourth) : 0.0f;
     r.farthest = t.d.w > RG_LEAST_W ? rg_max(s.farthest, fourth) : 1.0f;

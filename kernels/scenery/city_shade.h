@@ -1,6 +1,6 @@
-// What each pixel of the scene looks like, from the number of its surface and its depth,
-// which city.h has left; and the sky where there is none. So a pixel's light is reckoned
-// once, however many faces lie behind each other.
+// Shades each pixel of the scene, from the surface number and depth that city.h left, or draws the
+// sky if there is no surface. So a pixel's light is computed once, however many faces lie behind
+// each other.
 #include "kernels/dialect/math.h"
 #include "kernels/scenery/city_shade_params.h"
 #include "kernels/scenery/light.h"
@@ -20,9 +20,9 @@
 #include "kernels/scenery/shadow.h"
 #include "kernels/scenery/texture.h"
 
-// How much more than its texture's light a wet ground throws back in the mirror's direction.
+// The gain of a wet ground in the mirror's direction, over its texture's light.
 #define SCENERY_GLEAM 14.0f
-// Openness is read this far in front of a surface, so as not to read that of the walls' inside.
+// Openness is read this far in front of a surface, and not inside the wall.
 #define SCENERY_BEFORE_M 3.0f
 
 RG_DRAW_ITEM(streaks_city_shade)
@@ -35,7 +35,7 @@ RG_DRAW_RECORD(streaks_city_shade)
     return view_quad_record();
 }
 
-// What is seen at a pixel.
+// The point of the scene that is seen at a pixel.
 RG_STRUCT(scenery_seen)
 {
     int first_word; // of its surface
@@ -68,7 +68,7 @@ RG_FN uint scenery_word(rg_ctx rg, scenery_seen s, int word)
     return surfaces_at(rg, s.first_word + word);
 }
 
-// How much water stands on it, 0 to 1.
+// The wetness that a surface gets, 0 to 1.
 RG_FN float scenery_wetness(uint normal)
 {
     return rg_to_float(normal >> 30) * (1.0f / 3.0f);
@@ -76,8 +76,8 @@ RG_FN float scenery_wetness(uint normal)
 
 // --- lights ---
 
-// The light that a wet ground mirrors, the rougher the ground the wider: a lobe about the half way
-// between light and eye (Blinn, 1977), to the 64th power.
+// The light that a wet ground mirrors: a lobe about the half way between light and eye (Blinn,
+// 1977), to the 64th power. A rougher ground would have a wider lobe.
 RG_FN float scenery_gleam(v3 n, v3 ray, v3 to_light)
 {
     v3 half_way = v3_add(to_light, v3_scale(ray, -1.0f));
@@ -108,7 +108,7 @@ RG_DRAW_LIGHT(streaks_city_shade)
 
 // --- what a pixel shows ---
 
-// The upper 16 bits as a number with a sign, and the lower.
+// The upper 16 bits of a word as a signed number; below, the lower ones.
 RG_FN float scenery_upper(uint word)
 {
     return rg_to_float(rg_to_int(word >> 16) - ((word >> 31) != 0u ? 65536 : 0));
@@ -144,7 +144,7 @@ RG_FN rgba scenery_painted(rg_ctx rg, scenery_city_shade_params p, scenery_seen 
                    t.b * (rg_to_float(tint >> 11) * (1.0f / 31.0f)), t.a);
 }
 
-// What a wet ground mirrors of the sky: the more, the flatter the view (Schlick, 1994).
+// The share of the sky's light that a wet ground mirrors: more for a flatter view (Schlick, 1994).
 RG_FN float scenery_mirrored(float wet, float facing)
 {
     float slant = 1.0f - facing;
@@ -166,7 +166,7 @@ RG_DRAW_FRAGMENT(streaks_city_shade)
     float beside = p.bounced * (1.0f - open);
     float glow = p.glow * t.a + rg_to_float((look >> SCENERY_GLOW_BIT) & 7u) * (1.0f / 7.0f);
     float mirrored = scenery_mirrored(wet, facing) * open;
-    // What a lamp from behind lights up shows little of the light that falls on its front.
+    // A surface lit by a lamp behind it shows little of the light that falls on its front.
     float own = (1.0f - 0.45f * wet) * (1.0f - 0.7f * t.a);
     float shown = 1.0f - rg_exp(-s.distance * p.sky.haze_per_m);
     v3 seen =

@@ -11,8 +11,8 @@ RG_STRUCT(scenery_city_shade_params)
     scenery_sky sky;
     float eye_x, eye_y, eye_z;
     float pixel_m; // a pixel's width at w = 1, in metres
-    float ambient; // of the sky's light from above: what surfaces that see all of it get
-    float bounced; // of the horizon's: what those that see no sky get
+    float ambient; // share of the zenith's light for surfaces that see the whole sky
+    float bounced; // share of the horizon's light for surfaces that see no sky
     float glow;    // light of lit windows and lamps
     float wet;     // 0 to 1: how wet the ground is
     int texture_px;

@@ -1,5 +1,5 @@
-// One light, and what of it reaches a point: the same in the world and in the rain
-// frame, which are turned and moved against each other, but not scaled.
+// A light, and the share of it that reaches a point. Both are the same in the world and in the rain
+// frame, which are rotated and moved against each other, but not scaled.
 #ifndef RG_KERNELS_SCENERY_LIGHT_H
 #define RG_KERNELS_SCENERY_LIGHT_H
 
@@ -13,11 +13,11 @@
 // The most lights of a scene.
 #define SCENERY_MAX_LIGHTS 16
 
-// Nearer than 0.1 m a light gets no stronger.
+// A light gets no stronger nearer than 0.1 m.
 #define SCENERY_NEAREST_SQUARED_M2 0.01f
 
-// A light's colour is the radiance of a white matt surface that faces it. Times this, pi, it is the
-// irradiance that the light brings there.
+// A light's colour is the radiance of a white matt surface that faces it. Times pi, it is the
+// light's irradiance there.
 #define SCENERY_IRRADIANCE 3.14159274f
 
 RG_STRUCT(scenery_light)
@@ -25,18 +25,18 @@ RG_STRUCT(scenery_light)
     int kind;
     float x, y, z;    // metres; of points and spots
     float dx, dy, dz; // the way light travels, of unit length; of spots and suns
-    // Radiance, linear (SCENERY_IRRADIANCE). Of points and spots at 1 m; of suns anywhere.
+    // Radiance, linear (SCENERY_IRRADIANCE), at 1 m from points and spots, and anywhere for suns.
     float r, g, b;
-    // Cosines of the angles from a spot's axis up to which it is as bright as on the axis, and from
-    // which it is dark. The first is larger, in lights of all kinds.
+    // Cosines of the angles from a spot's axis: up to the first it is as bright as on the axis,
+    // from the second on it is dark. The first cosine is larger, in lights of all kinds.
     float cos_inner, cos_outer;
     int shadow_layer;    // of the image of shadow maps; -1: casts none
     int shadow_faces;    // 1, or 6 for a point: the layers from shadow_layer on
-    float shadow_bias_m; // what is nearer to a point than this does not shade it
+    float shadow_bias_m; // surfaces nearer to a point do not shade it
     float shadow_texel;  // a texel's width in metres; of points and spots, at 1 m along the axis
-    // With one face, from this frame to the shadow map's clip space. With six, the first three rows
-    // lead to the frame of the cube map, which is left-handed, with the light in its origin; depth
-    // along a face's axis at a distance of w metres is wx + wy / w.
+    // With one face, the matrix from this frame to the shadow map's clip space. With six, its first
+    // three rows lead to the frame of the cube map, which is left-handed, with the light at its
+    // origin. Depth at w metres along a face's axis is wx + wy / w.
     m4 to_shadow;
 };
 RG_STRUCT_SIZE(scenery_light, 32)
@@ -44,19 +44,19 @@ RG_STRUCT_SIZE(scenery_light, 32)
 RG_STRUCT(scenery_reach)
 {
     v3 to_light; // of unit length
-    float share; // of the light's colour: falls off with the squared distance, 0 outside of a cone
+    float share; // of the light's colour: falls off with the squared distance, 0 outside a cone
 };
 RG_STRUCT_SIZE(scenery_reach, 4)
 
-// How bright a spot is at an angle with this cosine from its axis, 0 to 1, without a kink at either
-// edge.
+// The brightness of a spot at an angle from its axis with this cosine, 0 to 1, smooth at both
+// edges.
 RG_FN float scenery_cone(scenery_light l, float cosine)
 {
     float t = rg_clamp((cosine - l.cos_outer) / (l.cos_inner - l.cos_outer), 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
 }
 
-// No branches: compilers run several points side by side.
+// The code has no branches, so that compilers vectorise over points.
 RG_FN scenery_reach scenery_light_reach(scenery_light l, v3 at)
 {
     v3 axis = v3_make(l.dx, l.dy, l.dz);

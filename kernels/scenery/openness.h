@@ -1,13 +1,13 @@
-// How much of the sky is seen from places of the scene: a grid of 4 m, with four neighbours in one
-// word, so that a place between eight points takes two words. Included behind a program's slots,
-// which have IN(n, uint, openness).
+// The share of the sky that is seen from a place of the scene, on a grid of 4 m. A word holds four
+// neighbours, so that interpolation between eight points takes two words. Programs include this
+// file after their slots, which have IN(n, uint, openness).
 #ifndef RG_KERNELS_SCENERY_OPENNESS_H
 #define RG_KERNELS_SCENERY_OPENNESS_H
 
 #include "kernels/scenery/openness_grid.h"
 #include "kernels/dialect/vec.h"
 
-// Between the four points of a level: 0 to 255.
+// Interpolates between the four points of a level, 0 to 255.
 RG_FN float scenery_openness_level(rg_ctx rg, int x, int z, int level, float fx, float fz)
 {
     uint four = openness_at(rg, (level * SCENERY_OPEN_SIDE + z) * SCENERY_OPEN_SIDE + x);
@@ -20,7 +20,7 @@ RG_FN float scenery_openness_level(rg_ctx rg, int x, int z, int level, float fx,
     return near + (far - near) * fz;
 }
 
-// At a place in the world, 0 to 1.
+// The openness at a place in the world, 0 to 1.
 RG_FN float scenery_openness(rg_ctx rg, v3 at)
 {
     float side = rg_to_float(SCENERY_OPEN_SIDE - 1);
@@ -28,7 +28,7 @@ RG_FN float scenery_openness(rg_ctx rg, v3 at)
     float z = rg_clamp((at.z - SCENERY_OPEN_LOW_M) * (1.0f / SCENERY_OPEN_CELL_M), 0.0f, side);
     float y = rg_clamp(at.y * (1.0f / SCENERY_OPEN_CELL_M), 0.0f,
                        rg_to_float(SCENERY_OPEN_LEVELS - 1) - 0.001f);
-    // Floored as floats, before rg_to_int: else gcc makes branches of the clamps, and no vectors.
+    // Floors as floats before rg_to_int; else gcc makes branches of the clamps, and no vectors.
     float lx = rg_floor(x);
     float lz = rg_floor(z);
     float ly = rg_floor(y);

@@ -1,17 +1,18 @@
-// Whether a light reaches a point, by its shadow maps. A program that asks has the slot
+// Whether a light reaches a point, by its shadow maps. A program that includes this file has the
+// slot
 //   IMAGE(n, D32F, shadows)  all lights' maps: a layer for each, six for a point light
-// and includes this behind dialect/draw/draw.h or dialect/slots/slots.h. Where no light casts
-// shadows any image of one texel will do.
+// and includes this after dialect/draw/draw.h or dialect/slots/slots.h. If no light casts shadows,
+// any image of one texel will do.
 //
-// No branches: a cpu runs pixels side by side with one light for all. So texels are read whether a
-// light casts shadows or not, at places that lie within the image.
+// The code has no branches, because cpu runs pixels side by side with one light for all. It reads
+// texels whether a light casts shadows or not, always within the image.
 #ifndef RG_KERNELS_SCENERY_SHADOW_H
 #define RG_KERNELS_SCENERY_SHADOW_H
 
 #include "kernels/dialect/image/cube.h"
 #include "kernels/scenery/light.h"
 
-// Where the ray from the light to a point meets the light's shadow map.
+// The place where the ray from the light to a point meets the light's shadow map.
 RG_STRUCT(scenery_shadow_place)
 {
     int layer;
@@ -22,13 +23,13 @@ RG_STRUCT(scenery_shadow_place)
 };
 
 // The point is first moved towards the light along the ray itself. So it stays within its texel,
-// and the bias is in metres however depth depends on distance: linearly in the maps of suns, by
-// 1 / distance in others.
+// and the bias is in metres, although depth is linear in distance for suns, and in 1 / distance for
+// others.
 RG_FN scenery_shadow_place scenery_shadow_locate(scenery_light l, v3 at, int size)
 {
     v3 near = v3_add(at, v3_scale(scenery_light_reach(l, at).to_light, l.shadow_bias_m));
     rg_corner g = m4_project(l.to_shadow, near);
-    // The face of a cube map that the axis with the largest component meets, as cube_locate has it.
+    // The face of a cube map that the axis with the largest component meets, as in cube_locate.
     float ax = rg_abs(g.x);
     float ay = rg_abs(g.y);
     float major = rg_max(ax, rg_max(ay, rg_abs(g.z)));
@@ -54,7 +55,7 @@ RG_FN scenery_shadow_place scenery_shadow_locate(scenery_light l, v3 at, int siz
     return place;
 }
 
-// The texel that a coordinate lies in; any coordinate will do.
+// The texel that a coordinate lies in, clamped to the image.
 RG_FN int scenery_shadow_texel(float at, int size)
 {
     return rg_to_int(rg_clamp(at, 0.0f, rg_to_float(size - 1)));
@@ -65,8 +66,8 @@ RG_FN float scenery_shadow_tap(rg_ctx rg, scenery_shadow_place place, int x, int
     return place.depth <= shadows_texel(rg, x, y, place.layer, 0).r ? 1.0f : 0.0f;
 }
 
-// 1 where a light reaches a point, 0 where something is before it. A point outside of the light's
-// map is reached, and so is every point where the light casts no shadows.
+// 1 if a light reaches a point, 0 if something is before it. A light reaches every point outside
+// its map, and all points if it casts no shadows.
 RG_FN float scenery_unshadowed(rg_ctx rg, scenery_light l, v3 at)
 {
     int size = shadows_width(rg, 0);
@@ -76,7 +77,8 @@ RG_FN float scenery_unshadowed(rg_ctx rg, scenery_light l, v3 at)
     return 1.0f - rg_to_float(place.known) * (1.0f - lit);
 }
 
-// The same between four texels, 0 to 1: for surfaces, whose shadows end in sight.
+// The same interpolated between four texels, 0 to 1: for surfaces, on which a shadow's edge is
+// seen.
 RG_FN float scenery_unshadowed_soft(rg_ctx rg, scenery_light l, v3 at)
 {
     int size = shadows_width(rg, 0);
@@ -96,8 +98,8 @@ RG_FN float scenery_unshadowed_soft(rg_ctx rg, scenery_light l, v3 at)
     return place.known != 0 ? upper * (1.0f - fy) + lower * fy : 1.0f;
 }
 
-// Where to ask for a surface's point with this unit normal on the light's side: off the surface by
-// two texels' width, so that a slanting surface does not shade itself.
+// The point to ask about for a point of a surface. It lies two texels' width off the surface, along
+// the unit normal on the light's side, so that a slanting surface does not shade itself.
 RG_FN v3 scenery_off_surface(scenery_light l, v3 at, v3 normal)
 {
     v3 away = v3_make(l.x - at.x, l.y - at.y, l.z - at.z);

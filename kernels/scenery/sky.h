@@ -9,7 +9,7 @@ RG_STRUCT(scenery_sky)
 {
     float zenith_r, zenith_g, zenith_b; // light from above
     float horizon_r, horizon_g, horizon_b;
-    float clouds; // how much their light varies, 0 to 1
+    float clouds; // variation of their light, 0 to 1
     float haze_per_m;
 };
 RG_STRUCT_SIZE(scenery_sky, 8)
@@ -46,7 +46,7 @@ RG_FN v3 scenery_sky_light(scenery_sky s, v3 d)
 {
     float up = rg_max(d.y, 0.0f);
     float share = up * (2.0f - up);
-    // Clouds lie on a plane overhead; they lose themselves in the haze.
+    // Clouds lie on a plane overhead, and fade into the haze.
     float to_plane = 1.0f / (up + 0.08f);
     float x = d.x * to_plane + 32.0f;
     float y = d.z * to_plane + 32.0f;

@@ -1,13 +1,13 @@
-// A surface of the scene: what all faces of one place, direction and material have in common. It
-// is a row of words in a buffer, since rows of words are what every device fetches fastest.
+// A surface of the scene: the data that all faces of one place, direction and material share. It is
+// a row of words in a buffer, which every device fetches fastest.
 #ifndef RG_KERNELS_SCENERY_SURFACE_H
 #define RG_KERNELS_SCENERY_SURFACE_H
 
 #include "kernels/dialect/mesh/normal.h"
 
-// The words of a surface. Textures lie upon the world. On ground and roofs, u runs along x and v
-// along z, or, turned, u along z and v along x; on walls u runs to the right as seen from outside,
-// and v along y. Places are in whole textures: u = scale_u * along + offset_u, and so for v.
+// The words of a surface. Textures are fixed to the world. On ground and roofs, u runs along x and
+// v along z, or, turned, u along z and v along x; on walls u runs to the right as seen from
+// outside, and v along y. Places are in whole textures: u = scale_u * along + offset_u; v likewise.
 #define SCENERY_SCALES        0 // u's and v's in 1 / SCENERY_SCALE_STEPS, 16 bits each with a sign
 #define SCENERY_OFFSETS       1 // u's and v's in 1 / 65536
 #define SCENERY_NORMAL        2 // mesh_normal_pack; above it two bits: how wet it gets, 0 to 3
@@ -16,14 +16,14 @@
 
 #define SCENERY_SCALE_STEPS 8192.0f
 
-// The look, from the lowest bit: the texture, 8 bits; the kind, 4; whether it is turned, 1; how
-// much it glows by itself, 3; what the texture is multiplied by, r, g and b, 5, 6 and 5 bits.
+// The look, from the lowest bit: the texture, 8 bits; the kind, 4; whether it is turned, 1; its own
+// glow, 3; the texture's tint, a factor for r, g and b, 5, 6 and 5 bits.
 #define SCENERY_KIND_BIT   8
 #define SCENERY_TURNED_BIT 12
 #define SCENERY_GLOW_BIT   13
 #define SCENERY_TINT_BIT   16
 
-// Above this y of its normal a surface is ground or a roof.
+// A surface whose normal has a y above this is ground or a roof.
 #define SCENERY_LEVEL_Y 0.7f
 
 RG_FN uint scenery_kind(uint look)
@@ -31,7 +31,7 @@ RG_FN uint scenery_kind(uint look)
     return (look >> SCENERY_KIND_BIT) & 15u;
 }
 
-// Kinds of surface: what rain splashes on.
+// Kinds of surface, on which rain splashes in different ways.
 #define SCENERY_KIND_WALL    0
 #define SCENERY_KIND_GLASS   1
 #define SCENERY_KIND_ROOF    2
@@ -44,7 +44,7 @@ RG_FN uint scenery_kind(uint look)
 #define SCENERY_KIND_LIGHT   9 // lamps: they glow
 #define SCENERY_KINDS        10
 
-// What a map of surface numbers holds where there is no surface.
+// The number, in a map of surface numbers, where there is no surface.
 #define SCENERY_NO_SURFACE 0xffffffffu
 
 #endif

@@ -1,20 +1,20 @@
-// The scene's textures: squares of equal size that repeat, RGBA8. Colours are kept as the square
-// roots of their light, which eight bits hold nearly as well as the sRGB curve, and which every
-// device squares alike; alpha says how much of the light a lamp behind the surface gives at night.
+// The scene's textures: squares of equal size that repeat, RGBA8. Colours are stored as the square
+// roots of their light: eight bits hold these nearly as well as the sRGB curve, and every device
+// squares them alike. Alpha says how much of the light a lamp behind the surface gives at night.
 //
-// Filtered in integers of 8 bits, two channels at a time: half the work of floats, and exact.
-// Included behind a program's slots, which have IMAGE(n, RGBA8, textures).
+// Filters in integers of 8 bits, two channels at a time: half the work of floats, and exact.
+// Programs include this file after their slots, which have IMAGE(n, RGBA8, textures).
 #ifndef RG_KERNELS_SCENERY_TEXTURE_H
 #define RG_KERNELS_SCENERY_TEXTURE_H
 
-// Channels r and b, and g and a, each in 16 bits.
+// Channels r and b in one word, g and a in another, each in 16 bits.
 RG_STRUCT(scenery_texel)
 {
     uint rb;
     uint ga;
 };
 
-// Between a and b: t from 0 to 256.
+// Mixes a and b, with t from 0 to 256.
 RG_FN scenery_texel scenery_texel_mix(scenery_texel a, scenery_texel b, uint t)
 {
     scenery_texel c;
@@ -55,15 +55,15 @@ RG_FN scenery_texel scenery_texture_linear(rg_ctx rg, float u, float v, int size
     return scenery_texel_mix(above, below, down);
 }
 
-// `texels` is how many texels of level 0 a pixel is wide, squared. Of the two levels that fit it
-// the nearer one: both of them, and what lies between, would take half as long again for the whole
-// scene, and the eye finds no edge between levels in these textures.
+// `texels` is the square of a pixel's width in texels of level 0. Only the nearest level is read. A
+// mix of two would make the whole scene take half as long again, and the eye finds no edge between
+// levels in these textures.
 RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
                            int last_level)
 {
     float across = u - rg_floor(u);
     float down = v - rg_floor(v);
-    // log2 of the width, from the exponent of twice its square: so it is rounded.
+    // log2 of the width, rounded: from the exponent of twice its square.
     uint bits = rg_float_bits(rg_clamp(texels + texels, 1.0f, 1e9f)) - 0x3f800000u;
     int level = rg_imin(rg_to_int(bits >> 24), last_level);
     scenery_texel t =

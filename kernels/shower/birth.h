@@ -1,4 +1,4 @@
-// A new particle: where it is born and how it moves at first (section II.B).
+// A new particle: its place of birth and its first motion (section II.B).
 #ifndef RG_KERNELS_SHOWER_BIRTH_H
 #define RG_KERNELS_SHOWER_BIRTH_H
 
@@ -6,7 +6,7 @@
 #include "kernels/dialect/rng.h"
 #include "kernels/shower/particle.h"
 
-// Eqs. 6 to 8; or the same body with as many particles in each cubic metre.
+// Eqs. 6 to 8; if p.is_even, the same body with as many particles in each cubic metre.
 RG_FN v3 shower_direction(shower_params p, float r2, float r3)
 {
     float phi = p.phi_rad + p.phi_span_rad * r2;

@@ -1,4 +1,4 @@
-// The body that is seen, by its six sides (section III.B), and what of a drop is inside of it.
+// The body that is seen, by its six sides (section III.B), and whether a drop is inside it.
 #ifndef RG_KERNELS_SHOWER_BODY_H
 #define RG_KERNELS_SHOWER_BODY_H
 
@@ -9,7 +9,7 @@ RG_FN float shower_inside(shower_plane side, v3 at)
     return side.x * at.x + side.y * at.y + side.z * at.z + side.at;
 }
 
-// The test of section III.B: 1 where a point is inside of all six sides.
+// The test of section III.B: 1 if a point is inside all six sides.
 RG_FN int shower_holds(shower_params p, v3 at)
 {
     float least = rg_min(rg_min(rg_min(shower_inside(p.front, at), shower_inside(p.back, at)),
@@ -18,7 +18,7 @@ RG_FN int shower_holds(shower_params p, v3 at)
     return least >= 0.0f ? 1 : 0;
 }
 
-// The largest distance inside of one side that the four corners of a drop have.
+// The largest distance inside one side among a drop's four corners.
 RG_FN float shower_most(shower_plane side, v3 low_left, v3 low_right, v3 upwards)
 {
     float up = side.x * upwards.x + side.y * upwards.y + side.z * upwards.z;
@@ -27,7 +27,7 @@ RG_FN float shower_most(shower_plane side, v3 low_left, v3 low_right, v3 upwards
     return rg_max(rg_max(left, left + up), rg_max(right, right + up));
 }
 
-// The test before that: 1 where the drop's quad is not wholly outside of a side.
+// The test before it: 1 unless the drop's quad is wholly outside one side.
 RG_FN int shower_holds_body(shower_params p, v3 at, float fall_m_s)
 {
     v3 up = shower_upwards(p, at, fall_m_s);

@@ -1,4 +1,4 @@
-// How high what stands at a place is. Kernels include it behind their slots, which have
+// The height of the scene at a place. Kernels include this file after their slots, which have
 //   IMAGE(3, D32F, heights)  the scene seen from above; one texel: there is none
 #ifndef RG_KERNELS_SHOWER_GROUND_H
 #define RG_KERNELS_SHOWER_GROUND_H

@@ -1,10 +1,10 @@
-// How high what stands at a place is, by the scene seen from above.
+// The height of the scene at a place, by its depth map from above.
 #ifndef RG_KERNELS_SHOWER_HEIGHTS_H
 #define RG_KERNELS_SHOWER_HEIGHTS_H
 
 #include "kernels/shower/params.h"
 
-// A texel of the scene seen from above; `outside` is 1 where the map does not reach.
+// A texel of the scene seen from above; `outside` is 1 for places off the map.
 RG_STRUCT(shower_map_place)
 {
     int x;
@@ -24,8 +24,8 @@ RG_FN shower_map_place shower_map_place_at(shower_params p, float x, float z, in
     return m;
 }
 
-// How high what stands there is, by the depth seen from above. A sum of products with 0 and 1 makes
-// the choice, because gcc moves what only one branch of a choice reads into that branch.
+// The height of the scene, by its depth seen from above. A sum of products with 0 and 1 makes the
+// choice, because gcc would move the load that only one side needs into a branch.
 RG_FN float shower_height(shower_params p, float depth, int outside)
 {
     float seen = rg_max(p.map_top_m - depth * p.map_height_m, p.ground_m);

@@ -1,12 +1,12 @@
-// What all kernels of shower are told, and what they share with the host: Ye, "Raining Simulation
+// Parameters and buffers of all kernels of shower, shared with the host: Ye, "Raining Simulation
 // based on Improved Particle Systems algorithms". Lengths are metres in the world, y up.
 #ifndef RG_KERNELS_SHOWER_PARAMS_H
 #define RG_KERNELS_SHOWER_PARAMS_H
 
 #include "kernels/dialect/matrix.h"
 
-// Planes of the buffer `particles`: a word of each particle stands beside the same word of the
-// next, so that several are moved side by side.
+// Planes of the buffer `particles`: a word of a particle is beside the same word of the next one,
+// so that compilers vectorise over particles.
 #define SHOWER_X     0
 #define SHOWER_Y     1
 #define SHOWER_Z     2
@@ -22,19 +22,19 @@
 #define SHOWER_AGE        5 // frames
 #define SHOWER_ATTRIBUTES 6
 
-// The buffer `marks`: what the step found of each slot.
+// The buffer `marks`: the state of each slot after the step.
 #define SHOWER_STAYS    0u
 #define SHOWER_FREE     1u // there is no particle: a new one may be born or placed here
-#define SHOWER_PROMOTED 2u // it left at an end of its column and came in again at the other
-#define SHOWER_CROSSED  3u // it left by a side and came in again at the opposite one
+#define SHOWER_PROMOTED 2u // it left at one end of its column and came in at the other
+#define SHOWER_CROSSED  3u // it left by a side and came in again
 
 // Words of the buffer `tally`.
 #define SHOWER_ALIVE  0 // particles
 #define SHOWER_BORN   1 // since the beginning, modulo 2^32, as all that follow
 #define SHOWER_DIED   2
 #define SHOWER_RAISED 3 // promotions
-#define SHOWER_PASSED 4 // particles that came in again at the opposite side
-#define SHOWER_PLACED 5 // particles whose column has no top, and that got another place
+#define SHOWER_PASSED 4 // particles that left by a side and came in again
+#define SHOWER_PLACED 5 // particles that got another place, since their column has no top
 #define SHOWER_TALLY  6
 
 // Streams of random numbers, one a purpose.
@@ -68,11 +68,12 @@ RG_STRUCT(shower_params)
     float wind_x, wind_z; // m/s (eqs. 9 and 11)
     float fall_m_s;       // of a new particle (eq. 10)
     float gravity_m_s2;   // (eq. 13)
-    // The wind through the region, as the viewer has it. Of what leaves on the left, the share that
-    // comes in again on the right: as much as the wind blows in there; and the other way round.
+    // The wind through the region, relative to the viewer: the share of the particles leaving on
+    // the left that comes in again on the right, and vice versa. As many come in as the wind blows
+    // in there.
     float left_to_right, right_to_left;
-    float thinning_m; // how far it carries away from the viewer in a step; 0: it does not
-    float to_left;    // of what it brings in at the sides then, the share that comes in on the left
+    float thinning_m; // distance that it carries away from the viewer in a step, or 0
+    float to_left;    // of those that it then brings in at the sides, the share on the left
     // The region (eqs. 2 to 8).
     float eye_x, eye_y, eye_z;
     float ahead_x, ahead_z; // unit vector along the view, which is level
@@ -80,13 +81,13 @@ RG_STRUCT(shower_params)
     float near_m, far_m;
     float phi_rad, phi_span_rad; // the angle from straight up
     float theta_rad, theta_span_rad;
-    int is_even; // 1: particles are born anywhere alike; 0: at any distance and angle alike
+    int is_even; // 1: births are uniform in volume; 0: uniform in distance and angle
     // Drops.
     float height_m, width_m;
     // The ground, and the scene seen from above.
     float ground_m;
     float map_x, map_z;         // its first texel's corner
-    float map_per_x, map_per_z; // maps a metre
+    float map_per_x, map_per_z; // maps per metre
     float map_top_m, map_height_m;
 };
 RG_STRUCT_SIZE(shower_params, 64)

@@ -1,5 +1,5 @@
-// A particle by value: its motion and its size. What lies in this folder kernels and the host's own
-// allocation (core/techniques/shower/heap.c) share; kernels are in the folders below.
+// A particle by value: its motion and its size. Kernels, in the folders below, and the host's own
+// allocation (core/techniques/shower/heap.c) share the files of this folder.
 #ifndef RG_KERNELS_SHOWER_PARTICLE_H
 #define RG_KERNELS_SHOWER_PARTICLE_H
 
@@ -9,13 +9,13 @@ RG_STRUCT(shower_particle)
 {
     v3 at;
     float fall_m_s; // 0: there is none
-    // What the traditional system keeps beside them.
+    // Further attributes of the traditional system.
     float vx, vz;
     v3 acceleration;
     float age; // frames
 };
 
-// How far ahead of the eye a place is, and how far to its right.
+// The distance of a place ahead of the eye; below, to the eye's right.
 RG_FN float shower_ahead(shower_params p, float x, float z)
 {
     return (x - p.eye_x) * p.ahead_x + (z - p.eye_z) * p.ahead_z;
@@ -26,8 +26,8 @@ RG_FN float shower_beside(shower_params p, float x, float z)
     return (z - p.eye_z) * p.ahead_x - (x - p.eye_x) * p.ahead_z;
 }
 
-// The share of their size and speed that drops so far ahead have: three layers of equal depth, with
-// 1, 1/2 and 1/3.
+// The share of the full size and speed that drops at this distance have: 1, 1/2 and 1/3 in three
+// layers of equal depth.
 RG_FN float shower_share(shower_params p, float ahead)
 {
     float depth = (ahead - p.near_m) / (p.far_m - p.near_m);
@@ -35,8 +35,8 @@ RG_FN float shower_share(shower_params p, float ahead)
     return p.is_layered != 0 ? share : 1.0f;
 }
 
-// A step: the place goes by the velocity at its beginning, which the wind of the moment decides but
-// for the fall, and the velocity by the acceleration.
+// A step: the place moves by the velocity at the step's beginning, and the velocity by the
+// acceleration. The horizontal velocity is the wind of the moment.
 RG_FN shower_particle shower_moved(shower_params p, shower_particle q)
 {
     shower_particle m = q;
@@ -50,7 +50,8 @@ RG_FN shower_particle shower_moved(shower_params p, shower_particle q)
     return m;
 }
 
-// From a drop's lower end to its upper one: against its velocity, and as high as the drop.
+// The vector from a drop's lower end to its upper one: against its velocity, and as high as the
+// drop.
 RG_FN v3 shower_upwards(shower_params p, v3 at, float fall_m_s)
 {
     float height = p.height_m * shower_share(p, shower_ahead(p, at.x, at.z));

@@ -1,11 +1,11 @@
-// Where particles that leave come in again (section III.D): at the top of their column, and, where
-// the wind or the viewer's walk took them out, at another side.
+// Particles that leave come in again (section III.D): at the top of their column, or, if the wind
+// or the viewer's walk took them out, at another side.
 #ifndef RG_KERNELS_SHOWER_PROMOTION_H
 #define RG_KERNELS_SHOWER_PROMOTION_H
 
 #include "kernels/shower/particle.h"
 
-// Two numbers of 0 to 1, of a particle in a step.
+// Two random numbers, 0 to 1, for a particle in a step.
 RG_STRUCT(shower_chances)
 {
     float whether;
@@ -24,10 +24,10 @@ RG_FN shower_chances shower_chance(shower_params p, int slot)
     return c;
 }
 
-// Where across the view a particle comes in again, -1 at its left side to 1 at its right, by where
-// it has gone: opposite, where the wind blows in as much as out; else anywhere at its distance, as
-// what lies there spreads. Where it draws together, as in a wind from behind, some come in at a
-// side that have not left.
+// The place across the view, from -1 at its left side to 1 at its right, of a particle that was at
+// `u`. If it has left, it comes in opposite, for as much rain as the wind blows in there, else
+// anywhere at its distance. If wind from behind thins out the rain, some particles that have not
+// left go to a side.
 RG_FN float shower_across(shower_params p, float u, float ahead, shower_chances c)
 {
     float anywhere = 2.0f * c.where - 1.0f;
@@ -38,12 +38,12 @@ RG_FN float shower_across(shower_params p, float u, float ahead, shower_chances 
     return u > 1.0f ? from_right : u < -1.0f ? from_left : inside;
 }
 
-// Where a particle is that left by a side, in front or behind, and comes in again.
+// The new place of a particle that left by a side, in front or behind, and comes in again.
 RG_STRUCT(shower_return)
 {
     v3 at;
-    int is_back; // 1: it did
-    int is_deep; // 1: in front or behind
+    int is_back; // 1: it left and comes in again
+    int is_deep; // 1: it left in front or behind
 };
 
 // A particle that leaves in front comes in again behind, and the other way round, at the same place
@@ -70,7 +70,7 @@ RG_FN shower_return shower_returned(shower_params p, v3 at, shower_chances c)
     return r;
 }
 
-// The highest place of a column that is seen, and the lowest that is free.
+// The highest place of a column that is seen; below, the lowest that is above the ground as well.
 RG_FN float shower_top(shower_params p, float x, float z)
 {
     return p.eye_y + shower_ahead(p, x, z) * p.above;
@@ -81,7 +81,7 @@ RG_FN float shower_floor(shower_params p, float x, float z, float ground)
     return rg_max(p.eye_y - shower_ahead(p, x, z) * p.above, ground);
 }
 
-// 1 where a column is seen at all, above what stands there.
+// 1 if any part of a column is seen above the ground there.
 RG_FN int shower_has_top(shower_params p, float x, float z, float ground)
 {
     float ahead = shower_ahead(p, x, z);
@@ -90,7 +90,7 @@ RG_FN int shower_has_top(shower_params p, float x, float z, float ground)
     return deep & wide & (shower_top(p, x, z) > ground ? 1 : 0);
 }
 
-// How high a particle is that left at an end of its column: as far within the other end as it had
+// The height of a particle that left at an end of its column: as far inside the other end as it had
 // gone beyond, so that particles do not gather in rows.
 RG_FN float shower_promoted(shower_params p, v3 at, float ground)
 {

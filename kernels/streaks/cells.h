@@ -1,6 +1,6 @@
-// Where a texture of the streak atlases lies (Creus, figure 4.7): a row for each elevation of the
+// The places of textures in the streak atlases (Creus, figure 4.7): a row for each elevation of the
 // camera, and in it nine columns of azimuth for each of ten elevations of the light.
-// core/scene/atlas/atlas.h says the same for the host.
+// core/scene/atlas/atlas.h has the same for the host.
 #ifndef RG_KERNELS_STREAKS_CELLS_H
 #define RG_KERNELS_STREAKS_CELLS_H
 
@@ -17,11 +17,12 @@
 #define STREAKS_SPLASH_PX   48
 #define STREAKS_SPLASH_LAST 5 // its last level
 
-// Brightness factors: of the point atlases by oscillation, view and column, then of the skies.
+// Brightness factors: of the point atlases by oscillation, view and column; from this index on, of
+// the skies.
 #define STREAKS_SKY_FACTORS 4500
 
-// The first texel of a view's row in level 0; the atlas' height for the view after the last. It
-// is a sum, because gcc makes choices a table, and reads a table for one pixel at a time.
+// The first texel of a view's row in level 0; the atlas' height for the view after the last. It is
+// a sum, because gcc would make a table of choices, and read it for one pixel at a time.
 RG_FN int streaks_row(int view)
 {
     return 1050 * rg_iclamp(view, 0, 1) + 988 * rg_iclamp(view - 1, 0, 1) +
@@ -29,9 +30,8 @@ RG_FN int streaks_row(int view)
            214 * rg_iclamp(view - 4, 0, 1);
 }
 
-// What the pictures of the atlas hold: a drop's diameter, and of the row that a view has the part
-// above the drop's way and below it, in texels of level 0, which differs by less than a texel
-// between views.
+// Sizes in the atlas' pictures, in texels of level 0: a drop's diameter, and the part of a view's
+// row above the drop's way, and below it. This part differs by less than a texel between views.
 #define STREAKS_DROP_PX 23.744f
 #define STREAKS_RIM_PX  19.6f
 
@@ -44,8 +44,8 @@ RG_FN float streaks_way_px(int view)
            329.3281f * rg_to_float(rg_iclamp(view - 3, 0, 1));
 }
 
-// A place across `size` texels from `first` on. It stays half a texel inside: nothing from beside
-// them bleeds in.
+// A place across `size` texels from `first` on. It stays half a texel inside, so that no neighbour
+// bleeds in.
 RG_FN float streaks_within(float first, float size, float share)
 {
     return first + rg_clamp(share * size, 0.5f, size - 0.5f);
@@ -60,7 +60,8 @@ RG_FN float streaks_across(int column, float u, int level)
 
 // --- angles, in steps of the atlas ---
 
-// 180 / pi / 20, written out: compilers round what they reckon beforehand in ways of their own.
+// 180 / pi / 20, written out, because compilers round constants that they compute in different
+// ways.
 #define STREAKS_STEPS_A_RADIAN 2.86478898f
 
 RG_FN float streaks_steps(float radians)
@@ -68,19 +69,19 @@ RG_FN float streaks_steps(float radians)
     return radians * STREAKS_STEPS_A_RADIAN;
 }
 
-// Elevation above the plane across the fall, of a direction of length 1, in steps of 20 degrees.
+// The elevation of a direction of length 1 above the plane across the fall, in steps of 20 degrees.
 RG_FN float streaks_elevation(v3 d)
 {
     return streaks_steps(rg_atan2(-d.z, rg_sqrt(rg_max(1.0f - d.z * d.z, 0.0f))));
 }
 
-// How far a light is to the left of a ray, across the fall.
+// The distance of a light to the left of a ray, across the fall.
 RG_FN float streaks_to_left(v3 to_light, v3 ray)
 {
     return to_light.x * ray.y - to_light.y * ray.x;
 }
 
-// Azimuth of a light from the viewer, to either side, from the atlas' first on.
+// The azimuth of a light from the viewer, to either side, in steps from the atlas' first one on.
 RG_FN float streaks_azimuth(v3 to_light, v3 ray)
 {
     float cosine = -(to_light.x * ray.x + to_light.y * ray.y);
@@ -93,7 +94,8 @@ RG_FN int streaks_view(float elevation)
     return rg_imin(rg_to_int(elevation), STREAKS_VIEWS - 2);
 }
 
-// How long a drop covers the middle of its way in a view's pictures, as a share of the exposure.
+// The time for which a drop covers the middle of its way in a view's pictures, as a share of the
+// exposure.
 RG_FN float streaks_steadiness(int view)
 {
     return STREAKS_DROP_PX / streaks_way_px(view);

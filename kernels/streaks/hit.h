@@ -1,12 +1,12 @@
-// What rain hits: the scene seen along the fall. Programs and kernels that include it behind their
-// slots have
+// The surface that rain hits: the scene seen along the fall. Programs and kernels include this file
+// after their slots, which have
 //   IMAGE(n, D32F, depths)
 #ifndef RG_KERNELS_STREAKS_HIT_H
 #define RG_KERNELS_STREAKS_HIT_H
 
 #include "kernels/streaks/params.h"
 
-// Truth values are numbers here, which gcc can turn into masks.
+// Returns truth values as numbers, which gcc can turn into masks.
 RG_FN int streaks_below(float a, float b)
 {
     return a < b ? 1 : 0;
@@ -36,9 +36,8 @@ RG_FN streaks_map_place streaks_map_place_at(streaks_params p, float x, float y,
     return t;
 }
 
-// s of the first surface at a place, and of the ground where the map does not reach. A sum of
-// products with 0 and 1 makes the choice, because gcc moves what only one branch of a choice reads
-// into that branch.
+// s of the first surface at a place, or of the ground off the map. A sum of products with 0 and 1
+// makes the choice, because gcc would move the load that only one side needs into a branch.
 RG_FN float streaks_hit(rg_ctx rg, streaks_params p, streaks_map_place at)
 {
     float depth = depths_texel(rg, at.x, at.y, 0, 0).r;

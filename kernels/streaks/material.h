@@ -1,5 +1,6 @@
-// The surface that a drop hits: which of the atlas' crowns its splash makes, and what is up for it.
-// Programs and kernels that include it behind their slots have those of particle.h and
+// The surface that a drop hits: the crown of the atlas that its splash makes, and the splash's
+// upward direction. Programs and kernels include this file after their slots, which have those of
+// particle.h and
 //   IMAGE(10, RGBA8, numbers)  the numbers of the surfaces seen along the fall, r lowest, with the
 //                              extent of the depth map; or one texel: all splashes are of one kind
 //   IN(11, uint, surfaces)     SCENERY_SURFACE_WORDS each
@@ -10,9 +11,9 @@
 #include "kernels/scenery/surface.h"
 
 // The atlas' materials (core/scene/atlas/atlas.h).
-#define STREAKS_FILM   0u // a thin film of water; 0, so that what is not known has one
+#define STREAKS_FILM   0u // a thin film of water; 0, so that unknown surfaces have one
 #define STREAKS_PUDDLE 1u
-#define STREAKS_ROUGH  2u // dry asphalt, and all that is rough and holds no water
+#define STREAKS_ROUGH  2u // dry asphalt, and other rough surfaces that hold no water
 #define STREAKS_SMOOTH 3u // metal or glass
 
 // A kind's material, two bits each: streets are wet in the rain, and water stands on flat roofs.
@@ -23,7 +24,7 @@
      (STREAKS_ROUGH << (2 * SCENERY_KIND_EARTH)) | (STREAKS_SMOOTH << (2 * SCENERY_KIND_LEAVES)) | \
      (STREAKS_PUDDLE << (2 * SCENERY_KIND_WATER)) | (STREAKS_SMOOTH << (2 * SCENERY_KIND_LIGHT)))
 
-// Where the words of the surface under a particle begin; below 0 where none is known, as on the
+// The index of the first word of the surface under a particle; below 0 if none is known, as on the
 // ground plane.
 RG_FN int streaks_surface(rg_ctx rg, streaks_params p, streaks_particle t)
 {
@@ -34,7 +35,8 @@ RG_FN int streaks_surface(rg_ctx rg, streaks_params p, streaks_particle t)
     return rg_to_int(number * rg_to_uint(known)) * SCENERY_SURFACE_WORDS + known - 1;
 }
 
-// 0 to 3. The ground plane, where nothing else is hit, has a film as streets have.
+// The material under a particle, 0 to 3. The ground plane, where nothing else is hit, has a film
+// like streets.
 RG_FN int streaks_material(rg_ctx rg, streaks_params p, streaks_particle t)
 {
     int at = streaks_surface(rg, p, t);
@@ -43,14 +45,14 @@ RG_FN int streaks_material(rg_ctx rg, streaks_params p, streaks_particle t)
     return known * rg_to_int((STREAKS_MATERIALS >> (2u * scenery_kind(look))) & 3u);
 }
 
-// As long as 1, or shorter where it is nothing.
+// A vector scaled to length 1, or shorter if it is almost 0.
 RG_FN v3 streaks_unit(v3 d)
 {
     return v3_scale(d, 1.0f / rg_sqrt(rg_max(v3_dot(d, d), 1e-12f)));
 }
 
-// What is up for a splash, of length 1: the surface's normal on the side that rain falls on. As it
-// is kept it is longer or shorter by up to 0.2 %.
+// The upward direction for a splash, of length 1: the surface's normal on the side that rain falls
+// on. The stored normal is longer or shorter by up to 0.2 %.
 RG_FN v3 streaks_up(rg_ctx rg, streaks_params p, streaks_particle t)
 {
     int at = streaks_surface(rg, p, t);
@@ -65,9 +67,9 @@ RG_FN v3 streaks_up(rg_ctx rg, streaks_params p, streaks_particle t)
                                 follows != 0 ? turned.z * side : p.up_s));
 }
 
-// How much further along the fall than in its texel's middle, of which the map tells, a surface
-// that splashes follow lies at a particle's place. Nothing beside the texel counts, so that nothing
-// stands in between at the edge of a roof; what is steeper than 76 degrees has no such places. A
+// The distance along the fall from a texel's middle, which the map knows, to the particle's place
+// on the texel's surface, if splashes follow surfaces. Neighbouring texels do not count, so that
+// the edge of a roof has no slope between it and the ground. Slopes are capped at 76 degrees. A
 // product makes the choice, as in streaks_hit.
 RG_FN float streaks_slope(rg_ctx rg, streaks_params p, streaks_particle t, v3 up)
 {

@@ -1,11 +1,11 @@
-// What a frame of streaks is computed from. Lengths are metres in the rain frame: x and y lie
-// across the fall, s along it, from the middle of the rain space's top plane. Creus, chapter 4.
+// The parameters of a frame of streaks (Creus, chapter 4). Lengths are metres in the rain frame: x
+// and y lie across the fall, s along it, from the middle of the rain space's top plane.
 #ifndef RG_KERNELS_STREAKS_PARAMS_H
 #define RG_KERNELS_STREAKS_PARAMS_H
 
 #include "kernels/dialect/matrix.h"
 
-#define STREAKS_BLOCK       32 // particles a block
+#define STREAKS_BLOCK       32 // particles in a block
 #define STREAKS_BLOCK_WORDS 5  // first particle, mask, shift x, shift y, turn
 
 #define STREAKS_STATE_WORDS 10
@@ -26,38 +26,38 @@ RG_STRUCT(streaks_params)
     float eye_x, eye_y, eye_s;
     float radius;               // of the culling prism, where particles are culled one by one
     float map_x, map_y;         // the depth map's first texel
-    float map_per_x, map_per_y; // maps a metre
+    float map_per_x, map_per_y; // maps per metre
     float map_top, map_height;  // s of depth 0, and from there to depth 1
-    float ground;               // s of the ground plane, which stands where the map does not reach
+    float ground;               // s of the ground plane, which is hit off the map
     float fall;                 // way of a drop in the exposure, upwards; of the settings' drop
     float behind;               // upwards from a particle to its streak's upper end
     float drop_radius;          // of a drop at rest
     float cycles;               // of a drop's slower swing, in the exposure
     float cycles_per_m;         // of its fall
     float half_width;           // of a streak, margins included
-    float thinnest_px;          // no streak is drawn thinner or shorter than this
+    float thinnest_px;          // the least width and length of a drawn streak
     float fall_speed;           // m/s
-    float splash_s;             // how long a splash lasts
-    // Of a splash of the settings' drop: its picture, and how high up in it the impact is.
+    float splash_s;             // duration of a splash
+    // A splash of the settings' drop: the size of its picture, and the height of the impact in it.
     float splash_width, splash_height, splash_foot;
-    float up_x, up_y, up_s; // what is up for splashes that do not follow the surface
+    float up_x, up_y, up_s; // upward direction of splashes that do not follow the surface
     int follows;            // whether splashes stand on the surface's normal
-    int materials;          // whether they go by the surface's kind
-    int around;             // whether the map goes around the observer: beside it there is no rain
+    int materials;          // whether they depend on the surface's kind
+    int around;             // whether the map lies around the observer; there is no rain off it
     int drops, splashes;    // whether they are seen
     int exact;              // whether particles are culled one by one
     int lights;
     int paper_angles;          // whether a view from below counts as one from above (section 4.3.1)
-    int first_level;           // the first of the full atlas' levels that is there
+    int first_level;           // the first of the full atlas' levels that is stored
     int last_level;            // the last one that is read
-    float focal_px;            // pixels a metre at a distance of one
+    float focal_px;            // pixels per metre at a distance of one
     float sky_r, sky_g, sky_b; // light from all around
     float gain, opacity;       // of streaks
     float splash_gain, splash_opacity;
     int first_place; // of states
     int sizes;       // classes of drops, a power of 2
-    // A splash is whole up to where splash_last less its distance times splash_fade is 1, and gone
-    // where that is 0. The distance is level, in metres.
+    // A splash's share is splash_last less its horizontal distance in metres times splash_fade,
+    // within 0 to 1.
     float splash_last, splash_fade;
     int nothing_0, nothing_1; // make whole rows of four
 };

@@ -1,5 +1,5 @@
-// Where a particle is and what it has become: a drop, a splash, or nothing (Creus, sections 4.2 and
-// 4.4). Programs and kernels that include it behind their slots have
+// A particle's place and state: a drop, a splash, or nothing (Creus, sections 4.2 and 4.4).
+// Programs and kernels include this file after their slots, which have
 //   IN(1, float, particles)  x and y in the rain space's clip coordinates, and oscillation + start
 //   IN(2, uint, blocks)      the classes of sizes, then blocks of STREAKS_BLOCK_WORDS each
 //   IMAGE(3, D32F, depths)   the scene seen along the fall
@@ -13,29 +13,29 @@ RG_STRUCT(streaks_particle)
 {
     float x;
     float y;
-    float s;   // of the drop, wherever it would be without the scene
+    float s;   // of the drop, as if there were no scene
     float hit; // s of the first surface below the particle's place on the top plane
     float age; // of a splash, in seconds
     int oscillation;
     int state;
     uint number; // in its buffer
-    // Of its class, in those of the settings' drop.
+    // Values of its class, relative to the settings' drop.
     float radius;
     float speed;
     float swing;  // frequency
     float weight; // drops that it stands for
 };
 
-// How far above a drop the upper end of its streak is. It is p.behind to the bit for the settings'
+// The height of a streak's upper end above the drop. It is p.behind to the bit for the settings'
 // drop.
 RG_FN float streaks_behind(streaks_params p, streaks_particle t)
 {
     return p.behind + p.fall * (t.speed - 1.0f) + p.drop_radius * (t.radius - 1.0f);
 }
 
-// What a particle is, by how far its streak's upper end is `past` the surface it hits. It comes
-// in again at the local top when it leaves the local ground; if its splash is not over by then, it
-// stays a splash. So each drop that hits makes one splash, and all splashes last equally long.
+// A particle's state, by how far its streak's upper end is `past` the surface it hits. A particle
+// that leaves the local ground comes in again at the local top. If its splash is not over by then,
+// it stays a splash. So each drop that hits makes one splash, and all splashes last equally long.
 RG_FN streaks_particle streaks_state(streaks_params p, streaks_particle particle)
 {
     streaks_particle t = particle;
@@ -52,7 +52,7 @@ RG_FN streaks_particle streaks_state(streaks_params p, streaks_particle particle
     return t;
 }
 
-// What the particles of a block share.
+// The values that the particles of a block share.
 RG_STRUCT(streaks_block)
 {
     uint first;   // particle
@@ -110,13 +110,13 @@ RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
     return streaks_particle_of(rg, p, streaks_block_at(rg, p, i >> 5), i & 31);
 }
 
-// The part behind the last whole number.
+// The fractional part.
 RG_FN float streaks_part(float cycles)
 {
     return cycles - rg_floor(cycles);
 }
 
-// Drops swing as they fall, each with a beginning of its own.
+// The turn of a drop's swing as it falls, 0 to 1; each drop has a phase of its own.
 RG_FN float streaks_turn(streaks_params p, streaks_particle t)
 {
     float begin = rg_to_float(rg_to_int(streaks_hash(t.number) & 1023u)) / 1024.0f;

@@ -1,6 +1,6 @@
 // streaks: particles as billboards, drops and splashes alike (Creus, section 4.4.2). A program
-// defines STREAKS_TAPS, the streak textures that are read for each light: 2 (between views), 4 (and
-// between azimuths of the light) or 8 (and between its elevations), and includes taps/light.h.
+// defines STREAKS_TAPS, the number of streak textures that are read for each light, and includes
+// taps/light.h. 2 textures blend views, 4 the light's azimuths too, and 8 its elevations as well.
 #include "kernels/dialect/math.h"
 #include "kernels/streaks/cells.h"
 #include "kernels/scenery/light.h"
@@ -21,9 +21,10 @@
 #define RG_CORNERS 4
 #define RG_LIGHTS
 
-// What the fragments of a billboard share: v grows from its lower end upwards, u to the side. Where
-// a pixel lies in space follows from its w. It has few words, because cpu gathers each of
-// them for each pixel of a small billboard, and no structs, because gcc gathers nothing from these.
+// The values that the fragments of a billboard share: v grows from its lower end upwards, u to the
+// side. A pixel's place in space follows from its w. The record has few words, because cpu gathers
+// each of them for each pixel of a small billboard. It has no structs, because gcc gathers nothing
+// from these.
 RG_STRUCT(streaks_billboard)
 {
     // rg_planes
@@ -32,14 +33,15 @@ RG_STRUCT(streaks_billboard)
     float u_x, u_y, u_at;
     float v_x, v_y, v_at;
     float hit;    // s of the surface that cuts it off; far below a splash
-    float nearer; // that it is drawn before where it lies, in metres along the view
-    uint up;      // of a splash: streaks_up_pack of what is up for it
-    float shown;  // of a drop the camera's elevation, in steps of the atlas; of a splash its frame
-    // How much longer a drop covers a place on its way than the atlas' does, and of drops and
-    // splashes how many they stand for.
+    float nearer; // distance by which it is drawn nearer than it is, in metres along the view
+    uint up;      // of a splash: streaks_up_pack of its upward direction
+    float shown;  // a drop's elevation of the camera, in steps of the atlas; a splash's frame
+    // For a drop, the time for which it covers a place on its way, relative to the atlas' drop,
+    // times the number of drops that it stands for. For a splash, that number, faded at its end and
+    // in the distance.
     float share;
-    // Of a drop. Lengths are in its radii, as the eye sees them.
-    float way;     // how far it falls in the exposure
+    // For drops. Lengths are in its radii, as the eye sees them.
+    float way;     // way of its fall in the exposure
     float lacking; // at either end for a pixel's length
     float turn;    // its swing at the lower end, in cycles
     float cycles;  // of its slower swing, in the exposure
@@ -52,11 +54,11 @@ RG_STRUCT(streaks_billboard)
 #define RG_GROUP_ITEMS STREAKS_BLOCK
 #define RG_GROUP       streaks_block
 
-// Of a drop, which of its streak textures a light shows, and each one's part in what is seen: one
-// in either view, for the nearest column, or for its neighbours too.
+// The streak textures by which a light shows on a drop, and the part of each: one in either view,
+// for the nearest column, or for its neighbours too.
 RG_STRUCT(streaks_lighting)
 {
-    uint column;         // the first, times 2; odd where its pictures are mirrored
+    uint column;         // the first, times 2; odd if its pictures are mirrored
     float lower, higher; // of the first column, in the lower view and in the other
 #if STREAKS_TAPS > 2
     float lower_1, higher_1; // the next azimuth
@@ -81,13 +83,13 @@ RG_STRUCT(streaks_shape)
     v3 axis;
     v3 middle;
     float pixel;      // at the middle, in metres
-    float half_width; // of what the atlas shows
+    float half_width; // of the atlas' picture
     float weight;     // drops that it stands for
-    float covering;   // half of the billboard's width: no less than that of the thinnest
+    float covering;   // half of the billboard's width, at least half of thinnest_px
     float rim;        // beyond either end of the axis, as the eye sees it
     v3 up;            // of a splash
-    float nearer;     // how far before its place it is drawn
-    // Of drops, in radii, as the eye sees them.
+    float nearer;     // distance by which it is drawn nearer than it is
+    // For drops, in radii, as the eye sees them.
     v3 to_eye;     // from the middle, of length 1: no radii
     float way;     // in the exposure
     float lacking; // at either end for a pixel's length
@@ -99,8 +101,8 @@ RG_FN float streaks_size(uint random)
     return 0.85f + 0.3f * rg_to_float(rg_to_int(random & 1023u)) / 1023.0f;
 }
 
-// The part of a splash's picture below the impact stands for what lies before it: it would be
-// under the ground. So the splash is drawn so much nearer that its lower edge is above it.
+// The part of a splash's picture below the impact shows water in front of it, but would lie under
+// the ground. So the splash is drawn nearer, until its lower edge is above the ground.
 RG_FN float streaks_nearer(streaks_shape shape, float below)
 {
     float sine = v3_dot(shape.to_eye, shape.up);
@@ -145,8 +147,8 @@ RG_FN streaks_shape streaks_shape_of(rg_ctx rg, streaks_params p, streaks_partic
     return shape;
 }
 
-// What the eye sees a billboard along: to the left of its axis, and along it. The axis is
-// foreshortened, a drop's width is not.
+// A billboard's directions as the eye sees it: to the left of its axis, and along it. The axis is
+// foreshortened; a drop's width is not.
 RG_STRUCT(streaks_frame)
 {
     v3 left;
@@ -194,7 +196,7 @@ RG_FN rg_item streaks_item_of(streaks_params p, streaks_shape shape)
 
 // --- record ---
 
-// The level at which a texel is nearest to a pixel in size.
+// The level whose texels are nearest to pixels in size.
 RG_FN int streaks_level(float texels, float pixels, int last)
 {
     float ratio = rg_max(texels / rg_max(pixels, 1e-6f), 1.0f);
@@ -203,7 +205,7 @@ RG_FN int streaks_level(float texels, float pixels, int last)
 
 // The word `look` from the lowest bit: three bits with names; three of the level, counted as in the
 // full atlas or in a splash's images; six of the layer, which is a drop's oscillation or the first
-// of a splash's; twelve of the row behind a drop's second view.
+// of a splash's; twelve of the row after a drop's second view.
 #define STREAKS_LOOK_SPLASH   1u
 #define STREAKS_LOOK_MIRRORED 2u // of splashes
 #define STREAKS_LOOK_BELOW    4u // of drops: seen from below, so that elevations change their signs
@@ -228,7 +230,7 @@ RG_FN int streaks_layer_of(streaks_billboard r)
     return rg_to_int((r.look >> 6) & 63u);
 }
 
-// The level of a billboard's images: a drop's as the full atlas counts them, or a splash's.
+// The level of a billboard's images: a drop's, counted as in the full atlas, or a splash's.
 RG_FN int streaks_level_for(streaks_params p, streaks_shape shape, int splash)
 {
     float pixels = 2.0f * shape.half_width / shape.pixel;
@@ -268,8 +270,8 @@ RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, str
     return r;
 }
 
-// What is up for a splash never points along the fall, so that its last component needs no sign.
-// With ten bits and a sign each, light that grazes the surface was off by 1.5 %.
+// A splash's upward direction never points along the fall, so that its last component needs no
+// sign. With ten bits each, signs included, light that grazes the surface was off by 1.5 %.
 RG_FN uint streaks_up_pack(v3 up)
 {
     float ends = 1023.0f;
@@ -286,7 +288,7 @@ RG_FN v3 streaks_up_unpack(uint bits)
     return v3_scale(v3_make(x, y, -rg_to_float(rg_to_int(bits >> 22))), 1.0f / 1023.0f);
 }
 
-// A frame shows the middle of its time; the last one goes out, so that no splash ends at once.
+// A frame shows the middle of its time; the last one fades, so that no splash ends at once.
 RG_FN streaks_billboard streaks_splash(rg_ctx rg, streaks_params p, streaks_billboard of,
                                        streaks_particle t, streaks_shape shape, int level)
 {
@@ -373,7 +375,7 @@ RG_STRUCT(streaks_spot)
     float depth;
 };
 
-// From the eye through a place of the picture, as long as 1 along the view.
+// The ray from the eye through a place of the picture, as long as 1 along the view.
 RG_FN v3 streaks_ray(streaks_params p, float x, float y)
 {
     return v3_make(p.rays.xx * x + p.rays.xy * y + p.rays.xz,
@@ -402,16 +404,15 @@ RG_FN streaks_spot streaks_spot_at(streaks_params p, streaks_billboard r, int px
 // A place on a streak.
 RG_STRUCT(streaks_place)
 {
-    float passed; // which share of the exposure is still to come when the drop is there, 0 to 1
+    float passed; // the share of the exposure still to come when the drop is there, 0 to 1
     float window; // less than 1 at the ends, where only a part of the drop passes
 };
 
-// Across a drop's picture, in its radii.
+// Half the width of a drop's picture, in its radii.
 #define STREAKS_CELL_RADII 1.34771f
 
-// What a drop covers of a place is as long as the chord that passes it, or longer, so
-// that no streak is shorter than a pixel; where the exposure begins or ends meanwhile, less of it
-// passes.
+// The chord of a drop that passes a place covers it; it is lengthened, so that no streak is shorter
+// than a pixel. Less of it passes if the exposure begins or ends meanwhile.
 RG_FN streaks_place streaks_place_of(streaks_billboard r, float u, float v)
 {
     float rim = rg_max(1.0f, r.lacking);
@@ -425,7 +426,7 @@ RG_FN streaks_place streaks_place_of(streaks_billboard r, float u, float v)
     return t;
 }
 
-// Where a drop's textures lie; of a splash, anywhere.
+// The places of a drop's textures; for a splash, any places in the atlas.
 RG_STRUCT(streaks_strip)
 {
     int oscillation;

@@ -1,6 +1,6 @@
-// streaks: particles as the frame sees them, for those who compare states: x, y, s, hit height,
-// age, what they are, the material of what they hit, oscillation + turn, radius in metres, and how
-// many drops they stand for, STREAKS_STATE_WORDS each.
+// streaks: writes the frame's particles, so that states can be compared. Each has
+// STREAKS_STATE_WORDS words: x, y, s, hit height, age, state, the material of the surface hit,
+// oscillation + turn, radius in metres, and the number of drops that it stands for.
 #include "kernels/streaks/params.h"
 
 #define RG_PARAMS streaks_params

@@ -45,8 +45,8 @@ bool rg_caged_find(const char *program, char *path, size_t size);
 int rg_caged_run(const char *const args[], int file, int timeout_s, int64_t most_bytes,
                  struct rg_caged *caged);
 
-// How it ended. Unless that is RG_CAGED_SOUND, `why` gets a sentence that blames `library` or the
-// machine.
+// The way in which a caged program ended. Unless that is RG_CAGED_SOUND, `why` gets a sentence that
+// blames `library` or the machine.
 enum rg_caged_end rg_caged_end(const struct rg_caged *caged, const char *library, char *why,
                                size_t size);
 

@@ -23,8 +23,8 @@ FILE *rg_file_open_small(const char *path, const char **why);
 FILE *rg_file_append(const char *path, const char **why);
 
 // The path of a file to write, after following the links that `path` ends in, whether or not the
-// file exists. False, and `why`, where the path or its folder is another user's link in a folder
-// that all may write to (sticky, as /tmp is) and that is not that user's: the link's owner would
+// file exists. False, and `why`, if the path or its folder is another user's link in a folder that
+// all may write to (sticky, as /tmp is) and that is not that user's. The owner of such a link would
 // choose which file is overwritten.
 bool rg_file_follow(const char *path, char target[PATH_MAX], const char **why);
 

@@ -6,9 +6,9 @@
 
 enum { RG_NAMELESS_WHY = 200 };
 
-// An empty file to read, write and map, which is closed by exec: in memory, or in a folder for
-// temporary files where the system refuses that. -1 where neither works; `why` is then a sentence
-// with the mend, and errno is that of the folder's file.
+// Makes an empty file to read, write and map, which is closed by exec. It is in memory, or, if the
+// system refuses that, in a folder for temporary files. Returns -1 if neither works; `why` is then
+// a sentence with the mend, and errno is that of the folder's file.
 int rg_file_nameless(char why[RG_NAMELESS_WHY]);
 
 #endif

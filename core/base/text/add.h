@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-// Appends to a text, as far as it fits into `size` bytes. `between` stands before what is added
-// unless the text is empty.
+// Appends to a text, as far as it fits into `size` bytes. Unless the text is empty, `between` is
+// appended first.
 void rg_text_add(char *text, size_t size, const char *between, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

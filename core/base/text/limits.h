@@ -4,9 +4,9 @@
 
 enum { RG_LIMITS_TEXT = 120 };
 
-// Names the limits that are lower than what a driver or a reader of files needs, because a failure
-// under them does not mention the limit: "under ulimit -v 200000, -n 8", in the shell's units. NULL
-// where none is too low. Returns `text`.
+// Names the limits that are lower than a driver or a reader of files needs, because a failure under
+// them does not mention the limit: "under ulimit -v 200000, -n 8", in the shell's units. Returns
+// `text`, or NULL if none is too low.
 const char *rg_limits_low(char text[RG_LIMITS_TEXT]);
 
 #endif

@@ -7,8 +7,8 @@
 // Whether `word` is one of `words`.
 bool rg_has_word(const char *words, const char *word);
 
-// Of names that are tried one after the other, the one that takes the fewest letters to insert,
-// delete or change; zeroed before the first. `name` is NULL where none was tried.
+// The nearest of the names tried so far: it takes the fewest letters to insert, delete or change.
+// Zero it before the first; `name` is NULL if none was tried.
 struct rg_nearest {
     const char *name;
     int distance;

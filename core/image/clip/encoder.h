@@ -1,6 +1,6 @@
 // vpxenc as a process: frames go in as Y4M, a WebM file in memory comes out.
 //
-// Its messages are not shown, except the last line where it failed.
+// Its messages are not shown, except the last line if it failed.
 #ifndef RG_CORE_IMAGE_CLIP_ENCODER_H
 #define RG_CORE_IMAGE_CLIP_ENCODER_H
 
@@ -23,8 +23,8 @@ struct rg_encoder {
 };
 
 // Starts vpxenc. False, and one logged line, where it is missing (unsupported) or does not start.
-// Call rg_encoder_end in either case; `name` must outlive the encoder. `patience_s` is how long it
-// may neither read nor code while it is waited for; 0: unlimited.
+// Call rg_encoder_end in either case; `name` must outlive the encoder. `patience_s` is the time for
+// which it may neither read nor code while the caller waits; 0: unlimited.
 bool rg_encoder_start(struct rg_encoder *encoder, const char *name, double patience_s,
                       bool (*stop)(void));
 // Writes bytes to the encoder. False, and one logged line, where it has ended or hangs.

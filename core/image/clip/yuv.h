@@ -16,9 +16,9 @@ static inline size_t rg_yuv_bytes(int width, int height)
 }
 
 // Fills `yuv` with a frame: Y of every pixel, 16 to 235; then Cb, and then Cr, of every square of 2
-// x 2 pixels, 16 to 240, from the mean of its codes. Where the picture ends within a square, its
-// last row or column counts twice. Colours are multiplied by `exposure`, clamped and sRGB-encoded
-// as in a PNG; alpha is ignored.
+// x 2 pixels, 16 to 240, from the mean of its codes. If the picture ends within a square, its last
+// row or column counts twice. Colours are multiplied by `exposure`, clamped and sRGB-encoded as in
+// a PNG; alpha is ignored.
 void rg_yuv_encode(const struct rg_picture *picture, float exposure, uint8_t *yuv);
 
 #endif

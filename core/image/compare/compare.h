@@ -125,8 +125,8 @@ void rg_comparison_destroy(struct rg_comparison *comparison);
 
 // --- the parts, for tests and for callers that want one figure ---
 
-// The fixed encoding: 4 codes a pixel (red, green, blue, alpha; grey thrice; no alpha: 255) into
-// width * height * 4 bytes.
+// The fixed encoding: 4 codes for each pixel (red, green, blue, alpha; grey thrice; no alpha: 255),
+// into width * height * 4 bytes.
 void rg_encode(const struct rg_picture *picture, float exposure, uint8_t *codes);
 
 bool rg_metrics_compute(const struct rg_picture *a, const struct rg_picture *b,
@@ -169,8 +169,9 @@ bool rg_picture_shows_rain(const struct rg_picture *picture, const struct rg_pic
 // FLIP of each pixel into width * height floats. pixels_per_degree: 1 to 200.
 bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,
                  float pixels_per_degree, float *map);
-// The same of pictures of one shape as they are shown: `tone` makes what a screen shows, 0 to 1, of
-// values of one colour, in place. Where the map has had a larger value, that stays.
+// The same for two pictures of one shape as a screen shows them: `tone` converts values of one
+// colour, in place, to those of the screen, 0 to 1. A larger value that is already in the map
+// stays.
 typedef void rg_tone(float *values, int count, float scale);
 bool rg_flip_map_shown(const struct rg_picture *a, const struct rg_picture *b, rg_tone *tone,
                        float scale, float pixels_per_degree, float *map);

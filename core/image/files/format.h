@@ -24,9 +24,9 @@ bool rg_png_write(const char *path, const struct rg_picture *picture,
 // `extension`, since `path` is a temporary name.
 bool rg_oiio_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
                   struct rg_why *why);
-// What the reader's process handed back of a file of so many bytes (core/image/reader/reply.h),
-// told to hand back no more than `most_bytes` of texels. The picture may hold texels where the
-// reply turns out to be cut; the caller destroys it either way.
+// Takes the reply of the reader's process (core/image/reader/reply.h) for a file of `file_bytes`.
+// The process was told to return at most `most_bytes` of texels. The picture may hold texels even
+// if the reply turns out to be cut; the caller destroys it in either case.
 bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes, int64_t most_bytes,
                         struct rg_picture *picture, struct rg_why *why);
 bool rg_oiio_write_hdr(const char *path, const struct rg_picture *picture,

@@ -1,7 +1,7 @@
 // Picture files: EXR, PNG, Radiance HDR and TIFF, chosen by the file's extension.
 //
 // EXR and PNG go through their own C libraries, because OpenImageIO takes a quarter of a second to
-// load its 260 shared libraries; the other formats, and OpenImageIO's comparison, load it when they
+// load its 260 shared libraries. The other formats, and OpenImageIO's comparison, load it when they
 // first need it.
 #ifndef RG_CORE_IMAGE_FILES_IO_H
 #define RG_CORE_IMAGE_FILES_IO_H
@@ -10,10 +10,11 @@
 #include "core/image/picture.h"
 
 // Reads a picture. Codes (PNG, TIFF of integers) become linear light: by sRGB's curve, or the power
-// in a PNG's gAMA. Floats stay as they are. Of an EXR this is the display window, 0 where the file
-// has no texels; HDR and TIFF are turned upright. What else the file holds goes into the picture's
-// extras. On failure `picture` is zeroed and one line logged: file, what is wrong, how to mend it.
-// NaN and infinite texels are kept, with a warning that counts them; extras are warned of, too.
+// in a PNG's gAMA. Floats stay as they are. An EXR's picture is its display window, 0 where the
+// file has no texels; HDR and TIFF are turned upright. The file's other contents become the
+// picture's extras. On failure `picture` is zeroed and one line logged: file, what is wrong, how to
+// mend it. NaN and infinite texels are kept, with a warning that counts them; extras are warned of,
+// too.
 bool rg_picture_read(const char *path, struct rg_picture *picture);
 
 // Reads several files at once, each on a thread. Either all are read, or none and one line is

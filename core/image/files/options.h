@@ -1,4 +1,4 @@
-// How a picture is written.
+// Options for writing a picture.
 #ifndef RG_CORE_IMAGE_FILES_OPTIONS_H
 #define RG_CORE_IMAGE_FILES_OPTIONS_H
 

@@ -1,5 +1,5 @@
-// The parts of raingauge_picture_reader: reading a file's pixels, and describing what else it
-// holds.
+// The parts of raingauge_picture_reader: reading a file's pixels, and describing its other
+// contents.
 //
 // The program handles one file and then exits, so it frees no memory.
 #ifndef RG_CORE_IMAGE_READER_READER_H
@@ -16,7 +16,7 @@ extern "C" {
 
 struct Reading {
     std::string extension;          // without its dot, in small letters
-    int64_t file_bytes, most_bytes; // most: that texels may have
+    int64_t file_bytes, most_bytes; // most_bytes: of texels
     rg_picture_reply reply;
     float *texels;      // NULL: none, where the header alone shows that the picture is refused
     std::string extras; // core/image/extras.h

@@ -1,11 +1,11 @@
 // The request to raingauge_picture_reader in its cage (core/base/cage/cage.h), and its reply.
 //
-// Command line: raingauge_picture_reader NAME BYTES. Of NAME only the extension counts: the file is
-// the descriptor that it is given. BYTES is what the receiver has memory for. The reply is this
-// header, then the texels as floats, as in picture.h, then the extras (core/image/extras.h), which
-// are no longer than RG_PICTURE_EXTRAS_BYTES. `why` is "" or a sentence that says what is wrong,
-// and then nothing follows; nothing follows either where the header alone shows a picture that
-// cannot be, or one of more than BYTES. The receiver trusts none of it.
+// Command line: raingauge_picture_reader NAME BYTES. Only NAME's extension matters, since the
+// program reads the file from a descriptor. BYTES is the memory that the receiver has for texels.
+// The reply is this header, then the texels as floats, as in picture.h, then the extras
+// (core/image/extras.h), which are no longer than RG_PICTURE_EXTRAS_BYTES. `why` is "" or a
+// sentence that says what is wrong. Nothing follows the header if `why` is set, or if the header
+// alone shows a picture that is impossible, or larger than BYTES. The receiver trusts none of it.
 #ifndef RG_CORE_IMAGE_READER_REPLY_H
 #define RG_CORE_IMAGE_READER_REPLY_H
 

@@ -1,12 +1,12 @@
-// The streak atlas: how an oscillating, falling drop looks in an exposure of 1/60 s under a light
-// from any direction (Garg and Nayar, 2006), packed as Creus (2010, section 4.3.1) packs it, and
-// the animation of a splash. docs/atlas.md explains the model and the lookup.
+// The streak atlas: pictures of an oscillating, falling drop in an exposure of 1/60 s under a light
+// from any direction (Garg and Nayar, 2006), packed as by Creus (2010, section 4.3.1), and the
+// animation of a splash. docs/atlas.md explains the model and the lookup.
 //
 // Three images, each an array of layers with mip levels, of half floats (R16F):
 //
-//   point   10 layers, one an oscillation. A row of cells a view angle, 90 cells of 32 columns in
-//           each, one a direction of light.
-//   env     10 layers, the same with one cell a row: light of radiance 1 from everywhere.
+//   point   10 layers, one for each oscillation: a row of cells for each view angle, with 90
+//           cells of 32 columns in each, one for each direction of light.
+//   env     10 layers, the same with one cell in a row: light of radiance 1 from everywhere.
 //   splash  84 layers: 4 materials of 21 frames, 48 x 32.
 //
 // A cell is normalised to a largest value of 1 in level 0. Its meaning is texel * factor:

@@ -1,4 +1,5 @@
-// The atlas in the user's cache: a file a size, in $XDG_CACHE_HOME/raingauge or ~/.cache/raingauge.
+// The atlas in the user's cache: a file for each size, in $XDG_CACHE_HOME/raingauge or
+// ~/.cache/raingauge.
 //
 // A file holds a header, the factors and the texels, and their checksum. It is written under
 // another name and renamed, so that nobody reads half a file even with several writers. It is stale

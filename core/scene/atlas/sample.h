@@ -1,4 +1,4 @@
-// A fingerprint of what this program traces and draws.
+// A fingerprint of this program's tracing and drawing.
 #ifndef RG_CORE_SCENE_ATLAS_SAMPLE_H
 #define RG_CORE_SCENE_ATLAS_SAMPLE_H
 

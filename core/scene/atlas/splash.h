@@ -1,5 +1,5 @@
 // The animation of a splash: a drop of 3.2 mm hits a surface and throws up a crown and droplets,
-// which fall back. 21 frames of 6 ms; the picture spans 60 x 40 mm, seen from 15 degrees above, and
+// which fall back. 21 frames of 6 ms show it from 15 degrees above. The picture spans 60 x 40 mm;
 // the drop hits in the middle of its width, 8 mm above its lower edge.
 #ifndef RG_CORE_SCENE_ATLAS_SPLASH_H
 #define RG_CORE_SCENE_ATLAS_SPLASH_H

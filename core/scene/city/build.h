@@ -1,4 +1,4 @@
-// How parts of the city add faces: only for the files of this folder.
+// Functions by which parts of the city add faces: only for the files of this folder.
 #ifndef RG_CORE_SCENE_CITY_BUILD_H
 #define RG_CORE_SCENE_CITY_BUILD_H
 
@@ -18,8 +18,8 @@ struct look {
     int glow;      // emitted light, 0 to 7
 };
 
-// How a texture lies on a surface (kernels/scenery/surface.h): textures a metre, and their origin
-// along u and v.
+// The place of a texture on a surface (kernels/scenery/surface.h): textures per metre, and their
+// origin along u and v.
 struct mapping {
     double scale_u, scale_v, from_u, from_v;
     bool turned; // on the ground: u along z

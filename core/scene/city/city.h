@@ -55,7 +55,7 @@ struct city_lamp {
 // repeated; counter-clockwise seen from outside. The faces of a chunk are contiguous.
 struct city_faces {
     int face_count, triangle_count;
-    float *corners;       // SCENERY_FACE_WORDS a face: x, y, z of four corners
+    float *corners;       // SCENERY_FACE_WORDS for each face: x, y, z of four corners
     uint32_t *surface_of; // the surface of each face
     int surface_count;
     uint32_t *surfaces; // SCENERY_SURFACE_WORDS each

@@ -33,7 +33,7 @@ static_assert(PAINT_WATER + 1 == CITY_TEXTURES, "every texture has a painter");
 struct facade_style {
     double left, right, bottom, top; // bottom: from the floor's lower edge
     int wall;                        // the plain texture of the wall, for parts without windows
-    double depth_m;                  // how deep windows are set into the wall
+    double depth_m;                  // depth of windows in the wall
 };
 struct facade_style city_facade_style(const struct city_settings *settings, int texture);
 

@@ -65,7 +65,7 @@ struct builder {
     bool is_thin;          // faces added now are visible from both sides
     int face_count, first; // first: of the part in construction
     int64_t face_room, normal_room, material_room, thin_room;
-    float *corners, *normals; // nine numbers a face
+    float *corners, *normals; // nine numbers for each face
     uint32_t *materials;      // by face
     bool *thin;               // by face: `is_thin` when it was added
     bool has_failed;          // memory ran out: one line is logged, and later faces are dropped

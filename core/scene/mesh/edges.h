@@ -15,9 +15,9 @@ struct rg_edges {
     float *words;
 };
 
-// Where more than two faces share an edge, they are taken in pairs, and a left-over one is a
-// boundary. Faces without area have no edges. False, and one logged line, when memory runs out;
-// call rg_edges_free in either case.
+// Makes the edges. If more than two faces share one, they are taken in pairs, and a left-over one
+// is a boundary. Faces without area have no edges. False, and one logged line, when memory runs
+// out; call rg_edges_free in either case.
 bool rg_mesh_edges(const struct rg_mesh *mesh, struct rg_edges *edges);
 void rg_edges_free(struct rg_edges *edges);
 

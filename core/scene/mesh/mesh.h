@@ -18,9 +18,9 @@ enum { RG_MESH_MAX_VERTICES = 10000000, RG_MESH_MAX_FACES = 10000000, RG_MESH_NA
 struct rg_mesh {
     char name[RG_MESH_NAME_SIZE]; // a description for people and records: "bunny.obj"
     int vertex_count, face_count; // both at least 1
-    float *positions;             // x, y, z a vertex, in the file's unit
-    float *normals;               // x, y, z a vertex, of length 1
-    uint32_t *indices;            // three vertices a face, counter-clockwise seen from outside
+    float *positions;             // x, y, z of each vertex, in the file's unit
+    float *normals;               // x, y, z of each vertex, of length 1
+    uint32_t *indices;            // three of each face, counter-clockwise seen from outside
     float low[3], high[3];        // bounds of the positions; never a single point
     uint64_t hash; // XXH3 of the positions, then the indices, each word as little-endian bytes
 };
@@ -36,8 +36,8 @@ struct rg_mesh *rg_mesh_load_faces(const char *name, int faces);
 // The mesh of a file that Assimp reads (OBJ, PLY, STL, glTF, GLB, 3DS, OFF and others); `member`
 // names a file inside a tar archive, or is NULL. All meshes of the file's scene become one, placed
 // as its nodes say. Polygons are triangulated; points, lines, materials and textures are ignored,
-// so that a missing texture is no error. Normals come from the file; for STL, which has one a
-// facet, and where they are missing, they are made as by rg_mesh_smooth.
+// so that a missing texture is no error. Normals come from the file; for STL, which has one for
+// each facet, and where they are missing, they are made as by rg_mesh_smooth.
 //
 // Another process, `raingauge_importer`, does the work within limits of time and memory, so that a
 // file on which Assimp crashes or hangs is refused like any other bad file.
@@ -56,13 +56,13 @@ void rg_mesh_destroy(struct rg_mesh *mesh);
 // caller frees them. NULL, and one logged line, when memory runs out.
 uint32_t *rg_mesh_pack_normals(const struct rg_mesh *mesh);
 
-// The same surface with smooth edges: one normal a position, the mean of its faces' normals
-// weighted by area, or straight up where these faces have no area.
+// The same surface with smooth edges: one normal for each position, the mean of its faces' normals
+// weighted by area, or straight up if these faces have no area.
 struct rg_mesh *rg_mesh_smooth(const struct rg_mesh *mesh);
 
 // A coarser mesh with smooth normals, of the most faces up to `faces` that meshoptimizer reaches:
-// mostly `faces` or one less, since a collapsing edge removes two faces. Where the topology forbids
-// so few, parts of the surface are merged. The new name says what was done.
+// mostly `faces` or one less, since a collapsing edge removes two faces. If the topology forbids so
+// few, parts of the surface are merged. The new name describes the change.
 struct rg_mesh *rg_mesh_decimate(const struct rg_mesh *mesh, int faces);
 
 // A finer mesh of the same shape: the longest edges are halved until there are `faces` faces, or
@@ -70,7 +70,7 @@ struct rg_mesh *rg_mesh_decimate(const struct rg_mesh *mesh, int faces);
 // reaches odd numbers from even ones. Normals are smooth.
 struct rg_mesh *rg_mesh_refine(const struct rg_mesh *mesh, int faces);
 
-// Exactly `faces` faces, or what rg_mesh_refine reaches: decimates, then refines as needed.
+// Exactly `faces` faces, or as near as rg_mesh_refine comes: decimates, then refines as needed.
 struct rg_mesh *rg_mesh_resize(const struct rg_mesh *mesh, int faces);
 
 #endif

@@ -5,10 +5,10 @@
 #include "core/scene/mesh/mesh.h"
 
 // The names that rg_mesh_load takes:
-//     "sphere", "torus"   computed, always available
-//     "bunny", "horse"... a row of the table below, from a Debian package, turned so that y points
-//     up "cow", "homer"...   any other mesh of libcgal-demo's archive, without its ".off", not
-//     turned any path            a file (a name with a '.' or a '/' in it)
+//     "sphere", "torus"    computed, always available
+//     "bunny", "horse"...  a row of the table below, from a Debian package, turned so that y is up
+//     "cow", "homer"...    any other mesh of libcgal-demo's archive, without its ".off", not turned
+//     any path             a file (a name with a '.' or a '/' in it)
 // In the folder RG_MODEL_DIR, if that variable is set, NAME.obj, .ply, .off, .stl, .gltf, .glb or
 // .3ds has priority over the packages.
 struct rg_model {

@@ -68,11 +68,11 @@ bool cartoon_draw(struct rg_instance *instance);
 // Functions of scene/.
 
 // Loads the diorama and adds its assets. The mesh becomes `positions`, `normals`, `indices`,
-// `materials` and `palette`. Two images of the target's size are written with each drawing of the
-// scene: `normal_map`, RGBA16F, has the world's normal on the visible side and the material's
-// number plus one, all 0 in the sky; `depth_map`, D32F, is 1 in the sky. Collisions with faces add
-// `face_map`, RGBA8, the nearest face packed as in numbers.h; outlines add `edges` and `ink`,
-// hatching `strokes`. Fills in the view of frame 0.
+// `materials` and `palette`. Each drawing of the scene writes two images of the target's size.
+// `normal_map`, RGBA16F, has the world's normal on the visible side and the material's number plus
+// one, all 0 in the sky. `depth_map`, D32F, is 1 in the sky. Collisions with faces add `face_map`,
+// RGBA8, the nearest face packed as in numbers.h; outlines add `edges` and `ink`, hatching
+// `strokes`. Fills in the view of frame 0.
 bool cartoon_scene_open(struct cartoon *c);
 // Computes the view of a frame. False, and one logged line, where the camera cannot see.
 bool cartoon_look(struct cartoon *c, int64_t frame);

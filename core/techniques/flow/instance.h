@@ -71,7 +71,7 @@ struct flow {
     struct rg_asset *water, *moved;  // the maps of this frame and of the next, swapped
     struct rg_asset *kept, *heading; // the texels' directions, likewise; NULL: they have none
     struct rg_asset *panes;          // the panes' orientations
-    struct rg_asset *ways;           // how far water slides (flow_ways_at); NULL: nothing slides
+    struct rg_asset *ways;           // the slides of water (flow_ways_at); NULL: nothing slides
     struct flow_told told;
     int model_faces; // 0: no model
     float model_low[3], model_high[3];
@@ -102,8 +102,8 @@ struct flow_sizes flow_most_sizes(const struct flow *flow);
 // Set the level of the first frame, and, once there are maps, everything that depends on it.
 void flow_open_detail(struct flow *flow);
 void flow_use_detail(struct flow *flow);
-// Changes to the level that the current camera distance asks for. The panes keep their water, to
-// one droplet a pane; texels' directions are reset.
+// Changes to the level that the current camera distance asks for. Each pane keeps its water, to one
+// droplet; texels' directions are reset.
 bool flow_follow_camera(struct flow *flow);
 bool flow_change_detail(struct flow *flow, int texels);
 // Writes the current level's map of beads.

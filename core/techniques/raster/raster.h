@@ -18,7 +18,7 @@ struct raster_settings {
     int scene, seed;
     double share;
     int count;
-    // How it is drawn; in blend, depth and cull 0 leaves the choice to the scene.
+    // Draw state; in blend, depth and cull 0 leaves the choice to the scene.
     int blend, depth, cull, format;
     // billboards
     int billboards;
@@ -38,9 +38,9 @@ extern const struct rg_proof raster_proof;
 // A mesh in the form that raster_mesh draws.
 struct raster_mesh {
     int vertex_count, face_count;
-    float *positions;      // x, y, z a vertex
+    float *positions;      // x, y, z of each vertex
     uint32_t *normals;     // mesh_normal_pack
-    uint32_t *indices;     // three vertices a face, counter-clockwise seen from outside
+    uint32_t *indices;     // three vertices of each face, counter-clockwise seen from outside
     float low[3], high[3]; // bounds
     double radius;         // of the ball around the bounds' middle, in halves of the longest side
     char name[160];

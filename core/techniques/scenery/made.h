@@ -11,7 +11,8 @@ struct scenery_made {
     struct rg_buf *faces, *surface_of, *surfaces;
 };
 
-// What a scene's light needs besides, for which the whole of it is looked at and painted.
+// Further parts, which only the light of a scene needs: all of its textures, and the openness of
+// all places.
 struct scenery_paint {
     struct rg_device *device;
     struct rg_buf *openness;
@@ -25,7 +26,7 @@ const struct scenery_made *scenery_made_get(struct rg_device *device,
                                             const struct scenery_settings *settings);
 void scenery_made_put(struct rg_device *device, const struct scenery_made *made);
 
-// The same for what the light of `made` needs, whose settings these are.
+// The same for the parts that the light of `made` needs; `settings` are those of `made`.
 const struct scenery_paint *scenery_paint_get(const struct scenery_made *made,
                                               const struct scenery_settings *settings);
 void scenery_paint_put(struct rg_device *device, const struct scenery_paint *paint);

@@ -66,7 +66,7 @@ bool scenery_depth(struct scenery *scene, m4 to_clip, const struct rg_draw *onto
 // The same, and writes each pixel's surface number into onto->colour, an image of RGBA8.
 bool scenery_numbers(struct scenery *scene, m4 to_clip, const struct rg_draw *onto);
 
-// How much the last draw drew.
+// The work of the last draw.
 struct scenery_work {
     int chunks_drawn, chunks;
     int blocks; // of SCENERY_BLOCK_FACES faces

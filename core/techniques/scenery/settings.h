@@ -8,7 +8,7 @@
 struct scenery_settings {
     struct city_settings city;
     char model[RG_PATH_SIZE]; // a user's mesh, as rg_mesh_load takes it; "": the city
-    bool bare;                // it is never lit, so that what only its light needs is not made
+    bool bare;                // it is never lit, so that the parts for its light are not made
 };
 
 // The settings for a user's choice: "city", with this size and seed, or a mesh. `scene` holds up to

@@ -25,15 +25,15 @@ void rg_contents_free(struct rg_contents *contents);
 // A hash; equal contents have equal hashes.
 uint64_t rg_contents_hash(const struct rg_contents *contents);
 
-// Where two of one size differ first, by how much, and in how many words: "[17] is 0.5
-// (0x3f000000), not 0.25 (0x3e800000), off by 0.25; 3 of 64 words differ". A word that holds
-// several numbers has them in brackets. A state's words have a column and a row; those of structs a
-// place in theirs; texels have x, y, layer and level. "" where nothing differs. `state` is of a
-// buffer: its words, row and margin count.
+// Describes the first difference of two contents of one size, and the number of words that differ:
+// "[17] is 0.5 (0x3f000000), not 0.25 (0x3e800000), off by 0.25; 3 of 64 words differ". A word that
+// holds several numbers has them in brackets. A state's words have a column and a row; words of
+// structs have a place in theirs; texels have x, y, layer and level. "" if nothing differs. A
+// buffer's `state` gives its words, row and margin.
 void rg_contents_describe(const struct rg_contents *contents, const struct rg_contents *expected,
                           const struct rg_state *state, char *text, size_t size);
 
-// What a word holds: one number, or as many as there is room for, the lowest bits first.
+// The kind of numbers in a word: one number, or as many as fit, the lowest bits first.
 enum rg_number {
     RG_NUMBER_UINT,
     RG_NUMBER_INT,
@@ -42,8 +42,8 @@ enum rg_number {
     RG_NUMBER_CODE,  // of 8 bits
     RG_NUMBER_SMALL, // floats without a sign: two of 11 bits, then one of 10
 };
-// Of a word of contents: by the image's format, or by the words of the buffer's elements; where
-// these are not known it is an unsigned integer.
+// The kind of a word of contents: by the image's format, or by the words of the buffer's elements;
+// an unsigned integer if these are not known.
 enum rg_number rg_contents_number(const struct rg_contents *contents, const struct rg_state *state,
                                   int64_t word);
 // The bits of the number that begins at bit `at` of a word.

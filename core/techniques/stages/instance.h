@@ -57,15 +57,15 @@ struct rg_opened_stage {
     struct rg_extent ran; // and that run's items
 };
 
-// An asset that is part of the simulation's state: what `verify` compares byte by byte. `row` and
-// `margin` name an element in a message: (index % row - margin, index / row - margin). `words` is
-// told by whoever reads the contents (rg_asset_words).
+// An asset that is part of the simulation's state, which `verify` compares byte by byte. `row` and
+// `margin` name an element in a message: (index % row - margin, index / row - margin). The reader
+// of the contents sets `words` (rg_asset_words).
 struct rg_state {
     const char *name;
     const struct rg_asset *asset; // a buffer
-    int row;                      // elements a row; 0: a plain list
+    int row;                      // elements in a row; 0: a plain list
     int margin;                   // elements before the first of a row, and rows before the first
-    const char *words;            // what an element's are (enum rg_word); NULL: not known
+    const char *words;            // kinds of an element's words (enum rg_word); NULL: not known
 };
 
 // An exact count of work since the instance was opened.
@@ -86,7 +86,7 @@ struct rg_fact {
 struct rg_texture {
     const char *name; // "environment"
     const struct rg_image *image;
-    int first_level; // the whole texture's level that is level 0 here; 0 unless it is reduced
+    int first_level; // the level of the whole texture that is level 0 here; 0 unless it is reduced
 };
 
 struct rg_instance {

@@ -1,5 +1,6 @@
-// Rain as a layer of its own: light gathers there from black, in single precision, and meets what
-// lies behind it once. Halves would cut each faint drop off, and so would a bright background.
+// Rain as a layer of its own: light gathers there from black, in single precision, and is blended
+// over its background once. Blending in halves would lose each faint drop, and so would a bright
+// background.
 //
 //   rg_layer_begin(&layer) && ... stages with .colour = RG_LAYER and .blend = RG_BLEND_OVER ... &&
 //   rg_layer_meet(&layer)
@@ -10,7 +11,7 @@
 #include "kernels/scenery/layer/params.h"
 
 #define RG_LAYER      "layer"      // the asset that rain is blended into: RGBA32F, premultiplied
-#define RG_BACKGROUND "background" // what lies behind it: RGBA16F
+#define RG_BACKGROUND "background" // the picture behind the layer: RGBA16F
 
 struct rg_layer {
     struct rg_instance *instance;
@@ -24,7 +25,8 @@ struct rg_layer {
 bool rg_layer_open(struct rg_layer *layer, struct rg_instance *instance);
 // Makes the layer black and clear.
 bool rg_layer_begin(const struct rg_layer *layer);
-// Lays it over the background; the target gets the result, each number rounded to the nearest half.
+// Lays the layer over the background; the target gets the result, each number rounded to the
+// nearest half.
 bool rg_layer_meet(const struct rg_layer *layer);
 
 #endif

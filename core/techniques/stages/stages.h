@@ -13,8 +13,8 @@
 // Opens stages; returns the index of the first, the others follow in order, or -1 on failure.
 // `owner` is the struct that holds the rows' parameters, and must outlive the last run. A slot is
 // bound to the asset of its name, or of the name in the row: "scope.name" if there is one, else
-// "name"; `scope` may be NULL. Refused, with one logged line, are a name that no asset has, an
-// asset of another kind or format, and a slot that the kernel lacks.
+// "name"; `scope` may be NULL. It refuses, with one logged line, a name that no asset has, an asset
+// of another kind or format, and a slot that the kernel lacks.
 int rg_open_stages(struct rg_instance *instance, const struct rg_stage *rows, int count,
                    const void *owner, const char *scope);
 
@@ -33,8 +33,8 @@ struct rg_draw rg_stage_draw(const struct rg_instance *instance, int stage);
 // Whether the last run of a stage wrote an asset.
 bool rg_stage_wrote(const struct rg_opened_stage *stage, const struct rg_asset *asset);
 
-// What the words of a buffer are (struct rg_slot_info), by the slots that it is bound to: those of
-// `by` first, which has written it, or NULL. NULL where no slot tells.
+// The kinds of a buffer's words (struct rg_slot_info), by the slots that it is bound to. Slots of
+// `by`, the stage that wrote it, come first; `by` may be NULL. NULL if no slot tells.
 const char *rg_asset_words(const struct rg_instance *instance, const struct rg_opened_stage *by,
                            const struct rg_asset *asset);
 

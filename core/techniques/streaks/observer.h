@@ -11,7 +11,7 @@ struct streaks_observer {
     struct rg_camera camera; // in the world, in metres
     float world_to_clip[16];
     float rays[16]; // from (px, py, 1) to the ray through a pixel's centre, in the world
-    float focal_px; // pixels a metre at a distance of one metre
+    float focal_px; // pixels per metre at a distance of one metre
 };
 
 // The view of a camera that walks as the settings say, at a frame, for a target of width x height

@@ -26,7 +26,7 @@ struct streaks_settings {
     double fit_error;
     int scheme, packet_size, select, exact, all_blocks, sparse, by_id;
     int memory_mb;
-    // what drops hit
+    // the surfaces that drops hit
     int dynamic_map, map_px, map_period;
     // the scene
     char scene[RG_PATH_SIZE];

@@ -1,13 +1,13 @@
-// Particles of cartoon's rain, and what its kernels are told (Feng et al., sections 3 to 5).
+// Particles of cartoon's rain, and the parameters of its kernels (Feng et al., sections 3 to 5).
 //
-// Lengths are in metres, times in steps of step_s seconds. Each particle keeps its slot for as long
-// as it lives; slots of the dead are given again (life/list.h).
+// Lengths are in metres, times in steps of step_s seconds. A particle keeps its slot for as long as
+// it lives; the slots of dead ones are used again (life/list.h).
 #ifndef RG_KERNELS_CARTOON_RAIN_PARAMS_H
 #define RG_KERNELS_CARTOON_RAIN_PARAMS_H
 
 #include "kernels/dialect/matrix.h"
 
-// States of a particle. Zeroes are a free slot.
+// States of a particle. A slot of zeroes is free.
 #define CARTOON_DEATH     0u
 #define CARTOON_DROP      1u
 #define CARTOON_COLLISION 2u // it has hit in this step
@@ -25,7 +25,7 @@ RG_STRUCT(cartoon_raindrop)
     float ax; // acceleration
     float ay;
     float az;
-    float from_x; // where it was a step before
+    float from_x; // its place a step before
     float from_y;
     float from_z;
     float alpha;
@@ -50,7 +50,7 @@ RG_STRUCT(cartoon_spray)
     float alpha;
     float angle; // between the normal and where the drop came from, radians
     int pattern; // by the angle
-    int texture; // of its life
+    int texture; // of the CARTOON_FRAMES of its life
     int age;
     uint state; // CARTOON_DROP: it lives
 };
@@ -137,7 +137,7 @@ RG_STRUCT(cartoon_rain_params)
     // the view
     int width;
     int height;
-    float focal_px; // what a metre spans at a distance of a metre
+    float focal_px; // of a metre at a distance of a metre
     float depth_at; // depth = depth_at + depth_by / distance
     float depth_by;
     float eye_x;
@@ -154,7 +154,7 @@ RG_STRUCT(cartoon_rain_params)
     float splash_m; // and of its splash
     float least;    // share of both that the lightest have
     int textures;   // levels of an image of textures
-    int cut;        // 1: sprites are cut to what is not transparent
+    int cut;        // 1: sprites are cut to the rectangle that is not transparent
     int facets;     // items that a drop's tessellated sphere takes
     int late;       // 1: the answers are those to the queries of the step before
 };

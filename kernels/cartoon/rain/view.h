@@ -1,4 +1,4 @@
-// Where the camera sees a point of the rain.
+// A point of the rain as the camera sees it.
 #ifndef RG_KERNELS_CARTOON_RAIN_VIEW_H
 #define RG_KERNELS_CARTOON_RAIN_VIEW_H
 
@@ -25,8 +25,8 @@ RG_FN cartoon_spot cartoon_spot_of(cartoon_rain_params p, v3 at)
     return s;
 }
 
-// The radius of a drop's bounding sphere. Near the eye it is less, so that no drop has more than so
-// many pixels to look at.
+// The radius of a drop's bounding sphere. Near the eye it is capped at CARTOON_BOUND_PX, which
+// limits the pixels to look at for a drop.
 #define CARTOON_BOUND_PX 16.0f
 
 RG_FN float cartoon_bound_m(cartoon_rain_params p, float distance_m)

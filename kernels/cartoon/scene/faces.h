@@ -1,6 +1,6 @@
-// The normal map of the scene, and its depth: what is nearest in each pixel, as all styles and the
-// rain's collisions read it. A texel holds the normal in the world, of unit length and on the side
-// that is seen, and one more than the number of the face's material.
+// The normal map of the scene, and its depth, of the nearest face in each pixel; all styles and the
+// rain's collisions read them. A texel holds the normal in the world, of unit length and on the
+// side that is seen, and one more than the number of the face's material.
 #include "kernels/cartoon/scene/faces_params.h"
 #include "kernels/dialect/mesh/mesh.h"
 

@@ -1,5 +1,5 @@
-// Cool to warm shading (Gooch et al., 1998): what turns away from the light is cool, what faces it
-// warm, each with a share of the material's own colour, and a highlight.
+// Cool to warm shading (Gooch et al., 1998): surfaces that face the light are warm, those that turn
+// away cool. Each keeps a share of the material's own colour; a highlight is added.
 #include "kernels/cartoon/scene/shade_params.h"
 
 #define RG_PARAMS cartoon_shade_params

@@ -1,6 +1,6 @@
-// Hatching (Praun et al., 2001): a pixel's tone is a mixture of two neighbouring ones of six, each
-// a texture of strokes in which those of lighter tones and coarser levels lie too. Strokes are
-// fixed to the world: they lie in the plane of two axes that the surface is nearest to.
+// Hatching (Praun et al., 2001): a pixel mixes two neighbouring tones. Each tone is a texture of
+// strokes, which contains the strokes of lighter tones and coarser levels. Strokes are fixed to the
+// world: they lie in the plane of two axes that the surface is nearest to.
 #include "kernels/cartoon/scene/shade_params.h"
 #include "kernels/dialect/math.h"
 
@@ -22,7 +22,7 @@ RG_DRAW_RECORD(cartoon_hatching)
     return view_quad_record();
 }
 
-// Where a place lies on the strokes, in tiles.
+// A place on the texture of strokes, in tiles.
 RG_STRUCT(cartoon_uv)
 {
     float u;
@@ -42,7 +42,7 @@ RG_FN cartoon_uv cartoon_uv_of(cartoon_shade_params p, v3 n, v3 at)
     return t;
 }
 
-// The two tones about `tone` in a texel, 0 to 255, mixed.
+// A texel's tones `tone` and `tone` + 1, 0 to 255, mixed.
 RG_FN float cartoon_stroke(rg_ctx rg, int x, int y, int tone, float t, int level)
 {
     int mask = strokes_width(rg, level) - 1;
@@ -54,7 +54,7 @@ RG_FN float cartoon_stroke(rg_ctx rg, int x, int y, int tone, float t, int level
     return cartoon_mix(a, b, t);
 }
 
-// Between four texels of a level, over all tiles.
+// Interpolates between four texels of a level, which repeats in every tile.
 RG_FN float cartoon_level(rg_ctx rg, cartoon_uv at, int tone, float t, int level)
 {
     float size = rg_to_float(strokes_width(rg, level));
@@ -71,7 +71,7 @@ RG_FN float cartoon_level(rg_ctx rg, cartoon_uv at, int tone, float t, int level
     return cartoon_mix(above, below, y - top);
 }
 
-// How light the strokes are, 0 to 1, for a light of 0 to 1.
+// The lightness of the strokes, 0 to 1, for a light of 0 to 1.
 RG_FN float cartoon_hatch(rg_ctx rg, cartoon_uv at, float light, float lod)
 {
     float tones = rg_clamp(light, 0.0f, 1.0f) * rg_to_float(CARTOON_TONES);

@@ -1,10 +1,10 @@
 // Outlines: edges of the mesh that are contours, creases or boundaries, as lines of a width in
-// pixels (McGuire and Hughes, 2004). What is left is how much ink a pixel has, as a depth of 1 less
-// the ink: of lines that cross the darkest stays, and no order counts.
+// pixels (McGuire and Hughes, 2004). A pixel keeps 1 - ink as its depth, so that the darkest of
+// crossing lines stays, in whatever order they are drawn.
 //
-// A pixel of a line is drawn if the line itself is seen where it is nearest: if the depth map has
-// nothing nearer in the pixel there or in one beside it. So a line keeps its whole width beside
-// surfaces that it bounds, and ends where it goes behind another.
+// A pixel of a line is drawn if the nearest point of the line's axis is seen. It is if the depth
+// map has nothing nearer in that point's pixel, or in one beside it. So a line keeps its whole
+// width beside surfaces that it bounds, and ends where it goes behind another.
 #include "kernels/cartoon/scene/ink_params.h"
 #include "kernels/dialect/draw/line.h"
 
@@ -12,9 +12,9 @@
 #define RG_SLOTS   IN(1, float, edges) IMAGE(2, D32F, depth_map)
 #define RG_CORNERS 4
 
-// No line is wider.
+// Lines are cut to this width.
 #define CARTOON_WIDEST_PX 32.0f
-// A line may lie behind what is drawn by this share of its distance at least, and at most.
+// A line may lie behind the depth map by at least, and at most, this share of its distance.
 #define CARTOON_LEAST_SLACK 0.0005f
 #define CARTOON_MOST_SLACK  0.005f
 
@@ -22,7 +22,7 @@ RG_STRUCT(cartoon_line)
 {
     rg_line line;
     float reach; // from the axis to where the smooth side ends
-    float slack; // how far behind the depth map it may lie
+    float slack; // depth by which it may lie behind the depth map
 };
 #define RG_RECORD cartoon_line
 #include "kernels/dialect/draw/draw.h"
@@ -33,7 +33,7 @@ RG_FN v3 cartoon_edge_v3(rg_ctx rg, cartoon_ink_params p, int i, int word)
                    edges_at(rg, (word + 2) * p.count + i));
 }
 
-// How much of a line an edge is drawn as: none where it is neither contour, crease nor boundary.
+// The width of an edge's line: 0 if it is neither contour, crease nor boundary.
 RG_FN float cartoon_width_px(rg_ctx rg, cartoon_ink_params p, int i)
 {
     v3 a = cartoon_edge_v3(rg, p, i, 0);
@@ -67,8 +67,8 @@ RG_DRAW_ITEM(cartoon_ink)
     return rg_line_item(draw, s.line, s.reach);
 }
 
-// How much the depth of a face changes over three quarters of a pixel, from its normal and where it
-// lies from the eye: over a plane 1 / w = (n . ray) / (n . place).
+// The change of a face's depth over three quarters of a pixel, from its normal and its place
+// relative to the eye: on a plane 1 / w = (n . ray) / (n . place).
 RG_FN float cartoon_slope(cartoon_ink_params p, v3 n, v3 place)
 {
     float right = rg_abs(n.x * p.right_x + n.y * p.right_y + n.z * p.right_z);
@@ -90,7 +90,7 @@ RG_DRAW_RECORD(cartoon_ink)
     return s;
 }
 
-// The farthest that is seen in a pixel and those beside it.
+// The farthest depth that is seen in a pixel and its four neighbours.
 RG_FN float cartoon_farthest(rg_ctx rg, float x, float y)
 {
     int right = depth_map_width(rg, 0) - 1;

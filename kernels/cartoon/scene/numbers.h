@@ -1,5 +1,5 @@
-// Which face is nearest in each pixel: one more than its number, from the lowest byte on, 0 in the
-// sky. Collisions ask the faces themselves where the depth map's texels do not say enough.
+// The nearest face in each pixel: one more than its number, lowest byte first, 0 in the sky.
+// Collisions look up the face by it, since the depth map is only as fine as its texels.
 #include "kernels/cartoon/scene/faces_params.h"
 #include "kernels/dialect/mesh/mesh.h"
 

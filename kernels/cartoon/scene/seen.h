@@ -1,5 +1,5 @@
-// What is seen at a pixel, from the slots depth_map, normal_map, palette and ink of the style that
-// includes this, and the sky where there is nothing.
+// The surface that is seen at a pixel, or the sky where there is none. Reads the slots depth_map,
+// normal_map, palette and ink of the style that includes this file.
 #ifndef RG_KERNELS_CARTOON_SCENE_SEEN_H
 #define RG_KERNELS_CARTOON_SCENE_SEEN_H
 
@@ -17,7 +17,8 @@ RG_FN float cartoon_byte(uint bits)
     return rg_to_float(rg_to_int(bits & 255u)) * (1.0f / 255.0f);
 }
 
-// The texel of a pixel's normal map, and what it says. The palette's first word is the sky's.
+// Reads a pixel's texel of the normal map, and its material in the palette, whose first word is the
+// sky's.
 RG_FN cartoon_seen cartoon_seen_at(rg_ctx rg, cartoon_shade_params p, int px, int py)
 {
     rgba texel = normal_map_texel(rg, px, py, 0, 0);
@@ -40,8 +41,8 @@ RG_FN v3 cartoon_place(cartoon_shade_params p, float depth, int px, int py)
     return v3_make(c.x * over_w, c.y * over_w, c.z * over_w);
 }
 
-// A highlight: the cosine between the view and the light's mirrored direction to the 32nd power,
-// and none where no light falls.
+// A highlight: the cosine between the view and the light's mirrored direction, to the 32nd power; 0
+// where no light falls.
 RG_FN float cartoon_shine(cartoon_shade_params p, cartoon_seen s, float depth, int px, int py)
 {
     v3 at = cartoon_place(p, depth, px, py);
@@ -74,8 +75,8 @@ RG_FN float cartoon_mix(float a, float b, float t)
     return a + (b - a) * t;
 }
 
-// A colour in display values under the ink, as the target takes it. Without outlines the ink is one
-// texel that has none.
+// A colour in display values under the ink, squared into light for the target. Without outlines,
+// the image of the ink is a single texel without any.
 RG_FN rg_fragment cartoon_inked(rg_ctx rg, cartoon_shade_params p, v3 c, int px, int py)
 {
     float ink = 1.0f - ink_texel(rg, px * p.inked, py * p.inked, 0, 0).r;

@@ -1,11 +1,11 @@
-// What the styles are told. Colours are display values, 0 to 1: their squares are light.
+// The parameters of the styles. Colours are display values, 0 to 1: their squares are light.
 #ifndef RG_KERNELS_CARTOON_SCENE_SHADE_PARAMS_H
 #define RG_KERNELS_CARTOON_SCENE_SHADE_PARAMS_H
 
 #include "kernels/dialect/matrix.h"
 
-// Tones of hatching, the last of which is blank paper. Two layers of the strokes hold them in their
-// channels: tones 0 to 3 and 3 to 6.
+// Tones of hatching with strokes, the darkest first; the one after them, 6, is blank paper. The
+// channels of two layers of strokes hold tones 0 to 3 and 3 to 6.
 #define CARTOON_TONES 6
 
 RG_STRUCT(cartoon_shade_params)
@@ -37,19 +37,19 @@ RG_STRUCT(cartoon_shade_params)
     float alpha; // the material's share of cool light
     float beta;  // and of warm light
     // Cartoon.
-    float shadow_tone; // what the material's colour is multiplied by
+    float shadow_tone; // factor of the material's colour
     float middle_tone;
-    float middle_from; // from which cosine on
+    float middle_from; // the cosine from which on a tone begins
     float lit_from;
     float per_softness; // 1 over the width of the step between tones, as cosine
-    float glint_from;   // where a highlight ends, of its brightest place
-    float shadow_blue;  // that the darkest shadow gets
+    float glint_from;   // a highlight's edge, as a share of its brightest place
+    float shadow_blue;  // blue light that the darkest shadow gets
     // Hatching.
     float ambient;  // tone of what faces away from the light
     float lit;      // and of what faces it
     float wash;     // the material's share
     float per_tile; // tiles of strokes a metre
-    float lod;      // level of the strokes at a distance of 1 m: log2 of their texels a pixel
+    float lod;      // level of the strokes at a distance of 1 m: log2 of their texels per pixel
 };
 RG_STRUCT_SIZE(cartoon_shade_params, 52)
 

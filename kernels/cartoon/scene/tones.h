@@ -20,7 +20,7 @@ RG_DRAW_RECORD(cartoon_tones)
     return view_quad_record();
 }
 
-// From 0 to 1 about `edge`.
+// Rises from 0 to 1 about `edge`.
 RG_FN float cartoon_step(cartoon_shade_params p, float value, float edge)
 {
     return rg_clamp((value - edge) * p.per_softness + 0.5f, 0.0f, 1.0f);

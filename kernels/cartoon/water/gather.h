@@ -1,5 +1,5 @@
-// Drops that have hit in this step leave their volume in the column that they fell into; from what
-// is steep it runs off at once.
+// Drops that have hit in this step leave their volume in the column they fell into. From steep
+// faces it runs off at once.
 #include "kernels/cartoon/rain/params.h"
 #include "kernels/cartoon/water/params.h"
 
@@ -11,7 +11,7 @@
     IN(4, cartoon_surface, surfaces) ATOMIC(5, uint, water) ATOMIC(6, uint, account)
 #include "kernels/dialect/slots/slots.h"
 
-// By the cube of the side that the drop is drawn with.
+// A drop's volume goes by the cube of the side that the drop is drawn with.
 RG_FN uint cartoon_units(cartoon_water_params p, float size)
 {
     float side = p.least + (1.0f - p.least) * size;

@@ -1,5 +1,5 @@
-// Water that gathers on what faces upwards (Feng et al., future work): columns of a grid over the
-// ground, each with a whole number of units of volume, so that nothing is lost to rounding.
+// Water that gathers on upward faces (Feng et al., future work). Each column of a grid over the
+// ground holds a whole number of units of volume, so that nothing is lost to rounding.
 #ifndef RG_KERNELS_CARTOON_WATER_PARAMS_H
 #define RG_KERNELS_CARTOON_WATER_PARAMS_H
 
@@ -19,7 +19,7 @@ RG_STRUCT(cartoon_water_params)
     // the grid
     float low_x;
     float low_z;
-    float per_column_x; // columns a metre
+    float per_column_x; // columns per metre
     float per_column_z;
     // volumes
     float units; // of the heaviest drop
@@ -27,11 +27,11 @@ RG_STRUCT(cartoon_water_params)
     uint spread; // share that goes to each neighbour in a step, of 2^32
     uint dried;  // and that evaporates
     // pictures
-    float per_unit; // what a unit in a column is of the depth from which water is seen
+    float per_unit; // depth of a unit in a column, as a share of the depth from which water is seen
     float eye_x;
     float eye_y;
     float eye_z;
-    float px; // what a pixel spans at a distance of a metre
+    float px; // metres that a pixel spans at a distance of a metre
     float light_x;
     float light_z;
     float ink_r; // display values

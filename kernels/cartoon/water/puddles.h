@@ -1,6 +1,6 @@
-// Puddles: beds say how much earlier water is seen in a column than elsewhere, for the ground has
-// hollows. Where the water on what faces upwards is deep enough, a bluish film with a rim of ink
-// and, towards the light, a stroke of white inside of it.
+// Puddles: a bluish film where the water on an upward face is deep enough, with a rim of ink and,
+// towards the light, a stroke of white inside it. The ground has hollows: `beds` says how much
+// earlier than elsewhere water is seen in a column.
 #include "kernels/cartoon/water/params.h"
 #include "kernels/dialect/math.h"
 
@@ -25,7 +25,7 @@ RG_DRAW_RECORD(cartoon_puddles)
 #define CARTOON_FILM_B     0.92f
 #define CARTOON_FILM_COVER 0.6f
 #define CARTOON_RIM_COVER  0.9f
-// Of the rim and the highlight, in pixels from the water's edge.
+// Places of the rim and the highlight, in pixels from the water's edge.
 #define CARTOON_RIM_PX   1.3f
 #define CARTOON_SHINE_PX 3.6f
 
@@ -53,7 +53,7 @@ RG_STRUCT(cartoon_puddle)
     float slope_z;
 };
 
-// Between the middles of four columns.
+// Interpolates between the middles of four columns.
 RG_FN cartoon_puddle cartoon_puddle_at(rg_ctx rg, cartoon_water_params p, v3 at)
 {
     float u = (at.x - p.low_x) * p.per_column_x - 0.5f;
@@ -82,7 +82,7 @@ RG_FN float cartoon_paint(float film, float ink, float shine, float rim)
     return inked * inked;
 }
 
-// How many pixels a place is inside of the water's edge, as the level's slope has it.
+// The distance of a place inside the water's edge, in pixels, estimated from the level's slope.
 RG_FN float cartoon_inside_px(cartoon_water_params p, cartoon_puddle w, v3 at, float slope)
 {
     v3 view = v3_make(at.x - p.eye_x, at.y - p.eye_y, at.z - p.eye_z);

@@ -1,5 +1,5 @@
-// A step of the water: each column gives a share to its four neighbours, past the grid's edge it
-// runs off, and a share of what is there then evaporates.
+// A step of the water: each column gives a share to each of its four neighbours, or past the grid's
+// edge, where it runs off. A share of the rest then evaporates.
 #include "kernels/cartoon/water/params.h"
 
 #define RG_PARAMS cartoon_water_params
@@ -32,7 +32,7 @@ RG_GRID_KERNEL(cartoon_spread)
                   (cartoon_is_column(column, row - 1) ? 0u : given) +
                   (cartoon_is_column(column, row + 1) ? 0u : given);
     uint left = here - 4u * given + taken;
-    // The last units go too.
+    // Rounds up, so that the last units evaporate too.
     uint dried = left == 0u ? 0u : rg_mul_hi(left - 1u, p.dried) + 1u;
     water_next_put(rg, x, left - dried);
     if (dried != 0u)

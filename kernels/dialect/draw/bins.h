@@ -1,10 +1,10 @@
-// Bins: which primitives of a draw touch which tile of the target, in order. For devices that
-// rasterise in tiles; known to the host and to OpenCL C.
+// Bins: for each tile of the target, the primitives of a draw that touch it, in order. For devices
+// that rasterise in tiles; shared by the host and OpenCL C.
 //
-// The tiles lie over the scissor, row by row. The primitives fall into `lanes` ranges, each of
-// which one work item walks; each tile has one place a lane in the array of places. First a place
-// counts the lane's primitives in the tile; after the scan it says where they begin in the list;
-// after the scatter, where they end, which is where those of the next place begin.
+// The tiles lie over the scissor, row by row. The primitives fall into `lanes` ranges; one work
+// item walks each. The array of places has one for each tile and lane. A place first counts the
+// lane's primitives in the tile. After the scan it is the index at which they begin in the list;
+// after the scatter, the index at which they end, and those of the next place begin.
 #ifndef RG_KERNELS_DIALECT_DRAW_BINS_H
 #define RG_KERNELS_DIALECT_DRAW_BINS_H
 
@@ -28,7 +28,7 @@ RG_STRUCT(rg_bins)
 };
 RG_STRUCT_SIZE(rg_bins, 8)
 
-// Words of what a round tells the host: pairs of a primitive and a tile, and primitives of the
+// Words that a round writes for the host: pairs of a primitive and a tile, and primitives of the
 // draw.
 #define RG_ROUND_PAIRS 0
 #define RG_ROUND_PRIMS 1

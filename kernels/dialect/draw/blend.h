@@ -1,6 +1,6 @@
-// How a fragment's colour is blended with the target's, format by format, as llvmpipe and lavapipe
-// do it (docs/drawing.md says what was measured). The one rule: for devices that keep images in
-// plain memory, and for programs that blend by themselves.
+// Blends a fragment's colour with the target's, format by format, as llvmpipe and lavapipe do
+// (docs/drawing.md has the measurements). Devices that keep images in plain memory and programs
+// that blend by themselves share these functions.
 #ifndef RG_KERNELS_DIALECT_DRAW_BLEND_H
 #define RG_KERNELS_DIALECT_DRAW_BLEND_H
 
@@ -58,7 +58,7 @@ RG_FN rgba rg_blend_floats(rgba source, rgba target, int blend)
                    rg_blend_float(source.a, target.a, rest, blend));
 }
 
-// A float cut off to a half, subnormal halves included, which blending may leave.
+// A float cut off to a half; subnormal halves stay, since blending may make them.
 RG_FN uint rg_cut_half(float v)
 {
     uint bits = rg_float_bits(v);
@@ -93,7 +93,7 @@ RG_FN rgba rg_cut_RGBA16F(rgba c)
                    rg_unpack_half(rg_cut_half(c.b)), rg_unpack_half(rg_cut_half(c.a)));
 }
 
-// The colour is one that rg_drawn has made.
+// Blends a colour that rg_drawn has made.
 RG_FN rgba rg_blended(rg_draw_state draw, rgba c, rgba target)
 {
     rgba blended = c;

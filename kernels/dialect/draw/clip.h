@@ -1,10 +1,10 @@
-// From an item's corners in clip space to corners on the grid of 1/256 pixel: culling, projection,
-// snapping, and, for the few items that need it, clipping. Part of every DRAW program
-// (kernels/dialect/draw/draw.h), so that all devices rasterise the very same integers.
+// Takes an item's corners from clip space to the grid of 1/256 pixel: culls, projects, snaps, and
+// clips the few items that need it. Every DRAW program contains it (kernels/dialect/draw/draw.h),
+// so that all devices rasterise the very same integers.
 //
-// Clip space is as matrices make it: pixel x = (x / w + 1) * width / 2, pixel y = (y / w + 1) *
-// height / 2, y grows downwards; depth = z / w, 0 at the near plane. Items are clipped where z < 0
-// and at the guard band, RG_GUARD_PX beyond the target. Depth beyond 1 is clamped, not clipped.
+// Clip space is that of the matrices: pixel x = (x / w + 1) * width / 2, pixel y = (y / w + 1) *
+// height / 2, y grows downwards; depth = z / w, 0 at the near plane. Items are clipped at z = 0 and
+// at the guard band, RG_GUARD_PX beyond the target. Depth beyond 1 is clamped, not clipped.
 #ifndef RG_KERNELS_DIALECT_DRAW_CLIP_H
 #define RG_KERNELS_DIALECT_DRAW_CLIP_H
 
@@ -13,17 +13,17 @@
 
 // A driver draws in a viewport of RG_VIEWPORT_PX around the target's centre. Snapped coordinates
 // need 22 bits there, so it computes them without rounding, and clips nothing itself
-// (docs/drawing.md). The guard band is narrower: llvmpipe loses triangles of more than 4 million
-// pixels that reach off the target's upper left corner and end within 64 pixels of it, for it cuts
-// their edge functions to 32 bits.
+// (docs/drawing.md). The guard band is narrower, because llvmpipe cuts edge functions to 32 bits.
+// It loses triangles of more than 4 million pixels that reach off the target's upper left corner
+// and end within 64 pixels of it.
 #define RG_VIEWPORT_PX 16384
 #define RG_FARTHEST_PX 8190.0f // of the guard band from the target's centre
 #define RG_GUARD_PX    2048.0f
 #define RG_SUBPIXELS   256
 #define RG_LEAST_W     1e-9f
 
-// What a program's item emits: a convex polygon of 3 or 4 corners (RG_CORNERS; d is unused with 3),
-// or nothing where `alive` is 0.
+// The output of an item: a convex polygon of 3 or 4 corners (RG_CORNERS; d is unused with 3), or
+// nothing if `alive` is 0.
 RG_STRUCT(rg_item)
 {
     int alive;
@@ -48,24 +48,24 @@ RG_STRUCT(rg_snapped)
 };
 RG_STRUCT_SIZE(rg_snapped, 8)
 
-// What becomes of an item.
+// The fates of an item.
 #define RG_FATE_DEAD  0
-#define RG_FATE_WHOLE 1 // drawn as it is: its snapped corners hold
+#define RG_FATE_WHOLE 1 // drawn with its snapped corners
 #define RG_FATE_CLIP  2 // has to be clipped first
 
 RG_STRUCT(rg_projected)
 {
     int fate;
-    rg_snapped corners; // where whole
+    rg_snapped corners; // if whole
 };
 
-// How far the guard band reaches from the target's centre, in pixels.
+// The distance of the guard band's edge from the target's centre, in pixels.
 RG_FN float rg_reach_px(float half_size)
 {
     return rg_min(half_size + RG_GUARD_PX, RG_FARTHEST_PX);
 }
 
-// A coordinate of clip space over w in 1/256 pixel, within the guard band whatever comes in.
+// A coordinate of clip space over w, in 1/256 pixel, clamped to the guard band.
 RG_FN int rg_snap(float over_w, float half_size)
 {
     float reach = rg_reach_px(half_size);
@@ -93,7 +93,7 @@ RG_FN int rg_imost4(int a, int b, int c, int d)
     return rg_imax(rg_imax(a, b), rg_imax(c, d));
 }
 
-// How far a corner lies inside the guard band, in pixels times w; negative outside.
+// The distance of a corner inside the guard band, in pixels times w; negative outside.
 RG_FN float rg_guard_slack(rg_draw_state draw, rg_corner c)
 {
     float across = rg_reach_px(draw.half_width) * c.w - rg_abs(c.x) * draw.half_width;
@@ -106,16 +106,16 @@ RG_FN float rg_extent_of(rg_corner c)
     return (rg_abs(c.x) + rg_abs(c.y)) + (rg_abs(c.z) + rg_abs(c.w));
 }
 
-// Twice the signed area that the viewer sees, times the product of all w: positive where the first
-// three corners turn clockwise on the screen. Right for items that cross the near plane too.
+// Twice the signed area that the viewer sees, times the product of all w: positive if the first
+// three corners turn clockwise on the screen. It is right for items that cross the near plane too.
 RG_FN float rg_turn(rg_item t)
 {
     return t.a.x * (t.b.y * t.c.w - t.c.y * t.b.w) - t.a.y * (t.b.x * t.c.w - t.c.x * t.b.w) +
            t.a.w * (t.b.x * t.c.y - t.c.x * t.b.y);
 }
 
-// Whether culling leaves this turn: RG_CULL_NONE 0, RG_CULL_BACK 1 (what turns clockwise),
-// RG_CULL_FRONT 2 (the others).
+// Whether culling leaves items of this turn: RG_CULL_NONE 0, RG_CULL_BACK 1 (culls those that turn
+// clockwise), RG_CULL_FRONT 2 (culls the others).
 RG_FN int rg_faces(rg_draw_state draw, float turn)
 {
     float facing = draw.cull == 1 ? -turn : turn;
@@ -157,8 +157,8 @@ RG_FN rg_item rg_item_closed(rg_item t, int corners)
     return closed;
 }
 
-// The fate of a closed item, and its corners where it is whole. No branches: compilers run several
-// items side by side. What is no number, or beyond 1e30, is dead.
+// The fate of a closed item, and its corners if it is whole. The code has no branches, so that
+// compilers vectorise over items. An item with NaN, or with coordinates beyond 1e30, is dead.
 RG_FN rg_projected rg_project(rg_draw_state draw, rg_item t)
 {
     float extent =
@@ -268,7 +268,7 @@ RG_FN rg_polygon rg_polygon_empty(rg_corner c)
     return g;
 }
 
-// How far a corner lies inside a plane: the near one, then the guard band's four sides.
+// The distance of a corner inside a plane: 0 is the near one, 1 to 4 are the guard band's sides.
 #define RG_PLANES 5
 
 RG_FN float rg_inside(rg_draw_state draw, rg_corner c, int plane)
@@ -287,8 +287,8 @@ RG_FN float rg_inside(rg_draw_state draw, rg_corner c, int plane)
     return inside;
 }
 
-// Where an edge meets a plane. Reckoned from its inner end, whichever way the polygon runs, so that
-// neighbours which share the edge get the same corner.
+// The point in which an edge meets a plane. It is computed from the edge's inner end, whichever way
+// the polygon runs, so that neighbours which share the edge get the same corner.
 RG_FN rg_corner rg_cut(rg_corner inner, float inner_by, rg_corner outer, float outer_by)
 {
     float t = inner_by / (inner_by - outer_by);
@@ -316,8 +316,8 @@ RG_SELDOM rg_polygon rg_clip_by(rg_draw_state draw, rg_polygon g, int plane)
     return kept;
 }
 
-// A closed item's polygon: unchanged where the item is whole (the loop then has no rounds), clipped
-// where it has to be, empty where it is dead.
+// A closed item's polygon: unchanged if the item is whole (the loop then has no rounds), clipped if
+// it has to be, empty if it is dead.
 RG_FN rg_polygon rg_clip(rg_draw_state draw, rg_item t, int corners, int fate)
 {
     rg_polygon g = rg_polygon_empty(t.a);
@@ -340,8 +340,8 @@ RG_FN int rg_polygon_prims(rg_polygon g, int corners)
 // The most primitives that an item falls into.
 #define RG_MOST_PRIMS(corners) ((corners) == 3 ? 6 : 4)
 
-// The k-th primitive: a triangle, or a quad whose last two corners coincide where the polygon's
-// number of corners is odd. Beyond the last one: corners of no area.
+// The k-th primitive: a triangle, or a quad, whose last two corners coincide if the polygon has an
+// odd number of corners. Primitives beyond the last have no area.
 RG_FN rg_snapped rg_polygon_prim(rg_draw_state draw, rg_polygon g, int corners, int k)
 {
     int step = corners - 2;
@@ -370,7 +370,7 @@ RG_FN uint rg_bits_below(uint bits)
     return (bits & (0u - bits)) - 1u;
 }
 
-// Primitives to leave room for: as many as a clipped item can fall into.
+// Primitives to leave room for: for a clipped item, as many as it can fall into.
 RG_FN int rg_chunk_prims(uint whole, uint clipped, int corners)
 {
     return rg_ones(whole) + RG_MOST_PRIMS(corners) * rg_ones(clipped);

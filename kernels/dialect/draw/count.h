@@ -1,5 +1,5 @@
 // The first stage of packing: the fates of a chunk's items, and the primitives to leave room for.
-// Included behind a DRAW program.
+// Included after a DRAW program.
 
 RG_GRID_KERNEL(draw_count)
 {

@@ -1,10 +1,10 @@
-// Which pixels a triangle covers: the rule that graphics drivers follow on the grid of 1/256 pixel
-// (top-left rule, integer edge functions), for the devices that rasterise themselves. C and OpenCL
-// C only, for it needs 64 bits.
+// The pixels that a triangle covers, by the rule that graphics drivers follow on the grid of 1/256
+// pixel (top-left rule, integer edge functions). For devices that rasterise in our code: C and
+// OpenCL C only, since it needs 64 bits.
 //
-// Pixel (px, py) is covered where its centre lies inside all three edges. A centre on an edge
-// belongs to the triangle that has this edge as its top or left one, so that neighbours share no
-// pixel and leave none out.
+// Pixel (px, py) is covered if its centre lies inside all three edges. A centre on an edge belongs
+// to the triangle that has this edge as its top or left one, so that neighbours share no pixel and
+// leave none out.
 #ifndef RG_KERNELS_DIALECT_DRAW_COVERAGE_H
 #define RG_KERNELS_DIALECT_DRAW_COVERAGE_H
 
@@ -51,7 +51,7 @@ RG_FN rg_long rg_edge_at(rg_edge e, int px, int py)
     return e.origin - (rg_long)e.dx * (256 * px) + (rg_long)e.dy * (256 * py);
 }
 
-// Corners in either turn; the box is cut to the scissor.
+// Corners may turn either way; the box is cut to the scissor.
 RG_FN rg_triangle rg_triangle_make(rg_draw_state draw, int x0, int y0, int x1, int y1, int x2,
                                    int y2)
 {
@@ -88,8 +88,8 @@ RG_FN int rg_triangle_pixels(rg_triangle t)
     return pixels;
 }
 
-// How many pixels a primitive of 3 or 4 corners covers: those of its two triangles, which share
-// none unless it is folded.
+// The number of pixels that a primitive of 3 or 4 corners covers: the sum of its two triangles,
+// which share no pixel unless the primitive is folded.
 RG_FN int rg_covered_pixels(rg_draw_state draw, rg_snapped s, int corners)
 {
     int pixels = rg_triangle_pixels(rg_triangle_make(draw, s.x0, s.y0, s.x1, s.y1, s.x2, s.y2));
@@ -100,12 +100,13 @@ RG_FN int rg_covered_pixels(rg_draw_state draw, rg_snapped s, int corners)
 
 // --- over a block of pixels, in 32 bits ---
 
-// The most pixels a side of a block.
+// The most pixels along a side of a block.
 #define RG_MOST_BLOCK_PX 64
 
-// An edge function over a block: not negative inside. Scaling it down by 256 loses nothing, because
-// steps are multiples of 256. `at` is its value at the block's first pixel; each pixel adds a step.
-// Far from the edge `at` is clamped, where no step within a block changes its sign.
+// An edge function over a block, not negative inside. It is scaled down by 256, which loses
+// nothing, because steps are multiples of 256. `at` is its value at the block's first pixel; each
+// pixel adds a step. Far from the edge, where no step within a block changes its sign, `at` is
+// clamped.
 typedef struct rg_block_edge {
     int at;
     int step_x;
@@ -143,19 +144,19 @@ RG_FN int rg_block_edge_at(rg_block_edge e, int x, int y)
     return e.at + e.step_x * x + e.step_y * y;
 }
 
-// Pixel (x, y) of the block: not negative where the triangle covers it.
+// Not negative if the triangle covers pixel (x, y) of the block.
 RG_FN int rg_block_inside(rg_block_triangle t, int x, int y)
 {
     return rg_block_edge_at(t.a, x, y) | rg_block_edge_at(t.b, x, y) | rg_block_edge_at(t.c, x, y);
 }
 
-// The most that an edge function reaches in a block of width x height pixels.
+// The largest value of an edge function in a block of width x height pixels.
 RG_FN int rg_block_edge_most(rg_block_edge e, int width, int height)
 {
     return e.at + rg_imax(e.step_x * (width - 1), 0) + rg_imax(e.step_y * (height - 1), 0);
 }
 
-// Whether a triangle may cover a pixel of a block: no for most blocks that it misses.
+// Whether a triangle may cover a pixel of a block; false for most blocks that it misses.
 RG_FN bool rg_triangle_touches(rg_triangle t, int px, int py, int width, int height)
 {
     rg_block_triangle b = rg_block_triangle_make(t, px, py);

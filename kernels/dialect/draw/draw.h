@@ -1,57 +1,60 @@
 // A DRAW program: items that become polygons, and the colour and depth of their pixels.
 //
-// A program's header defines RG_PARAMS and RG_SLOTS (slots 1 to RG_DRAW_SLOTS - 1) as a GRID
-// kernel's does, RG_CORNERS (3 or 4: corners of an item) and RG_RECORD (the struct of 4-byte
-// scalars that its fragments need), includes this, and holds three functions:
+// A program's header defines RG_PARAMS and RG_SLOTS (slots 1 to RG_DRAW_SLOTS - 1) like a GRID
+// kernel's. It also defines RG_CORNERS (3 or 4: corners of an item) and RG_RECORD (the struct of
+// 4-byte scalars that its fragments read), includes this file, and has three functions:
 //
 //   RG_DRAW_ITEM(name)      { ... }  returns item i's corners in clip space (clip.h). It runs for
 //                                    every item, so it is short and has no branches.
-//   RG_DRAW_RECORD(name)    { ... }  returns what the fragments of item i need. It runs for items
-//                                    that are seen.
+//   RG_DRAW_RECORD(name)    { ... }  returns item i's record for its fragments. It runs for
+//                                    items that are seen.
 //   RG_DRAW_FRAGMENT(name)  { ... }  returns colour and depth of pixel (px, py), from the record r
 //                                    alone.
 //
 // All three get the slots `rg` and the parameters `p`; the first two also get the state `draw`.
 //
-// A program that defines RG_LIGHTS has lights, as many as its parameters' `int lights` says, and
-// holds a fourth function:
+// A program that defines RG_LIGHTS has lights, as many as its parameters' `int lights` says, and a
+// fourth function:
 //
 //   RG_DRAW_LIGHT(name)     { ... }  returns the rgba that light number `light` adds at pixel
 //                                    (px, py), from r.
 //
-// One that defines RG_LIGHT_RECORD besides (a struct of 4-byte scalars) has a record for each item
-// and light, and holds a fifth function:
+// A program that also defines RG_LIGHT_RECORD (a struct of 4-byte scalars) has a record for each
+// item and light, and a fifth function:
 //
-//   RG_DRAW_RECORD_LIGHT(name)  { ... }  returns what light number `light` needs of the item whose
-//                                        record is r, from r alone. Its RG_DRAW_LIGHT gets it:
-//                                        `by`.
+//   RG_DRAW_RECORD_LIGHT(name)  { ... }  returns the record of light number `light` and the item
+//                                        whose record is r, from r alone. RG_DRAW_LIGHT gets it
+//                                        as `by`.
 //
-// Devices make it once an item and light or once a pixel and light, as suits them.
+// Devices compute this record once for each item and light, or once for each pixel and light.
 //
-// Its RG_DRAW_FRAGMENT also gets `rgba lit`: zero and what lights 0 to p.lights - 1 add, in order.
-// Only the colour may depend on `lit`: devices ask for depth and `kept` before they run the lights,
-// so that they need not light what is hidden.
+// The RG_DRAW_FRAGMENT of a program with lights also gets `rgba lit`: the sum of zero and lights 0
+// to p.lights - 1, in order. Only the colour may depend on `lit`: devices ask for depth and `kept`
+// before they run the lights, so that they need not light hidden pixels.
 //
-// A program many of whose items are out of sight says which. It defines RG_GROUP_ITEMS, a power of
-// 2 up to 64, and RG_GROUP, a struct of 4-byte scalars that as many items in a row share, and
-// holds:
+// A program with many items out of sight can say which these are. It defines RG_GROUP_ITEMS, a
+// power of 2 up to 64, and RG_GROUP, a struct of 4-byte scalars that so many items in a row share,
+// and has:
 //
-//   RG_DRAW_GROUP(name)  { ... }  returns what items RG_GROUP_ITEMS * number and following share.
-//   RG_DRAW_UNSEEN(name)  { ... }  returns 1 only where item i, of `group`, covers no pixel: its
+//   RG_DRAW_GROUP(name)  { ... }  returns the data that items RG_GROUP_ITEMS * number and following
+//                                 share.
+//   RG_DRAW_UNSEEN(name)  { ... }  returns 1 only if item i, of `group`, covers no pixel: its
 //                                  corners are dead, whatever the scissor.
 //
-// `cpu` asks, and makes no corners of what is unseen; others ask for the corners of all. It asks
-// for a group before it needs it: RG_DRAW_GROUP may RG_FETCH what the items of the group will read.
+// `cpu` asks, and makes no corners of unseen items; other devices make the corners of all. `cpu`
+// asks for a group before it needs it, so that RG_DRAW_GROUP may RG_FETCH the elements that the
+// group's items will read.
 //
-// A program with records of which many need a part of its fragments' arithmetic alone defines
-// RG_PLAIN, and holds:
+// A program in which many records need only a part of the fragments' arithmetic defines RG_PLAIN,
+// and has:
 //
-//   RG_DRAW_PLAIN(name)  { ... }  returns 1 where r is such a record.
+//   RG_DRAW_PLAIN(name)  { ... }  returns 1 if r is such a record.
 //
-// Its RG_DRAW_LIGHT and RG_DRAW_FRAGMENT may leave the other part out where rg_all_plain(rg) is not
-// 0, and return the same. `cpu` lists pixels of plain records apart; for others it is 0.
+// Its RG_DRAW_LIGHT and RG_DRAW_FRAGMENT may leave out the other part if rg_all_plain(rg) is not 0,
+// and must return the same. `cpu` lists pixels of plain records apart; on other devices
+// rg_all_plain is 0.
 //
-// A program whose fragments read most words of a long record defines RG_COLUMNS: `cpu` then reads
+// A program whose fragments read most words of a long record defines RG_COLUMNS. `cpu` then reads
 // the record once for a primitive's listed pixels, and spreads its words, instead of gathering
 // them.
 #ifndef RG_KERNELS_DIALECT_DRAW_DRAW_H
@@ -59,7 +62,7 @@
 
 #include "kernels/dialect/draw/clip.h"
 
-// Has the cache fetch element i of a slot's buffer, where that is up to the program.
+// Prefetches element i of a slot's buffer into the cache, on devices where programs can.
 #if RG_GLSL || RG_OPENCL || RG_CHECKED
 #define RG_FETCH(rg, name, i)
 #else
@@ -68,7 +71,7 @@
 
 #define RG_DRAW_SLOTS 12 // the stages take the last four of the 16 slots
 
-// A primitive as it is packed: corners on the grid, the item it came from, the item's record.
+// A packed primitive: corners on the grid, its item's index, and the item's record.
 RG_STRUCT(rg_prim)
 {
     rg_snapped corners;
@@ -76,7 +79,7 @@ RG_STRUCT(rg_prim)
     RG_RECORD record;
 };
 
-// What the shells of all stages get as parameters.
+// The parameters of all stages' shells.
 RG_STRUCT(rg_draw_call)
 {
     rg_draw_state draw;
@@ -84,8 +87,8 @@ RG_STRUCT(rg_draw_call)
 };
 #define RG_RUN_PARAMS rg_draw_call
 
-// What a stage binds beside the program's own slots. The vertex stage has slot 12 in a form of its
-// own (shaders/draw.vert).
+// The slots that a stage binds beside the program's own. The vertex stage has slot 12 in a form of
+// its own (shaders/draw.vert).
 #if defined(RG_STAGE_COUNT)
 #define RG_STAGE_SLOTS OUT(13, uint, rg_counts) OUT(15, uint, rg_fates)
 #elif defined(RG_STAGE_EMIT)
@@ -99,7 +102,7 @@ RG_STRUCT(rg_draw_call)
 
 #include "kernels/dialect/slots/slots.h"
 
-// A pixel's colour, premultiplied where it is blended, and its depth, 0 near to 1 far.
+// A pixel's colour, premultiplied if it is blended, and its depth, 0 near to 1 far.
 RG_STRUCT(rg_fragment)
 {
     rgba colour;
@@ -151,7 +154,7 @@ RG_FN rg_fragment rg_fragment_make(rgba colour, float depth)
                                           RG_RECORD r RG_UNUSED, int px RG_UNUSED,                 \
                                           int py RG_UNUSED RG_FRAGMENT_LIT)
 
-// Depth as every device takes it: within 0 to 1, and never subnormal.
+// The depth that all devices use: within 0 to 1, and never subnormal.
 RG_FN float rg_settled_depth(float depth)
 {
     float settled = rg_clamp(depth, 0.0f, 1.0f);

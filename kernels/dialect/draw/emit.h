@@ -1,9 +1,9 @@
-// The second stage of packing: a chunk's primitives, each at its place, in the order of the items.
-// Included behind a DRAW program. rg_draw_args becomes what an indirect draw takes: vertices,
-// instances, first vertex, first instance; then the number of primitives.
+// The second stage of packing: writes a chunk's primitives to their places, in the order of the
+// items. Included after a DRAW program. rg_draw_args gets the arguments of an indirect draw:
+// vertices, instances, first vertex, first instance; then the number of primitives.
 //
-// Whole items and clipped items have a loop each: software drivers run a loop's body once for all
-// items side by side, even where no item enters it.
+// Whole items and clipped items have a loop each, because software drivers run a loop's body for
+// all items side by side, even if no item enters it.
 
 RG_FN rg_prim rg_prim_of(rg_ctx rg, rg_draw_call p, rg_snapped corners, int i)
 {
@@ -19,7 +19,8 @@ RG_FN rg_item rg_closed_item(rg_ctx rg, rg_draw_call p, int i)
     return rg_item_closed(rg_program_item(rg, p.draw, p.program, i), RG_CORNERS);
 }
 
-// A clipped item fills all the room that was left for it; what it does not need has no area.
+// A clipped item fills all the room that was left for it; primitives that it does not need have no
+// area.
 RG_PROC void rg_put_clipped(rg_ctx rg, rg_draw_call p, int place, int i)
 {
     rg_polygon g = rg_clip(p.draw, rg_closed_item(rg, p, i), RG_CORNERS, RG_FATE_CLIP);

@@ -1,5 +1,5 @@
-// A line between two corners of an item, as the viewer sees it: in pixels, cut to what can be
-// drawn. It has ends in clip space, and no width; programs give it one.
+// A line between two points in clip space, as the viewer sees it: in pixels, cut to the part that
+// can be drawn. It has no width; programs give it one.
 #ifndef RG_KERNELS_DIALECT_DRAW_LINE_H
 #define RG_KERNELS_DIALECT_DRAW_LINE_H
 
@@ -7,26 +7,26 @@
 
 RG_STRUCT(rg_line)
 {
-    float x; // where it begins, in pixels from the target's corner
+    float x; // its beginning, in pixels from the target's corner
     float y;
     float along_x; // its direction, of unit length
     float along_y;
     float length_px;
-    float depth;       // where it begins
-    float depth_there; // where it ends
-    float from;        // which part of it is seen, 0 to 1: none where this is more than `to`
+    float depth;       // at its beginning
+    float depth_there; // at its end
+    float from;        // the part of it that is seen, 0 to 1: none if this is more than `to`
     float to;
 };
 RG_STRUCT_SIZE(rg_line, 9)
 
-// The part of a line that planes have left, from 0 to 1.
+// The part of a line inside the planes so far, from 0 to 1.
 RG_STRUCT(rg_line_part)
 {
     float from;
     float to;
 };
 
-// Cuts off what lies outside of a plane: `a` and `b` tell how far inside the ends are.
+// Cuts off the part outside a plane; `a` and `b` are the distances of the ends inside it.
 RG_FN rg_line_part rg_part_inside(rg_line_part part, float a, float b)
 {
     float fall = a - b;
@@ -37,8 +37,8 @@ RG_FN rg_line_part rg_part_inside(rg_line_part part, float a, float b)
     return inside;
 }
 
-// What is seen of the line from a to b: cut at the near plane and `beyond_px` outside of the
-// target's sides, so that the rest is near enough for a float to place it.
+// The part of the line from a to b that is seen. It is cut at the near plane, and `beyond_px`
+// outside the target's sides, so that the rest is near enough for a float to place it.
 RG_FN rg_line rg_line_seen(rg_draw_state draw, rg_corner a, rg_corner b, float beyond_px)
 {
     float across = (draw.half_width + beyond_px) / draw.half_width;
@@ -69,7 +69,7 @@ RG_FN rg_line rg_line_seen(rg_draw_state draw, rg_corner a, rg_corner b, float b
     return s;
 }
 
-// A corner of a rectangle about it, so far along it and beside it from its beginning.
+// A corner, by its distances from the line's beginning, along the line and beside it.
 RG_FN rg_corner rg_line_corner(rg_draw_state draw, rg_line s, float along, float beside)
 {
     float x = s.x + s.along_x * along - s.along_y * beside;
@@ -77,7 +77,7 @@ RG_FN rg_corner rg_line_corner(rg_draw_state draw, rg_line s, float along, float
     return rg_corner_make(x / draw.half_width - 1.0f, y / draw.half_height - 1.0f, 0.5f, 1.0f);
 }
 
-// The rectangle that reaches so far beside it and beyond its ends.
+// The rectangle that reaches `reach` beside the line and beyond its ends.
 RG_FN rg_item rg_line_item(rg_draw_state draw, rg_line s, float reach)
 {
     float end = s.length_px + reach;
@@ -90,14 +90,14 @@ RG_FN rg_item rg_line_item(rg_draw_state draw, rg_line s, float reach)
     return t;
 }
 
-// Where a pixel's centre lies along the line, in pixels from where it begins.
+// The place of a pixel's centre along the line, in pixels from its beginning.
 RG_FN float rg_line_along(rg_line s, int px, int py)
 {
     return (rg_to_float(px) + 0.5f - s.x) * s.along_x + (rg_to_float(py) + 0.5f - s.y) * s.along_y;
 }
 
-// Which share of a pixel a line covers that is drawn with smooth sides and square ends, `reach`
-// from its axis and beyond its ends to where it has ended.
+// The share of a pixel that a line with smooth sides and square ends covers; `reach` is the
+// distance from its axis and from its ends at which it has faded out.
 RG_FN float rg_line_covered(rg_line s, int px, int py, float reach)
 {
     float x = rg_to_float(px) + 0.5f - s.x;
@@ -108,7 +108,7 @@ RG_FN float rg_line_covered(rg_line s, int px, int py, float reach)
     return rg_clamp(reach - beside, 0.0f, 1.0f) * rg_clamp(reach - beyond, 0.0f, 1.0f);
 }
 
-// Its depth at a pixel.
+// The line's depth at a pixel.
 RG_FN float rg_line_depth(rg_line s, int px, int py)
 {
     float part = rg_clamp(rg_line_along(s, px, py) / rg_max(s.length_px, 1e-6f), 0.0f, 1.0f);

@@ -1,6 +1,6 @@
-// A fragment of the DRAW program that was just included, with the sum of what its lights add
-// (draw.h): one light after the other is added to zero. Shells with their own loop over lights,
-// which lets them run fragments side by side, add in this order too.
+// A fragment of the DRAW program that was just included, with the sum of its lights (draw.h): one
+// light after the other is added to zero. Shells with their own loop over lights, which lets them
+// vectorise over fragments, add in this order too.
 
 #if defined(RG_LIGHTS)
 

@@ -1,10 +1,11 @@
-// What a DRAW pass's stages know of the draw: made by core/device/draw.c, read by the shells.
+// The state of a draw, for the stages of its DRAW pass: core/device/draw.c makes it, and the shells
+// read it.
 #ifndef RG_KERNELS_DIALECT_DRAW_STATE_H
 #define RG_KERNELS_DIALECT_DRAW_STATE_H
 
 #include "kernels/dialect/lang.h"
 
-// Items that one work item of the packing stages handles, in order; each has a bit of a word.
+// The items that one work item of the packing stages handles, in order; each has a bit of a word.
 #define RG_DRAW_CHUNK 32
 
 // enum rg_format of backends/formats.h.

@@ -1,7 +1,7 @@
-// What varies over a triangle, as planes over the screen: perspective-correct weights of its
-// corners and its depth at any pixel centre, from its corners in clip space (Olano & Greer,
-// "Triangle scan conversion using 2D homogeneous coordinates", 1997). It holds for triangles that
-// cross the near plane too, and does not depend on how they are clipped.
+// Values that vary over a triangle, as planes over the screen: perspective-correct weights of its
+// corners, and its depth, at any pixel centre. They follow from the corners in clip space (Olano &
+// Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997). This works for
+// triangles that cross the near plane too, and does not depend on how they are clipped.
 #ifndef RG_KERNELS_DIALECT_DRAW_TRIANGLE_H
 #define RG_KERNELS_DIALECT_DRAW_TRIANGLE_H
 
@@ -24,7 +24,7 @@ RG_STRUCT(rg_planes)
     rg_plane b;         // weight of the second corner, over w
     rg_plane c;         // of the third
     rg_plane depth;
-    float nearest; // depth is kept within these two: planes of thin triangles run off
+    float nearest; // depth is clamped to these two, since planes of thin triangles run off
     float farthest;
 };
 RG_STRUCT_SIZE(rg_planes, 16)
@@ -45,8 +45,8 @@ RG_FN rg_corner rg_from_origin(rg_draw_state draw, rg_corner c, float origin_x, 
 }
 
 // The planes of a triangle start at its first corner, so that tiny triangles are precise. A corner
-// beyond the target is moved to its edge, since values reckoned from far away are not precise; one
-// behind the eye, to its middle.
+// beyond the target is moved to the target's edge, since values computed from far away are not
+// precise; one behind the eye, to the target's middle.
 RG_FN float rg_origin(float x, float w, float half_size)
 {
     float from_centre = w > RG_LEAST_W ? x / rg_max(w, RG_LEAST_W) * half_size : 0.0f;
@@ -71,8 +71,8 @@ RG_FN rg_plane rg_plane_sum(rg_plane p, float a, rg_plane q, float b, rg_plane r
     return s;
 }
 
-// Depth is reckoned as the difference from the first corner's depth: the difference is small, and
-// so are its roundings, even where the triangle is thin.
+// Depth is computed as the difference from the first corner's depth. The difference is small, and
+// so is its rounding error, even in thin triangles.
 RG_FN rg_planes rg_planes_of(rg_draw_state draw, rg_item t)
 {
     rg_planes s;
@@ -123,8 +123,8 @@ RG_FN float rg_planes_w(rg_planes s, int px, int py)
     return 1.0f / rg_max(rg_plane_at(s.inverse_w, dx, dy), RG_LEAST_W);
 }
 
-// Perspective-correct weights at a pixel's centre. They are clamped to 0 to 1, because they go by
-// the corners before snapping, and a centre on the rim may lie a little outside of these.
+// Perspective-correct weights at a pixel's centre. They are clamped to 0 to 1: they follow from the
+// corners before snapping, and a centre on the rim may lie a little outside these.
 RG_FN rg_weights rg_planes_weights(rg_planes s, int px, int py)
 {
     float dx = rg_to_float(px) + 0.5f - s.origin_x;

@@ -1,5 +1,6 @@
-// One quad that fills the view, for programs whose fragments need only their place. Such a program
-// includes this instead of draw.h, after RG_PARAMS and RG_SLOTS, and RG_RECORD if it needs more.
+// One quad that fills the view, for programs whose fragments need only their place. A program
+// includes this file instead of draw.h, after RG_PARAMS and RG_SLOTS, and after RG_RECORD if it
+// needs a record.
 #ifndef RG_KERNELS_DIALECT_DRAW_VIEW_QUAD_H
 #define RG_KERNELS_DIALECT_DRAW_VIEW_QUAD_H
 

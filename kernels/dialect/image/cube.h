@@ -1,4 +1,4 @@
-// Cube maps as six layers, +x -x +y -y +z -z, oriented as OpenGL and Vulkan do.
+// Cube maps as six layers, +x -x +y -y +z -z, oriented as in OpenGL and Vulkan.
 #ifndef RG_KERNELS_DIALECT_IMAGE_CUBE_H
 #define RG_KERNELS_DIALECT_IMAGE_CUBE_H
 
@@ -13,19 +13,20 @@ RG_STRUCT(cube_point)
 };
 RG_STRUCT_SIZE(cube_point, 3)
 
-// `value` with its sign turned where `by` is negative.
+// `value`, negated if `by` is negative.
 RG_FN float cube_turn(float value, float by)
 {
     return rg_bits_float(rg_float_bits(value) ^ (rg_float_bits(by) & 0x80000000u));
 }
 
-// The face of an axis: the second one where the direction's component is negative.
+// The face of an axis: the second one if the direction's component is negative.
 RG_FN int cube_face(int first, float along)
 {
     return first + rg_to_int(rg_float_bits(along) >> 31);
 }
 
-// Where a direction (of any length but zero) meets a cube map of `size` texels along a face.
+// The point in which a direction (of any length but zero) meets a cube map of `size` texels along a
+// face.
 RG_FN cube_point cube_locate(v3 d, int size)
 {
     float ax = rg_abs(d.x);

@@ -1,14 +1,14 @@
-// The light that comes from anywhere, from the slot environment of the program that includes this.
+// The light from any direction, from the slot environment of the program that includes this file.
 #ifndef RG_KERNELS_DIALECT_IMAGE_CUBE_LIGHT_H
 #define RG_KERNELS_DIALECT_IMAGE_CUBE_LIGHT_H
 
 #include "kernels/dialect/image/cube.h"
 
-// The environment's light from a direction of any length but zero, in one of its levels, which is
-// `size` texels along a face, between four texels. The outermost texels of a face have their
-// centres on the cube's edges (core/scene/environment/cube.h), so that light is the same from both
-// sides of an edge. A place on a face always lies between its texels' centres, so the bounds
-// that filter.h keeps are left out; it pays, for half of what is drawn is light from here.
+// The environment's light from a direction of any length but zero, interpolated between four texels
+// of a level, which has `size` texels along a face. The outermost texels of a face have their
+// centres on the cube's edges (core/scene/environment/cube.h), so that light is the same on both
+// sides of an edge. A place on a face always lies between texels' centres, so that the bounds
+// checks of filter.h are left out. It pays, because half of all that is drawn is light from here.
 RG_FN v3 light_from(rg_ctx rg, v3 d, int level, int size)
 {
     cube_point c = cube_locate(d, size - 1);

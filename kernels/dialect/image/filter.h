@@ -1,6 +1,6 @@
-// Filtered images: written out in plain arithmetic, so that no device's own filtering, which rounds
-// as it likes, takes part. Texel x of a level has its centre at (x + 0.5) / width; beyond an edge
-// its texels repeat.
+// Filtered images, written out in plain arithmetic, because the filtering of devices rounds
+// differently. Texel x of a level has its centre at (x + 0.5) / width; beyond an edge its texels
+// repeat.
 
 RG_FN rgba rgba_lerp(rgba a, rgba b, float t)
 {

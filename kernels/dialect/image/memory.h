@@ -1,9 +1,9 @@
-// Images in plain memory, for C and OpenCL C: a header that says at which word each level begins,
+// Images in plain memory, for C and OpenCL C: a header with the word at which each level begins,
 // then level 0 of all layers, then level 1, and so on; rows without padding. Texels are packed in
-// 32-bit words as format.h says; two texels of half a word share a word, even if they are of two
-// rows or layers, so that only a level's end may leave a half unused.
-// The header lies in memory, not in the shape: the shape is then small enough for compilers to keep
-// in registers, and items of one vector may read different levels.
+// 32-bit words as in format.h. Two texels of half a word share a word, even across rows or layers,
+// so that only a level's end may leave a half unused. The header lies in memory, not in the shape,
+// so that the shape is small enough for compilers to keep in registers, and items of one vector may
+// read different levels.
 #ifndef RG_KERNELS_DIALECT_IMAGE_MEMORY_H
 #define RG_KERNELS_DIALECT_IMAGE_MEMORY_H
 
@@ -26,13 +26,14 @@ RG_FN int rg_texel_word(RG_GLOBAL const uint *image, rg_image_shape s, int x, in
     return rg_to_int(image[level]) + ((layer * height + y) * width + x) * words;
 }
 
-// The same of level 0, which comes right after the header.
+// The same for level 0, which follows the header.
 RG_FN int rg_first_level_word(rg_image_shape s, int x, int y, int layer, int words)
 {
     return RG_MAX_LEVELS + ((layer * s.height + y) * s.width + x) * words;
 }
 
-// Where a texel of half a word lies, counted in halves: an even one is the lower half of its word.
+// The place of a texel of half a word, counted in halves: an even one is the lower half of its
+// word.
 RG_FN int rg_texel_half(RG_GLOBAL const uint *image, rg_image_shape s, int x, int y, int layer,
                         int level)
 {
@@ -41,7 +42,7 @@ RG_FN int rg_texel_half(RG_GLOBAL const uint *image, rg_image_shape s, int x, in
     return rg_to_int(image[level]) * 2 + ((layer * height + y) * width + x);
 }
 
-// Two halves, one after the other, the first in the lower bits. One more word lies behind the last
+// Two halves, one after the other, the first in the lower bits. One more word follows the last
 // texel, so that any half may be the first.
 RG_FN uint rg_two_halves(RG_GLOBAL const uint *image, int half_of)
 {

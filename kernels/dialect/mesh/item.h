@@ -1,4 +1,4 @@
-// mesh.h's item and record, from the slots of the program that includes this.
+// The item and record of a mesh's triangle, from the slots of the program that includes this file.
 #ifndef RG_KERNELS_DIALECT_MESH_ITEM_H
 #define RG_KERNELS_DIALECT_MESH_ITEM_H
 

@@ -1,8 +1,8 @@
-// Triangles of a mesh as items of a DRAW program, and what their fragments need. A program that
-// draws meshes has these slots, and includes item.h behind dialect/draw/draw.h:
-//   IN(1, float, positions)  x, y, z a vertex
+// Triangles of a mesh as items of a DRAW program, and the record of their fragments. A program that
+// draws meshes has these slots, and includes item.h after dialect/draw/draw.h:
+//   IN(1, float, positions)  x, y, z of each vertex
 //   IN(2, uint, normals)     a vertex's normal, packed by mesh_normal_pack
-//   IN(3, uint, indices)     three vertices a triangle
+//   IN(3, uint, indices)     three vertices of each triangle
 #ifndef RG_KERNELS_DIALECT_MESH_MESH_H
 #define RG_KERNELS_DIALECT_MESH_MESH_H
 

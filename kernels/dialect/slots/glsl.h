@@ -31,8 +31,8 @@ struct rg_ctx {
         name##_data[i] = v;                                                                        \
     }
 
-// A buffer that is only read: of words, or of structs (RG_WORDS, RG_STRUCTS and their like differ
-// between OpenGL and Vulkan: flatten.py has them).
+// A buffer that is only read, of words or of structs. RG_WORDS, RG_STRUCTS and their like differ
+// between OpenGL and Vulkan; flatten.py has them.
 #define RG_IN_WORDS(slot, T, name, word)                                                           \
     RG_WORDS(slot, T, rg_block_##name, name##_words)                                               \
     T name##_at(rg_ctx rg, int i)                                                                  \
@@ -85,8 +85,8 @@ struct rg_ctx {
         return atomicCompSwap(name##_data[i], expected, v);                                        \
     }
 
-// A level's size is reckoned from the first: llvmpipe and lavapipe answer textureSize with the size
-// of the first item's level for all items of a vector.
+// A level's size is computed from level 0's, because llvmpipe and lavapipe answer textureSize with
+// the size of the first item's level for all items of a vector.
 #define IMAGE(slot, F, name)                                                                       \
     layout(binding = slot) uniform sampler2DArray name##_sampler;                                  \
     rgba name##_texel(rg_ctx rg, int x, int y, int layer, int level)                               \

@@ -1,4 +1,5 @@
-// slots.h for C and OpenCL C: the context carries a pointer a slot; images lie in plain memory.
+// slots.h for C and OpenCL C: the context carries a pointer for each slot; images lie in plain
+// memory.
 
 #if RG_OPENCL
 #define RG_UNUSED
@@ -155,7 +156,7 @@ typedef struct rg_ctx {
         t.right = rg_load_##F(two, x1 - x0);                                                       \
         return t;                                                                                  \
     }
-// Chooses between the two: formats of half a word, and only these, have a macro RG_HALVES_F.
+// Selects one of the two: only formats of half a word have a macro RG_HALVES_F.
 #define RG_HALVES_R16F                         , RG_TEXEL_OF_HALVES
 #define RG_TEXEL_AS(F, name, form, texel, ...) texel(F, name)
 #define RG_TEXEL(F, name, ...)                 RG_TEXEL_AS(F, name, __VA_ARGS__)

@@ -1,6 +1,7 @@
-// The slots of one kernel: what it reads and writes, as plain accessor functions.
+// The slots of one kernel: the buffers and images that it reads and writes, as accessor functions.
 //
-// A kernel header defines RG_PARAMS (its struct of parameters) and RG_SLOTS, then includes this:
+// A kernel header defines RG_PARAMS (its struct of parameters) and RG_SLOTS, then includes this
+// file:
 //
 //   IN(slot, T, name)        name_at(rg, i)                  a buffer of T, read
 //   OUT(slot, T, name)       name_put(rg, i, v)              a buffer of T, written
@@ -18,15 +19,15 @@
 //                            level): linear, at a place in texels
 //   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
 //
-// Slots count from 1 and are one numbering for buffers and images. `rg` is the kernel's context: it
-// is passed along to every helper that reads or writes. The value that an atomic returns must never
-// influence a result, which is why add, min, max and or return none.
+// Slots count from 1, buffers and images together. `rg` is the kernel's context, which every helper
+// that reads or writes gets. The value that an atomic returns must never influence a result, which
+// is why add, min, max and or return none.
 #ifndef RG_KERNELS_DIALECT_SLOTS_SLOTS_H
 #define RG_KERNELS_DIALECT_SLOTS_SLOTS_H
 
 #include "kernels/dialect/image/format.h"
 
-// The parameters of a run, and the slots beside the kernel's own. Stages of DRAW programs bring
+// The parameters of a run, and the slots beside the kernel's own. Stages of DRAW programs have
 // larger parameters and further slots (dialect/draw/draw.h).
 #ifndef RG_RUN_PARAMS
 #define RG_RUN_PARAMS RG_PARAMS
@@ -36,7 +37,7 @@
 #endif
 #define RG_ALL_SLOTS RG_SLOTS RG_STAGE_SLOTS
 
-// name_texels for formats and languages in which two texels together cost as much as one by one.
+// name_texels for formats and languages in which two texels together cost as much as singly.
 #define RG_TEXELS_SINGLY(name)                                                                     \
     RG_FN rg_texels name##_texels(rg_ctx rg, int x0, int x1, int y, int layer, int level)          \
     {                                                                                              \
@@ -50,9 +51,10 @@
     RG_PROC void rg_kernel(rg_ctx rg RG_UNUSED, RG_RUN_PARAMS p RG_UNUSED, int x RG_UNUSED,        \
                            int y RG_UNUSED, int z RG_UNUSED)
 
-// A kernel whose items often have nothing to do says which: true only where running the items x to
-// x + count - 1 would write nothing but what is there. It defines RG_IDLE_ITEMS, how many to ask
-// for at a time. `cpu` asks, and leaves them out; others run all.
+// A kernel with many items that change nothing can say which these are: true only if running items
+// x to x + count - 1 would write nothing but the values already there. It defines RG_IDLE_ITEMS,
+// the number of items to ask for at a time. `cpu` asks, and skips idle items; other devices run
+// all.
 #define RG_GRID_IDLE(name)                                                                         \
     RG_FN bool rg_is_idle(rg_ctx rg RG_UNUSED, RG_RUN_PARAMS p RG_UNUSED, int x RG_UNUSED,         \
                           int y RG_UNUSED, int z RG_UNUSED, int count RG_UNUSED)

@@ -1,4 +1,4 @@
-// How many drops there are, and which ID is next, once some have come and gone.
+// Counts the drops after some have come and gone, and sets the next ID.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,5 +1,5 @@
-// The drops that stay close ranks, in the order of their IDs, and new ones land behind them. A
-// parent that has merged is the new drop from now on.
+// Packs the drops that stay, in the order of their IDs, and appends those that land. A drop whose
+// parent has merged gets the merged drop as its parent.
 #include "kernels/drops/chance.h"
 #include "kernels/drops/params.h"
 
@@ -25,8 +25,8 @@ RG_FN uint parent_after(rg_ctx rg, drops_params p, uint parent)
     return leader >= 0 ? id_of_slot(rg, p, merged_slot(p, leader)) : parent;
 }
 
-// Most drops are small (section 4.1). How they land the paper does not say (its program: at
-// random).
+// Most drops are small (section 4.1). The paper does not say how they land; its program draws their
+// places at random.
 RG_FN uint landing_mass(drops_params p, uint id)
 {
     float mean = (p.most_mg - p.least_mg) * 0.2f + p.least_mg;
@@ -67,7 +67,7 @@ RG_PROC void rouse(rg_ctx rg, drops_params p, drops_drop d)
         mark(rg, p, b, DROPS_STIRRED);
 }
 
-// Whether its water is on the pane without its running.
+// Whether the drop's water is on the pane although it does not run.
 RG_FN bool does_rest(drops_drop d)
 {
     return d.is_new == 0u ? d.runs == 0u : d.is_new == DROPS_BORN_NOW;

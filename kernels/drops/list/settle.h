@@ -1,4 +1,4 @@
-// Which drops stay: those that are on the pane and have not merged.
+// Flags the drops that stay: those that are on the pane and have not merged.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,4 +1,4 @@
-// How far down the pane a drop is, as a word that rises with it.
+// A drop's distance down the pane, as a word that rises with it.
 #ifndef RG_KERNELS_DROPS_MERGING_DEPTH_H
 #define RG_KERNELS_DROPS_MERGING_DEPTH_H
 

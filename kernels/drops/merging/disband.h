@@ -1,4 +1,5 @@
-// After waters have merged: no set of cells is led, and no water is about to merge.
+// Resets the buffers after waters have merged: no set of cells has a leader, no water is about to
+// merge.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

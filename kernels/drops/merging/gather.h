@@ -1,4 +1,4 @@
-// Adds up mass and momentum of the drops that merge, at the one that leads.
+// Adds up the mass and momentum of the drops that merge, in the sums of their leader.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,4 +1,4 @@
-// Of the drops that take part in one merging the oldest leads.
+// The oldest of the drops that take part in a merging leads it.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,4 +1,4 @@
-// Finds the lowest of the drops that merge; of several as low, the oldest.
+// Finds the lowest of the drops that merge; the oldest one if several are as low.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,5 +1,5 @@
-// Drops that merge become a new one, in a slot of its own: together as heavy, as fast as their
-// momentum says, where the lowest was (section 4.3). They are no more.
+// Drops that merge become a new one, in a slot of its own, with their mass and momentum, at the
+// lowest one's place (section 4.3). The old ones end.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params
@@ -16,7 +16,7 @@ RG_FN float velocity(uint momentum, uint mass)
     return rg_to_float(rg_to_int(momentum)) * 0.25f / drops_mg(mass);
 }
 
-// What the drops of a leader become.
+// The drop that a leader's drops become.
 RG_FN drops_drop merged(rg_ctx rg, int leader)
 {
     int sum = leader * DROPS_SUM;

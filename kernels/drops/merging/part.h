@@ -1,4 +1,4 @@
-// Before waters merge: no drop takes part.
+// Resets the buffers before waters merge: no drop takes part.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,5 +1,5 @@
-// Water that merges gets the ID of the new drop, of the only one that is left, or, where none is,
-// of the set's first cell (section 4.3).
+// Water that merges gets the ID of the new drop. If its set has only one drop left, it gets that
+// one's ID; if none, that of the set's first cell (section 4.3).
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params
@@ -42,7 +42,7 @@ RG_PROC void colour(rg_ctx rg, drops_params p, int column, int row, uint id)
 RG_PROC void colour_cells(rg_ctx rg, drops_params p, int left, int row)
 {
     int first = drops_cell(p, left, row);
-    uint label = DROPS_NOBODY; // of the cell before, and what its set gets
+    uint label = DROPS_NOBODY; // of the cell before; `id` is the one that its set gets
     uint id = 0u;
     for (int i = 0; i < DROPS_TILE_COLUMNS; i++) {
         if (is_hot(rg, first + i)) {

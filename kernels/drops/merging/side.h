@@ -1,5 +1,5 @@
-// Each drop whose water merges takes part in one merging: that of the first set of cells, where its
-// water lies in several.
+// Each drop whose water merges takes part in one merging. If its water lies in several sets of
+// cells, it takes part in that of the first.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

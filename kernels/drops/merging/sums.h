@@ -1,10 +1,10 @@
-// Who merges with whom. For kernels with the slots joins, leaders and sums.
+// The mergings of drops. For kernels with the slots joins, leaders and sums.
 #ifndef RG_KERNELS_DROPS_MERGING_SUMS_H
 #define RG_KERNELS_DROPS_MERGING_SUMS_H
 
 #include "kernels/drops/params.h"
 
-// The drop that leads the merging of a set of cells, where it has several members, else -1.
+// The drop that leads the merging of a set of cells; -1 if fewer than two take part.
 RG_FN int leader_in(rg_ctx rg, uint set)
 {
     if (set == DROPS_NOBODY)

@@ -1,4 +1,4 @@
-// Whose the water is that running drops left in this step (wet.h).
+// Running drops claim the water that they left in this step (wet.h).
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

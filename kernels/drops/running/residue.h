@@ -1,5 +1,4 @@
-// Residual drops, which running drops leave behind (eq. 6). A child lies in the slot of its own
-// that every drop has.
+// Residual drops, which running drops leave behind (eq. 6). Every drop has a slot for its child.
 #ifndef RG_KERNELS_DROPS_RUNNING_RESIDUE_H
 #define RG_KERNELS_DROPS_RUNNING_RESIDUE_H
 
@@ -20,7 +19,7 @@ RG_FN uint child_mass(drops_params p, drops_drop d, float drawn)
     return mass < p.critical ? mass : p.critical;
 }
 
-// At rest where its parent is.
+// The child rests at its parent's place.
 RG_FN drops_drop child_of(drops_drop d, uint mass)
 {
     drops_drop child = d;

@@ -1,5 +1,5 @@
-// Running drops move on by a substep (eqs. 2 to 5), and remember their way. Before the first one
-// they may leave another drop behind.
+// Running drops move on by a substep (eqs. 2 to 5), and remember their way. Before the first
+// substep of a step they may leave another drop behind.
 #include "kernels/drops/running/residue.h"
 #include "kernels/drops/params.h"
 
@@ -65,7 +65,7 @@ RG_FN int way_to_go(rg_ctx rg, drops_params p, drops_drop d)
                   : wetter(straight.height, left.height, right.height);
 }
 
-// So far to the right for one down: the tangent of the angle with straight down.
+// The distance to the right for 1 down: the tangent of the angle with straight down.
 RG_FN float aside(drops_params p, uint id, int way)
 {
     if (way != 0)
@@ -76,8 +76,8 @@ RG_FN float aside(drops_params p, uint id, int way)
     return rg_sin(angle) / rg_cos(angle);
 }
 
-// A drop as the step begins: it runs for all of it, or stands. Drops that came first may leave
-// others behind while there is room.
+// A drop as the step begins: it runs for the whole step, or stands. Only the first drops may leave
+// others behind, as many as there is room for.
 RG_FN drops_drop started(rg_ctx rg, drops_params p, drops_drop was, int index)
 {
     drops_drop d = was;

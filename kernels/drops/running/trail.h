@@ -1,5 +1,5 @@
-// The water that running drops leave on their way of one substep (wet.h). Each item takes every
-// eighth row of a drop's blocks.
+// Adds the water that running drops leave on their way of one substep (wet.h). Each item takes
+// every eighth row of a drop's blocks.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,4 +1,4 @@
-// Where waters of different owners lie side by side. For kernels with the slot ids.
+// Finds waters of different owners that lie side by side. For kernels with the slot ids.
 #ifndef RG_KERNELS_DROPS_SETS_BORDERS_H
 #define RG_KERNELS_DROPS_SETS_BORDERS_H
 
@@ -15,8 +15,9 @@ RG_FN bool do_border(uint a, uint b)
     return a != b && a != 0u && b != 0u;
 }
 
-// How many cells of a row of a tile, from this one on, border on other water to their right or
-// below, or, at the tile's edges, to their left or above: the tile there may be asleep.
+// Counts the borders with other water in a row of a tile that begins at cell `first`: to each
+// cell's right and below. At the tile's edges also to the left and above, because the tile there
+// may be asleep.
 RG_FN uint borders_in(rg_ctx rg, drops_params p, int first, bool is_top)
 {
     uint borders = do_border(owner_at(rg, first), owner_at(rg, first - 1)) ? 1u : 0u;

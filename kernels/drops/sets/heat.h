@@ -1,4 +1,4 @@
-// For kernels that ask which water is about to merge: with the slots ids, and hot as IN.
+// Finds water that is about to merge. For kernels with the slots ids, and hot as IN.
 #ifndef RG_KERNELS_DROPS_SETS_HEAT_H
 #define RG_KERNELS_DROPS_SETS_HEAT_H
 
@@ -10,8 +10,8 @@ RG_FN bool is_hot(rg_ctx rg, int cell)
     return id != 0u && (hot_at(rg, rg_to_int(hot_word(id))) & hot_bit(id)) != 0u;
 }
 
-// What the buffer `heat` says of a row of a tile: no cell is hot, some are, or all are one owner's
-// and hot, as most are in large waters.
+// Values of the buffer `heat` for a row of a tile: no cell is hot, some are, or all are hot and
+// have one owner, as in most rows of large waters.
 #define DROPS_COLD    0u
 #define DROPS_HOT     1u
 #define DROPS_UNIFORM 2u

@@ -1,5 +1,5 @@
-// IDs whose water is about to merge: a set that may hold more IDs than were put into it, but none
-// fewer. For kernels with the slots ids and hot.
+// IDs whose water is about to merge ("hot"): a set that may contain more IDs than were put into it,
+// never fewer. For kernels with the slots ids and hot.
 #ifndef RG_KERNELS_DROPS_SETS_HOT_H
 #define RG_KERNELS_DROPS_SETS_HOT_H
 

@@ -1,4 +1,4 @@
-// The IDs of drops that came about in this step: those of their slots, in order, after all others.
+// The IDs of drops that are new in this step: they follow all others, in the order of their slots.
 // For kernels with the slots before and tally, which is ATOMIC.
 #ifndef RG_KERNELS_DROPS_SETS_IDS_H
 #define RG_KERNELS_DROPS_SETS_IDS_H

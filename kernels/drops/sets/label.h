@@ -1,5 +1,5 @@
-// Water that is about to merge, as sets of cells: at first each run of one owner's cells in a row
-// of a tile (link.h).
+// Begins the sets of cells that are about to merge: each run of one owner's cells in a row of a
+// tile is one, until link.h unites them.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,5 +1,5 @@
-// Water that is contiguous, of one ID or of several that merge, becomes one set of cells: what a
-// flood fill finds (section 4.3), in any order.
+// Contiguous water, of one ID or of several that merge, becomes one set of cells. The sets are
+// those of a flood fill (section 4.3), in whatever order items run.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params
@@ -19,7 +19,8 @@ RG_PROC void link(rg_ctx rg, drops_params p, int cell, int beside)
         unite(rg, rg_to_uint(cell), rg_to_uint(beside));
 }
 
-// Cells of one run are one set already, and so are two runs once a cell of each has been linked.
+// Links a cell to those on its right and below, unless its neighbours do: a run's cells are one set
+// already, and two runs need only one link.
 RG_PROC void link_cell(rg_ctx rg, drops_params p, int cell, bool is_first, bool is_last)
 {
     uint own = owner_at(rg, cell);

@@ -1,10 +1,11 @@
-// Who owns water, and whose waters join where they touch. For kernels with the slots ids and drops.
+// Owners of water, and whether their waters join when they touch. For kernels with the slots ids
+// and drops.
 #ifndef RG_KERNELS_DROPS_SETS_OWNERS_H
 #define RG_KERNELS_DROPS_SETS_OWNERS_H
 
 #include "kernels/drops/tiles/tiles.h"
 
-// The drop of this ID, or -1 where it is no more: drops lie in the order of their IDs.
+// The index of the drop with this ID, or -1 if it has ended. Drops lie in the order of their IDs.
 RG_FN int owner_of(rg_ctx rg, drops_params p, uint id)
 {
     int low = 0;
@@ -29,7 +30,7 @@ RG_FN bool are_kin(rg_ctx rg, drops_params p, uint a, uint b)
     return drops_at(rg, owner_a).parent == b || drops_at(rg, owner_b).parent == a;
 }
 
-// Whether two cells side by side become one water.
+// Whether the waters of two adjacent cells become one.
 RG_FN bool do_join(rg_ctx rg, drops_params p, uint a, uint b)
 {
     if (a == 0u || b == 0u)

@@ -1,5 +1,5 @@
-// Sets of cells as trees: each cell's label is one before it in its set, the first cell's its own.
-// For kernels with the slot labels.
+// Sets of cells as trees: each cell's label is an earlier cell of its set; the first cell's label
+// is itself. For kernels with the slot labels.
 #ifndef RG_KERNELS_DROPS_SETS_SETS_H
 #define RG_KERNELS_DROPS_SETS_SETS_H
 
@@ -16,7 +16,8 @@ RG_FN uint first_of(rg_ctx rg, uint cell)
     return at;
 }
 
-// Makes one set of two. Labels only ever fall, so that it ends with the same sets in any order.
+// Makes one set of two. Labels only ever fall, so that the sets are the same in whatever order
+// items run.
 RG_PROC void unite(rg_ctx rg, uint a, uint b)
 {
     uint first_a = first_of(rg, a);

@@ -1,4 +1,4 @@
-// rest.h: no drop at rest is in a spoiled tile.
+// Clears the maps of drops at rest (rest.h) in spoiled tiles.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,4 +1,4 @@
-// rest.h: whose the water is.
+// Drops at rest claim their water in spoiled tiles (rest.h).
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

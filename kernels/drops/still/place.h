@@ -1,4 +1,4 @@
-// rest.h: the height of the water.
+// Drops at rest raise the water in spoiled tiles (rest.h).
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

@@ -1,6 +1,6 @@
-// Drops at rest have maps of their own, of the water that they put back on the pane in each step. A
-// tile in which drops have come or gone is cleared, and all drops at rest in it are placed anew.
-// For kernels with the slot tiles.
+// Drops at rest have maps of their own, with the water that they put back on the pane in each step.
+// A tile in which drops at rest have come or gone is spoiled: it is cleared, and all drops at rest
+// in it are placed anew. For kernels with the slot tiles.
 #ifndef RG_KERNELS_DROPS_STILL_REST_H
 #define RG_KERNELS_DROPS_STILL_REST_H
 
@@ -28,7 +28,7 @@ RG_FN bool is_any_spoiled(rg_ctx rg, drops_params p, drops_block b)
     return is_any;
 }
 
-// How high a drop's water is to be put into a cell; 0: not at all.
+// The height to put into a cell for a drop at rest; 0: none, or the tile is not spoiled.
 RG_FN float height_of(rg_ctx rg, drops_params p, drops_way w, int column, int row)
 {
     float h = drops_height(p, w, 0, column, row);

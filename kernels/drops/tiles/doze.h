@@ -1,4 +1,4 @@
-// A step ends: tiles that something has stirred are awake in the next one, others sleep.
+// Ends a step: tiles that something has stirred are awake in the next one; others sleep.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params

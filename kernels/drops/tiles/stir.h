@@ -1,5 +1,4 @@
-// What becomes of tiles: whether they are awake, and what wakes them. For kernels with the slot
-// tiles.
+// Tells whether tiles are awake, and wakes them. For kernels with the slot tiles.
 #ifndef RG_KERNELS_DROPS_TILES_STIR_H
 #define RG_KERNELS_DROPS_TILES_STIR_H
 
@@ -16,7 +15,7 @@ RG_FN bool is_awake_at(rg_ctx rg, drops_params p, int column, int row)
     return is_awake(rg, p, drops_tile_of(p, column, row));
 }
 
-// Most are marked already, which a look is enough for.
+// Most tiles are marked already; a load then saves the atomic.
 RG_PROC void mark_tile(rg_ctx rg, int tile, uint bits)
 {
     if ((tiles_load(rg, tile) & bits) != bits)
@@ -52,7 +51,7 @@ RG_PROC void mark_drop(rg_ctx rg, drops_params p, drops_drop d, uint bits)
         mark(rg, p, b, bits);
 }
 
-// Its water at rest comes or goes: the pane changes in this step.
+// A drop's water at rest comes or goes, which changes the pane in this step.
 RG_PROC void spoil(rg_ctx rg, drops_params p, drops_drop d)
 {
     mark_drop(rg, p, d, DROPS_AWAKE | DROPS_STIRRED | DROPS_SPOILED);

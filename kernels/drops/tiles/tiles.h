@@ -1,5 +1,5 @@
-// Items of stages over tiles: x is a column of tiles, y a row of cells. An item goes through the
-// 32 cells of its tile's row, which compilers for processors do several at once.
+// Items of stages over tiles: x is a column of tiles, y a row of cells. An item loops over the 32
+// cells of its tile's row, several at once where compilers for processors vectorise.
 #ifndef RG_KERNELS_DROPS_TILES_TILES_H
 #define RG_KERNELS_DROPS_TILES_TILES_H
 
@@ -10,8 +10,8 @@ RG_FN int drops_tile_of(drops_params p, int column, int row)
     return row / DROPS_TILE_ROWS * p.tile_columns + column / DROPS_TILE_COLUMNS;
 }
 
-// Processors give each thread a range of y. Rows of tiles are taken in another order, the even ones
-// first, so that a thread has dry ones above and wet ones below.
+// Processors give each thread a range of y. Even rows of tiles come first, so that a thread gets
+// both dry rows, above, and wet ones, below.
 RG_FN int drops_row_of(drops_params p, int y)
 {
     int tile_row = y / DROPS_TILE_ROWS;

@@ -6,13 +6,13 @@
 
 #define DROPS_BESIDE rg_rgba(0.02f, 0.02f, 0.02f, 1.0f) // beside the pane
 
-// The part behind the point of `id` times a number of 2^-32.
+// The fractional part of id * step / 2^32.
 RG_FN float drops_share(uint id, uint step)
 {
     return rg_to_float((id * step) >> 8) * (1.0f / 16777216.0f);
 }
 
-// A channel of a colour, as it looks: equal steps of `share` are squared to be seen as such.
+// A channel of a colour: squared, so that equal steps of `share` look equal.
 RG_FN float drops_channel(float share)
 {
     float seen = 0.1f + 0.9f * share;
@@ -20,9 +20,8 @@ RG_FN float drops_channel(float share)
 }
 
 // An owner's colour: black for nobody. Red, green and blue go in steps of 1 / 1.2207... and its
-// square and cube, with which points of a row lie far from each other in a cube, those that follow
-// each other farthest (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences",
-// 2018; x^4 = x + 1).
+// square and cube. These spread the points of a sequence over a cube, successive ones farthest
+// apart (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018; x^4 = x + 1).
 RG_FN rgba drops_colour_of(uint id)
 {
     float owned = id == 0u ? 0.0f : 1.0f;

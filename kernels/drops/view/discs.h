@@ -1,5 +1,5 @@
-// Drops as discs of their radius over the height map (figure 2): those that run are orange, those
-// that rest blue.
+// Drops as discs of their radius over the height map (figure 2): running ones are orange, resting
+// ones blue.
 #include "kernels/drops/shape.h"
 #include "kernels/drops/view/params.h"
 

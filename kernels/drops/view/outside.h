@@ -1,5 +1,5 @@
-// What light comes from a direction, from the slots environment and background of the program that
-// includes this. Both are out of focus already, as the lens that is focused on the pane sees them.
+// Light from a direction, by the slots environment and background of the program that includes this
+// file. Both are blurred already, as a lens that is focused on the pane sees them.
 #ifndef RG_KERNELS_DROPS_VIEW_OUTSIDE_H
 #define RG_KERNELS_DROPS_VIEW_OUTSIDE_H
 
@@ -7,14 +7,15 @@
 #include "kernels/dialect/math.h"
 #include "kernels/drops/view/pane_params.h"
 
-// A place of 0 to 1 in a picture that is mirrored at its edges again and again.
+// A place of 0 to 1 in a picture that is mirrored at its edges, over and over.
 RG_FN float drops_mirrored(float u)
 {
     float t = u - 2.0f * rg_floor(0.5f * u);
     return t > 1.0f ? 2.0f - t : t;
 }
 
-// From a direction of unit length on the pane, of light that fills an angle.
+// Light from about a direction, which is of unit length and relative to the pane, averaged over
+// `spread_rad`.
 RG_FN v3 drops_environment(rg_ctx rg, drops_pane_params p, v3 d, float spread_rad)
 {
     v3 to = m4_turn(p.to_world, d);
@@ -32,8 +33,8 @@ RG_FN v3 drops_environment(rg_ctx rg, drops_pane_params p, v3 d, float spread_ra
     return a;
 }
 
-// The same of the picture behind the pane, from a place on the pane; `away` is the direction's part
-// away from the viewer.
+// Light from the picture behind the pane, seen from a place on the pane; `away` is the direction's
+// component away from the viewer.
 RG_FN v3 drops_background(rg_ctx rg, drops_pane_params p, float x_mm, float y_mm, v3 d, float away,
                           float spread_rad)
 {

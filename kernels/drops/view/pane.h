@@ -1,5 +1,6 @@
-// The lit pane, seen from inside: through the glass, which is thin, light goes straight; the water
-// on its far side is flat against the glass and curved outside, and bends and reflects it there.
+// The lit pane, seen from inside. Light goes straight through the glass, which is thin. The water
+// on its far side is flat against the glass and curved outside; both surfaces bend and reflect
+// light.
 #include "kernels/drops/view/colour.h"
 #include "kernels/drops/view/pane_params.h"
 
@@ -21,8 +22,8 @@ RG_DRAW_RECORD(drops_pane)
     return view_quad_record();
 }
 
-// What the viewer sees along `d` where water of this surface is. Each of the two surfaces reflects
-// its share; what the outer one reflects is followed no further into the drop.
+// The light that the viewer sees along `d` through water of this surface. Each of its two surfaces
+// reflects a share; the outer one's reflection does not meet the drop again.
 RG_FN v3 through_water(rg_ctx rg, drops_pane_params p, float x_mm, float y_mm, v3 d,
                        drops_surface s, float spread_rad)
 {
@@ -47,7 +48,7 @@ RG_FN v3 through_water(rg_ctx rg, drops_pane_params p, float x_mm, float y_mm, v
                          v3_scale(passed, (1.0f - mirrored) * (1.0f - kept))));
 }
 
-// What the ray through a place on the pane sees.
+// The light that the ray through a place on the pane meets.
 RG_FN v3 seen_at(rg_ctx rg, drops_pane_params p, float x_mm, float y_mm)
 {
     v3 d = v3_unit(v3_make(x_mm - p.middle_x_mm, y_mm - p.middle_y_mm, -p.distance_mm));

@@ -1,4 +1,4 @@
-// What the picture of the lit pane is told. Directions on the pane are (right, down, towards the
+// The parameters of the lit pane's picture. Directions on the pane are (right, down, towards the
 // viewer); the viewer is inside, the water on the far side.
 #ifndef RG_KERNELS_DROPS_VIEW_PANE_PARAMS_H
 #define RG_KERNELS_DROPS_VIEW_PANE_PARAMS_H
@@ -16,7 +16,7 @@ RG_STRUCT(drops_pane_params)
     float mm_px;   // of the pane in a pixel
     float left_mm; // the picture's left edge on the pane
     float top_mm;
-    float middle_x_mm; // the pane's, before which the camera is
+    float middle_x_mm; // the pane's middle, before which the camera is
     float middle_y_mm;
     float distance_mm;  // of the camera
     float contact_mm;   // lower water does not bend light

@@ -1,4 +1,4 @@
-// What the pictures of drops' maps are told: where the pane lies in the picture.
+// The parameters of the pictures of drops' maps: the place of the pane in the picture.
 #ifndef RG_KERNELS_DROPS_VIEW_PARAMS_H
 #define RG_KERNELS_DROPS_VIEW_PARAMS_H
 

@@ -1,5 +1,5 @@
-// The water's surface between the cells of the slot height of the program that includes this: a
-// bicubic B-spline over 4 x 4 cells, twice as smooth as light needs it, with its slope and bend.
+// The water's surface between the cells of the slot height, which the including program has. It is
+// a bicubic B-spline over 4 x 4 cells, with its slope and bend, which are continuous.
 #ifndef RG_KERNELS_DROPS_VIEW_SURFACE_H
 #define RG_KERNELS_DROPS_VIEW_SURFACE_H
 
@@ -14,8 +14,8 @@ RG_STRUCT(drops_weights)
     float d;
 };
 
-// Of the value at a place `f`, 0 to 1, between the second and the third; of its first and its
-// second derivative there, a cell.
+// Weights of the value at a place `f`, 0 to 1, between the second and the third cell; below, of its
+// first and second derivative there, per cell.
 RG_FN drops_weights drops_value_weights(float f)
 {
     float g = 1.0f - f;
@@ -66,7 +66,7 @@ RG_STRUCT(drops_surface)
     float height;  // mm
     float slope_x; // mm/mm, to the right
     float slope_y; // down
-    float bend;    // how fast the slope changes, 1/mm: the root of its squares in all directions
+    float bend;    // change of the slope, 1/mm: the root of its squares in all directions
 };
 
 // The cells of columns `first` to `first` + 3; beyond the pane's edges the outermost repeat, so

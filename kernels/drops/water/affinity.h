@@ -1,5 +1,5 @@
 // Each cell's affinity to water (table 1: f), by which drops choose their way where all is dry. It
-// is drawn once for a square of the pane, by the paper's rules a cell.
+// is drawn once for each square of the pane; by the paper's rules a square is a cell.
 #include "kernels/drops/chance.h"
 #include "kernels/drops/params.h"
 

@@ -1,11 +1,11 @@
-// A pass over the water: drops at rest put theirs back, it flattens (a blur, below a least height
-// none is left, section 4.2), IDs spread by a cell, as water may (section 4.3), and trails thin:
-// runs of wet cells lose one at either side (section 4.2; simplified, as its program has it). A
-// step has one pass by the paper's rules. What a pass makes of a map goes into another one.
+// A pass over the water. Drops at rest put their water back. The water flattens by a blur; below a
+// least height none is left (section 4.2). IDs spread by a cell, as water may (section 4.3). Trails
+// thin: runs of wet cells lose one at either side (section 4.2; simplified, as in the paper's
+// program). By the paper's rules a step has one pass. A pass writes into other maps than it reads.
 //
 // Heights are whole steps of a quarter of a micrometre, so that water comes to rest instead of
-// nearing rest for ever. A tile that no pass changes, and that nothing around it changes, sleeps:
-// it is the same on both maps.
+// nearing rest for ever. A tile sleeps while no pass, and nothing around it, changes it: both maps
+// then have the same in it.
 #include "kernels/drops/params.h"
 
 #define RG_PARAMS drops_params
@@ -19,8 +19,8 @@
 
 #include "kernels/drops/tiles/stir.h"
 
-// Trails thin across the way that water runs: from a cell to the next one there, `across` it is so
-// far in cells of a map, and `along` to the next one down.
+// Trails thin across the way that water runs. `across` is the distance, in cells of a map, to the
+// next cell across that way, and `along` that to the next one down.
 RG_STRUCT(ways)
 {
     int across;
@@ -28,8 +28,8 @@ RG_STRUCT(ways)
 };
 RG_STRUCT_SIZE(ways, 2)
 
-// Where a cell is, in masks: at the pane's ends across, where it has no neighbour, or beside them,
-// or at its ends along; and whether it is beyond.
+// A cell's place on the pane, as masks: at its ends across, which have no neighbour, or next to
+// them; at its ends along; or beyond the pane.
 RG_STRUCT(ends)
 {
     uint is_first;
@@ -47,14 +47,14 @@ RG_FN uint mask_of(bool b)
     return b ? 0xffffffffu : 0u;
 }
 
-// Chooses by bits, so that all heights are read in any case: compilers for processors then do
-// several cells at once.
+// Chooses by bits, so that all heights are read in any case, and compilers for processors vectorise
+// over cells.
 RG_FN float either(uint is_a, float a, float b)
 {
     return rg_bits_float((rg_float_bits(a) & is_a) | (rg_float_bits(b) & ~is_a));
 }
 
-// With the water of drops at rest.
+// The height at a cell, with the water of drops at rest.
 RG_FN float wet_at(rg_ctx rg, int cell)
 {
     float h = height_at(rg, cell);
@@ -69,7 +69,7 @@ RG_FN uint owner_at(rg_ctx rg, int cell)
     return drops_owner((still_id & is_still) | (id & ~is_still));
 }
 
-// Blurred along the way, the pane's edges as high as their last cells.
+// The height blurred along the way; beyond the pane's edge the last cell repeats.
 RG_FN float along_at(rg_ctx rg, ends at, int along, int cell)
 {
     float h = wet_at(rg, cell);
@@ -78,14 +78,14 @@ RG_FN float along_at(rg_ctx rg, ends at, int along, int cell)
     return h + (above + below - 2.0f * h) * 0.33333334f;
 }
 
-// Blurred across it as well, from three columns; `was` where water does not flatten.
+// Three columns blurred across the way as well; `was` if water does not flatten.
 RG_FN float flattened(drops_params p, float left, float middle, float right, float was)
 {
     float h = middle + (left + right - 2.0f * middle) * 0.33333334f;
     return either(rg_to_uint(-p.does_smooth), h, was);
 }
 
-// Of whole steps, or nothing where it is low.
+// Rounds to whole steps; 0 below p.dry_mm.
 RG_FN float rounded(drops_params p, float h)
 {
     float whole = rg_floor(h * DROPS_HEIGHTS_A_MM + 0.5f) * (1.0f / DROPS_HEIGHTS_A_MM);
@@ -123,7 +123,8 @@ RG_FN uint or_else(uint first, uint second, uint third)
     return two | (third & mask_of(two == 0u));
 }
 
-// First from below, else from the right, then from above, else from the left.
+// The owner that spreads to a cell, as in two passes over the cells without one. The first takes it
+// from below, else from the right. The second, after that, takes it from above, else from the left.
 RG_FN uint owner_around(rg_ctx rg, drops_params p, int cell)
 {
     int down = p.down_cell;
@@ -145,7 +146,7 @@ RG_FN ways ways_of(drops_params p)
     return w;
 }
 
-// All bits where a is below b, else none: by arithmetic, for no compiler to take for a choice.
+// All bits if a is below b, else none: by arithmetic, so that no compiler makes a branch of it.
 RG_FN uint below(int a, int b)
 {
     return rg_to_uint((a - b) >> 31);
@@ -181,8 +182,8 @@ RG_FN ends all_ends(uint mask)
     return e;
 }
 
-// What the cells of a row change by, in bits: somewhere, near its left end, and near its right; and
-// where water has no owner.
+// The changes of a row's cells, as bits: anywhere, near its left end, and near its right end; and
+// whether it has water without an owner.
 RG_STRUCT(changes)
 {
     uint any;
@@ -226,8 +227,7 @@ RG_FN changes renewed(rg_ctx rg, drops_params p, changes was, ends at, ways w, i
     return changed(p, c, i, height_change | (id ^ ids_at(rg, cell)));
 }
 
-// The same for a row of any tile, and for one that has the pane all around, where there is less to
-// do.
+// Renews a row of any tile; below, of a tile that lies well inside the pane, which is less work.
 RG_FN changes row_at_ends(rg_ctx rg, drops_params p, int left, int row)
 {
     int first = drops_cell(p, left, row);

@@ -1,6 +1,6 @@
 // flow: takes in the water that came over the edges from neighbouring panes, after the movement.
-// Where two panes lead water to the edge between them it gathers; what is too much for the edge
-// drips off, so that amounts stay small enough for a float to count every droplet.
+// Water gathers at an edge to which both panes lead it. Above FLOW_EDGE_HOLDS it drips off, so that
+// amounts stay small enough for a float to count every droplet.
 #include "kernels/flow/edges/strip.h"
 
 #define RG_PARAMS flow_params

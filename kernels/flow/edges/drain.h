@@ -1,4 +1,4 @@
-// flow: what leaves each pane over its edges.
+// flow: water leaves each pane over its edges.
 #include "kernels/flow/water/water.h"
 #include "kernels/flow/edges/strip.h"
 

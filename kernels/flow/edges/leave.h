@@ -1,11 +1,11 @@
-// How water leaves a pane over its edges, droplet by droplet, by the slots ledger and arriving of
-// the including kernel: on to the pane beyond the edge, or, where there is none, off, which the
-// ledger counts.
+// Water leaves a pane over its edges, in whole droplets, by the slots ledger and arriving of the
+// including kernel. It goes on to the pane beyond the edge; if there is none it is lost, and the
+// ledger counts it.
 #ifndef RG_KERNELS_FLOW_EDGES_LEAVE_H
 #define RG_KERNELS_FLOW_EDGES_LEAVE_H
 
-// A part that goes to (x, y) of pane z, if that lies off the pane. What leaves over a corner leaves
-// over the row's edge.
+// Lets a part that goes to (x, y) leave, if that lies off pane q. Over a corner it leaves by the
+// top or bottom edge.
 RG_PROC void leave(rg_ctx rg, int size, flow_pane q, int x, int y, float part)
 {
     int last = size - 1;

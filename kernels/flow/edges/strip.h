@@ -1,4 +1,4 @@
-// The strips along a pane's edges that water crosses in a step: FLOW_MARGIN rows and columns a
+// The strips along a pane's edges that water crosses in a step: FLOW_MARGIN rows or columns on each
 // side.
 #ifndef RG_KERNELS_FLOW_EDGES_STRIP_H
 #define RG_KERNELS_FLOW_EDGES_STRIP_H
@@ -11,8 +11,8 @@ RG_STRUCT(flow_texel)
     int y;
 };
 
-// Texel i of strip s, 0 <= s < FLOW_STRIPS; x is -1 where there is none. Rows come first, near and
-// far edge in turn; columns leave the corners to them. Panes are at least 4 FLOW_MARGIN wide.
+// Texel i of strip s, 0 <= s < FLOW_STRIPS; x is -1 if there is none. Rows come first, near and far
+// edge in turn; columns leave the corners to them. Panes are at least 4 FLOW_MARGIN wide.
 RG_FN flow_texel flow_strip_texel(int size, int i, int s)
 {
     int row = s < 2 * FLOW_MARGIN ? 1 : 0;
@@ -26,7 +26,8 @@ RG_FN flow_texel flow_strip_texel(int size, int i, int s)
     return t;
 }
 
-// Where water enters a pane: `along` the edge that it left, `beyond` whole texels past it.
+// The texel by which water enters a pane, for its place `along` the edge that it left, and `beyond`
+// whole texels past it.
 RG_FN flow_texel flow_enter(int size, flow_neighbour over, int along, int beyond)
 {
     int s = over.turned != 0 ? size - 1 - along : along;

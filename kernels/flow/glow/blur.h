@@ -1,13 +1,13 @@
-// flow: spreads the glow along one direction. Weights fall off with the square of the distance to
-// the blur's end and sum to 1, and what would leave the image is thrown back: no light is made, and
-// none lost.
+// flow: spreads the glow along one direction. Weights are the square of the distance to the blur's
+// end, over their sum. Light that would leave the image is mirrored back. So no light is made or
+// lost.
 #include "kernels/flow/glow/params.h"
 
 #define RG_PARAMS flow_glow_params
 #define RG_SLOTS  IMAGE(1, RGBA16F, source) OUT_IMAGE(2, RGBA16F, spread)
 #include "kernels/dialect/slots/slots.h"
 
-// A coordinate, mirrored at both edges; within 0 to `last` for images narrower than the blur too.
+// A coordinate, mirrored at both edges; within 0 to `last` even in images narrower than the blur.
 RG_FN int thrown_back(int i, int last)
 {
     int low = i < 0 ? -1 - i : i;

@@ -1,5 +1,5 @@
-// flow: the light that is spread, at a quarter of the target's size (section 1, figure 1(c): the
-// optics of a camera spread the light of bright reflections).
+// flow: the light that the glow spreads, at a quarter of the target's size (section 1, figure 1(c):
+// a camera's optics spread the light of bright reflections).
 #include "kernels/flow/glow/params.h"
 
 #define RG_PARAMS flow_glow_params

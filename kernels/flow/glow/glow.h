@@ -1,5 +1,5 @@
-// flow: the final image with its glow: bright light gives up what was spread of it, and all pixels
-// get what was spread to them, between the pixels of the smaller image.
+// flow: the final image with its glow. Bright pixels lose the light that the glow spreads, and all
+// pixels get the light spread to them, interpolated from the smaller image.
 #include "kernels/flow/glow/params.h"
 
 #define RG_PARAMS flow_glow_params

@@ -16,7 +16,7 @@ RG_STRUCT(flow_glow_params)
 };
 RG_STRUCT_SIZE(flow_glow_params, 6)
 
-// How much of a channel's light is spread.
+// The part of a channel's light that is spread.
 RG_FN float flow_glowing(flow_glow_params p, float light)
 {
     return p.strength * rg_max(light - p.threshold, 0.0f);

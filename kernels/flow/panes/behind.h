@@ -1,9 +1,9 @@
-// What water shows: the picture of all that does not refract, from the slot behind of the program
-// that includes this (section 4.3; GPU Gems 2, chapter 19).
+// The picture that water shows: all that does not refract, from the slot behind of the program that
+// includes this file (section 4.3; GPU Gems 2, chapter 19).
 #ifndef RG_KERNELS_FLOW_PANES_BEHIND_H
 #define RG_KERNELS_FLOW_PANES_BEHIND_H
 
-// The picture where the water's slope displaces the view to.
+// The picture at the place to which the water's slope displaces the view.
 RG_FN rgba seen_through(rg_ctx rg, flow_view_params p, v3 bend, int px, int py)
 {
     v3 right = v3_make(p.rays.xx, p.rays.yx, p.rays.zx);

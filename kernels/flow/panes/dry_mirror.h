@@ -1,5 +1,5 @@
-// flow: panes of mirror as they are without water, which water on them shows displaced: the
-// environment where the mirrored view meets it.
+// flow: mirrors without their water: the environment in the mirrored view's direction. Water on
+// them shows this picture displaced.
 #include "kernels/flow/panes/panes.h"
 #include "kernels/dialect/math.h"
 

@@ -1,6 +1,6 @@
 // flow: panes of glass, blended over what lies behind them. Glass and water reflect the environment
-// by the Fresnel model (section 4.3); water shows what lies behind it, the picture of all that does
-// not refract, displaced by its normal (GPU Gems 2, chapter 19).
+// by the Fresnel model (section 4.3). Water shows the picture behind it, of all that does not
+// refract, displaced by its normal (GPU Gems 2, chapter 19).
 #include "kernels/flow/panes/panes.h"
 #include "kernels/dialect/math.h"
 

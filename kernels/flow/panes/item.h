@@ -1,4 +1,4 @@
-// panes.h's item and record, from the slot panes of the program that includes this.
+// The item and record of a pane, from the slot panes of the program that includes this file.
 #ifndef RG_KERNELS_FLOW_PANES_ITEM_H
 #define RG_KERNELS_FLOW_PANES_ITEM_H
 
@@ -8,7 +8,7 @@ RG_FN rg_corner pane_corner(m4 to_clip, flow_pane q, float right, float down)
     return m4_project(to_clip, v3_add(q.n, v3_add(v3_scale(q.t, right), v3_scale(q.b, down))));
 }
 
-// Counter-clockwise on the screen where the pane is seen from outside.
+// The corners run counter-clockwise on the screen if the pane is seen from outside.
 RG_FN rg_item pane_item(rg_ctx rg, m4 to_clip, int i)
 {
     flow_pane q = panes_at(rg, i);

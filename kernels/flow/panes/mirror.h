@@ -1,6 +1,6 @@
-// flow: panes of mirror with their water, lit by the Fresnel model (section 4.3): the water
-// reflects the environment at its own normal, and shows the dry mirrors (dry_mirror.h), displaced
-// by the normal (GPU Gems 2, chapter 19).
+// flow: mirrors with their water. Water reflects the environment at its own normal by the Fresnel
+// model (section 4.3), and shows the dry mirrors (dry_mirror.h) displaced by the normal (GPU Gems
+// 2, chapter 19).
 #include "kernels/flow/panes/panes.h"
 #include "kernels/dialect/math.h"
 

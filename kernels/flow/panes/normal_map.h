@@ -4,7 +4,7 @@
 
 #include "kernels/dialect/lang.h"
 
-// As it is stored: integers, from which wet_normal_x and the others make numbers.
+// The stored integers, as floats; wet_normal_component and wet_normal_wetness scale them.
 RG_STRUCT(wet_normal)
 {
     float x;

@@ -1,5 +1,5 @@
-// flow's panes as items: a quad each, with its own frame in the world. The programs that draw them
-// include this; item.h holds what reads their slots.
+// flow's panes as items: a quad each, with its own frame in the world. The programs that draw panes
+// include this file; item.h has the functions that read their slots.
 #ifndef RG_KERNELS_FLOW_PANES_PANES_H
 #define RG_KERNELS_FLOW_PANES_PANES_H
 

@@ -1,4 +1,4 @@
-// flow: an intermediate step on the panes, as the paper's figure 17 shows it: the water's height,
+// flow: an intermediate step, drawn on the panes as in the paper's figure 17: the water's height,
 // the blurred height, or the normals.
 #include "kernels/flow/panes/panes.h"
 #include "kernels/dialect/math.h"
@@ -23,7 +23,7 @@ RG_DRAW_RECORD(flow_stage)
     return pane_record(rg, draw, p, i);
 }
 
-// A height map as it is: grey, its nearest texel, white from 1 on.
+// A height as grey, white from 1 on.
 RG_FN rgba shown_height(float height)
 {
     float grey = rg_min(height, 1.0f);

@@ -1,4 +1,5 @@
-// The water's normal anywhere on a pane, from the slot normals of the program that includes this.
+// The water's normal anywhere on a pane, from the slot normals of the program that includes this
+// file.
 #ifndef RG_KERNELS_FLOW_PANES_SURFACE_H
 #define RG_KERNELS_FLOW_PANES_SURFACE_H
 
@@ -7,7 +8,7 @@ RG_FN wet_normal normal_at(rg_ctx rg, int i)
     return wet_normal_unpack(normals_at(rg, i));
 }
 
-// The normal map of a pane whose texel (0, 0) has the index `first`, at a point, bilinear.
+// The normal map at a point of a pane, bilinear; the pane's texel (0, 0) has the index `first`.
 RG_FN wet_normal normal_between(rg_ctx rg, int first, int size, flow_point at)
 {
     float s = at.u * rg_to_float(size) - 0.5f;
@@ -27,7 +28,7 @@ RG_STRUCT(flow_water)
 {
     float wetness; // 0 dry to 1
     v3 bend;       // the part of the normal that lies in the pane, in the world
-    v3 normal;     // of unit length, towards the viewer: from inside the box drops are hollow
+    v3 normal;     // of unit length, towards the viewer; seen from inside the box drops are hollow
 };
 
 RG_FN flow_water water_on(rg_ctx rg, flow_pane_record r, int size, flow_point at)

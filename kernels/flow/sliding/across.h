@@ -1,5 +1,5 @@
-// flow: a map of the lattice, mixed across for each texel of a pane's row: half the way to the map
-// between its cells. A run over texels across and cells down.
+// flow: interpolates a map of the lattice across, for each texel of a row; its readers then
+// interpolate down. A run over texels across and cells down.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params

@@ -1,5 +1,5 @@
-// flow: what of each texel's water slides in this run, and at which pace. Where the glass holds
-// water, a drop that slides on leaves a bead behind, along its axis.
+// flow: how much of each texel's water slides in this run, and at which pace. A drop that slides
+// over a place where the glass holds water leaves a bead there, along its axis.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params
@@ -10,14 +10,14 @@
     IN(4, float, beads) IN(5, int, ways) INOUT(6, float, given) OUT(7, uint, paced)
 #include "kernels/dialect/slots/slots.h"
 
-// The beads of a pane are those of the first, shifted: no two panes hold water at the same places.
-// The map lies twice beside itself.
+// A pane has the beads of the first one, shifted, so that no two panes hold water at the same
+// places. The map is stored twice, side by side, so that a shifted index needs no wrapping.
 RG_FN float bead_of(rg_ctx rg, flow_slide_params p, int z, int x, int y)
 {
     return beads_at(rg, 2 * y * p.size + x + z * (p.size / FLOW_MAX_PANES));
 }
 
-// The cell of a texel: a division of whole numbers would not run side by side.
+// The cell of a texel, by floats, because compilers vectorise no division of integers.
 RG_FN int cell_of(flow_slide_params p, int x)
 {
     return rg_to_int((rg_to_float(x) + 0.5f) / rg_to_float(p.texels_a_cell));
@@ -29,7 +29,7 @@ RG_FN bool stands(rg_ctx rg, int z, uint pace)
     return ways_at(rg, way) == 0 && ways_at(rg, way + 1) == 0;
 }
 
-// Whether the cells of so many texels stand.
+// Whether the cells of `count` texels stand.
 RG_FN bool all_stand(rg_ctx rg, flow_slide_params p, int x, int y, int z, int count)
 {
     int row = flow_pane_index(p.cells, z, 0, cell_of(p, y));
@@ -39,7 +39,7 @@ RG_FN bool all_stand(rg_ctx rg, flow_slide_params p, int x, int y, int z, int co
     return stand;
 }
 
-// Dry texels, and those of drops at rest, give nothing.
+// Idle: dry texels, and those of drops at rest, which give nothing.
 #define RG_IDLE_ITEMS 16
 RG_GRID_IDLE(flow_cling)
 {

@@ -1,5 +1,5 @@
 // flow: water dries, and the lattice gets the mean height of its cells' texels. A run over cells.
-// The square of a height falls evenly, as that of a small drop's radius does that dries (the d2
+// The square of a height falls at a constant rate, like that of a drying drop's radius (the d2
 // law): films go at once, and beads last.
 #include "kernels/flow/sliding/params.h"
 
@@ -15,7 +15,7 @@ RG_FN float left_of(flow_slide_params p, float water)
     return rg_min(p.dried2 > 0.0f ? dried : water, p.holds);
 }
 
-// Dry cells stay dry.
+// Idle: dry cells, which stay dry.
 #define RG_IDLE_ITEMS 4
 RG_GRID_IDLE(flow_level)
 {

@@ -1,4 +1,4 @@
-// flow: what slides over the edges of each pane: on to the pane beyond, or off.
+// flow: water slides over the edges of each pane, on to the pane beyond, or off.
 #include "kernels/flow/sliding/params.h"
 #include "kernels/flow/edges/strip.h"
 

@@ -1,8 +1,8 @@
-// flow: how fast the water of each cell slides, and where on a drop it is. A drop is at rest until
-// gravity on it overcomes the contact line that holds it: water around above a volume that falls
-// with the slope as Furmidge's condition says, volume^(2/3) sin(slope) = constant. Above it speed
-// grows with the water. The middle of a drop carries along what is around it, so that it slides as
-// a whole and sweeps up small drops.
+// flow: the pace at which each cell's water slides, and its place across a drop. A drop rests until
+// gravity overcomes the contact line that holds it. The water around must then exceed a volume that
+// falls with the slope by Furmidge's condition, volume^(2/3) sin(slope) = constant. Above that,
+// speed grows with the water. The middle of a drop carries along the water around it, so that the
+// drop slides as a whole and sweeps up small ones.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params
@@ -17,8 +17,8 @@ RG_FN float wide_between(rg_ctx rg, flow_slide_params p, int z, float u, float v
                     wide_at(rg, below + 1));
 }
 
-// 1 on the axis along which a drop slides and 0 on its flanks: how much more water is here than
-// beside it, as a share.
+// 1 on the axis along which a drop slides, 0 on its flanks: by how much more water is here than on
+// both sides, as a share.
 RG_FN float ridge_of(rg_ctx rg, flow_slide_params p, flow_pane q, int z, int x, int y)
 {
     float across_x = q.speed > 0.0f ? -q.b.y / q.speed * p.aside : p.aside;
@@ -32,15 +32,15 @@ RG_FN float ridge_of(rg_ctx rg, flow_slide_params p, flow_pane q, int z, int x, 
     return rg_clamp(2.0f * more - 0.3f, 0.0f, 1.0f);
 }
 
-// What a cell so far away has of the water that carries along.
+// A cell's water that carries along water at this distance: 0 if the distance is too large.
 RG_FN float carried(rg_ctx rg, flow_slide_params p, int i, float distance2)
 {
     float near = distance2 <= p.reach2 ? 1.0f : 0.0f;
     return near * wide_at(rg, i);
 }
 
-// The most in a row of cells, one by one: compilers for processors run neighbours side by side
-// where there is no loop.
+// The most in a row of cells. Written out, because compilers for processors vectorise over items
+// only without a loop.
 RG_FN float most_of_row(rg_ctx rg, flow_slide_params p, int i, float dy2)
 {
     float most = carried(rg, p, i, dy2);

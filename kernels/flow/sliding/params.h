@@ -1,41 +1,42 @@
-// Drops that slide (`move=sliding`): what its kernels share. docs/flow.md has the rules.
+// Drops that slide (`move=sliding`): the parameters and layouts of their kernels. docs/flow.md has
+// the rules.
 //
-// Rules that look farther than a texel are worked out on a lattice whose cells are a little over a
-// millimetre wide whatever the resolution, so that drops run alike at each. A lattice has a margin
-// of FLOW_MARGIN cells, as a pane has of texels, and the same layout.
+// Rules that look farther than a texel use a lattice. Its cells are a little over a millimetre wide
+// at any resolution, so that drops run alike at each. A lattice has the layout of a pane, with a
+// margin of FLOW_MARGIN cells.
 #ifndef RG_KERNELS_FLOW_SLIDING_PARAMS_H
 #define RG_KERNELS_FLOW_SLIDING_PARAMS_H
 
 #include "kernels/flow/water/water.h"
 
 #define FLOW_PACES      8          // 0: at rest
-#define FLOW_PACE_RATIO 1.4142135f // between one pace and the next
-#define FLOW_MOST_GIVEN 0.2f       // of a texel's water, to one neighbour, while it levels
+#define FLOW_PACE_RATIO 1.4142135f // of one pace by the one before
+#define FLOW_MOST_GIVEN 0.2f       // most of its water that a texel gives a neighbour as it levels
 
 RG_STRUCT(flow_slide_params)
 {
     int size;           // texels along a side of a pane
     int cells;          // of the lattice, along a side
     int texels_a_cell;  // along a side
-    float side_weight;  // of the cells beside one, where the lattice is smoothed
+    float side_weight;  // of a cell's neighbours when the lattice is smoothed
     float slides_above; // smoothed height above which water slides on an upright pane
-    float gain_mm_s;    // speed that as much water again adds
+    float gain_mm_s;    // speed that is added by as much water again
     float slowest_mm_s; // the first pace
-    float reach2;       // square of how far a drop's middle carries along, in cells
-    float aside;        // from a drop's axis to where its flanks are looked for, in cells
-    float levelling;    // share of a difference of pressure that a unit of water levels in a run
+    float reach2;       // square of how far a drop's middle carries water along, in cells
+    float aside;        // distance from a drop's axis at which it looks for the flanks, in cells
+    float levelling;    // share of a pressure difference levelled in a run, per unit of water
     float bent;         // height up to which pressure grows with its square
-    float least_layer, most_layer; // heights between which water is the more mobile the higher
+    float least_layer, most_layer; // heights between which water gets more mobile with height
     float advance;                 // height from which on water wets a dry neighbour
-    float cohesion;                // pull of the water around, a unit of its smoothed height
-    float dried2;                  // by which a height's square falls
-    float part;                    // of a droplet, 0 to 1, that is rounded up in this run
+    float cohesion;                // pull of the water around, per unit of its smoothed height
+    float dried2;                  // decrease of a height's square in a run
+    float part;                    // of a droplet, 0 to 1, added before rounding down in this run
     float holds;                   // height above which water drips off
 };
 RG_STRUCT_SIZE(flow_slide_params, 18)
 
-// A map of the lattice at the middle of a texel, bilinear: the first of four cells, and the weights
-// of those to the right and below.
+// Bilinear interpolation on the lattice: the index of the first of four cells, and the weights of
+// those to the right and below.
 RG_STRUCT(flow_between)
 {
     int i;
@@ -48,7 +49,7 @@ RG_FN int flow_lattice_stride(flow_slide_params p)
     return p.cells + 2 * FLOW_MARGIN;
 }
 
-// The four cells around a place in cells, (0.5, 0.5) being the middle of the first.
+// The four cells around a place, in cells; (0.5, 0.5) is the middle of the lattice's first.
 RG_FN flow_between flow_between_at(flow_slide_params p, int z, float u, float v)
 {
     float left = rg_floor(u - 0.5f);
@@ -60,14 +61,14 @@ RG_FN flow_between flow_between_at(flow_slide_params p, int z, float u, float v)
     return b;
 }
 
-// A map's rows of cells, mixed across, lie over the texels of a pane: as many columns as a pane's
-// map has, and a row for each of the lattice with a margin of one.
+// The index in a map of the lattice that was interpolated across (across.h). Such a map has a
+// column for each of a pane's map, and a row for each of the lattice, with a margin of one.
 RG_FN int flow_rows_index(flow_slide_params p, int pane, int x, int row)
 {
     return (pane * (p.cells + 2) + row + 1) * (p.size + 2 * FLOW_MARGIN) + x;
 }
 
-// The two rows between which a texel's middle lies, and the weight of the lower one.
+// The indices in the two rows between which a texel's middle lies, and the weight of the lower one.
 RG_STRUCT(flow_rows)
 {
     int above;

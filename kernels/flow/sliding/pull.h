@@ -1,4 +1,4 @@
-// flow: the pull on each texel's water of the water around it, which keeps drops together.
+// flow: the water around each texel pulls at the texel's water, which keeps drops together.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params

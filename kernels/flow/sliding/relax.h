@@ -1,6 +1,6 @@
-// flow: water levels between neighbours, against the pull of the water around. Its pressure grows
-// with the square of the height, which gives drops the profile of a half ellipse, and evenly
-// above. A dry texel is wetted only by water that stands steep enough at the contact line.
+// flow: water levels between neighbours, against the pull of the water around. Up to the height
+// p.bent its pressure grows with the square of the height, which gives drops the profile of a half
+// ellipse; above, linearly. Only water that is steep enough at the contact line wets a dry texel.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params
@@ -13,8 +13,8 @@ RG_FN float pressure_of(flow_slide_params p, float water)
     return water < p.bent ? square : water - 0.5f * p.bent;
 }
 
-// What a texel takes from a neighbour (or, below 0, gives to it), in whole droplets. The neighbour
-// works out the same number.
+// The water that a texel takes from a neighbour (or, below 0, gives to it), in whole droplets. The
+// neighbour computes the same number.
 RG_FN float taken_from(rg_ctx rg, flow_slide_params p, int z, float water, float pressure, int x,
                        int y)
 {
@@ -31,7 +31,7 @@ RG_FN float taken_from(rg_ctx rg, flow_slide_params p, int z, float water, float
     return above > 0.0f ? whole : -whole;
 }
 
-// Dry texels among dry ones stay dry.
+// Idle: dry texels among dry ones, which stay dry.
 #define RG_IDLE_ITEMS 16
 RG_GRID_IDLE(flow_relax)
 {

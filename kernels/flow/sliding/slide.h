@@ -1,5 +1,5 @@
-// flow: water slides. What a texel gives goes whole to one texel, the way of its pace, so that a
-// drop keeps its shape.
+// flow: water slides. All that a texel gives goes to one texel, as far away as its pace says, so
+// that a drop keeps its shape.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params

@@ -1,5 +1,5 @@
-// flow: a map of the lattice, smoothed once: a cell and the eight around it. Beyond the pane it is
-// dry. Runs of it one after the other come close to a Gaussian.
+// flow: smooths a map of the lattice once, by a weighted mean of a cell and the eight around it.
+// Beyond the pane it is dry. Several runs come close to a Gaussian.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params

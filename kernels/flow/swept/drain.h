@@ -1,4 +1,4 @@
-// flow: what leaves each pane over its edges, where texels keep directions.
+// flow: water leaves each pane over its edges, where texels keep directions.
 #include "kernels/flow/swept/heading.h"
 #include "kernels/flow/edges/strip.h"
 

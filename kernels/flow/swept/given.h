@@ -1,4 +1,5 @@
-// flow: which way each texel moves in this step, and what it gives, where texels keep directions.
+// flow: each texel's direction in this step, and the water that it gives, where texels keep
+// directions.
 #include "kernels/flow/swept/heading.h"
 
 #define RG_PARAMS flow_params
@@ -11,8 +12,8 @@
 
 #include "kernels/flow/water/maps.h"
 
-// The sum of the directions of a texel and its eight neighbours that moved by themselves in the
-// step before, and of how many.
+// The sum of the directions of those that moved by themselves in the step before, of a texel and
+// its eight neighbours, and their number.
 RG_STRUCT(flow_movers)
 {
     float x;
@@ -47,8 +48,8 @@ RG_FN flow_movers movers_around(rg_ctx rg, int size, int i)
     return and_row(rg, and_row(rg, and_row(rg, none, i - stride), i), i + stride);
 }
 
-// Down the pane, turned by the share `sweep` to the mean of the neighbours' ways. Where the two
-// cancel out it is down.
+// Down the pane, turned by the share `sweep` towards the mean of the neighbours' directions; down
+// if the two cancel out.
 RG_FN uint heading_by(flow_params p, flow_pane q, flow_movers m)
 {
     float down_x = q.speed > 0.0f ? -q.t.y / q.speed : 0.0f;
@@ -60,7 +61,7 @@ RG_FN uint heading_by(flow_params p, flow_pane q, flow_movers m)
     return flow_heading_of(cancels ? down_x : x, cancels ? down_y : y);
 }
 
-// Dry texels, which had given nothing.
+// Idle: dry texels that gave nothing before.
 #define RG_IDLE_ITEMS 16
 RG_GRID_IDLE(flow_swept_given)
 {

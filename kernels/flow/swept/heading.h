@@ -1,9 +1,9 @@
-// Directions that texels keep (`direction=texel`), the paper's future work: a texel's own takes
-// those of its neighbours into account, and texels that move sweep along what is beside them.
+// Directions that texels keep (`direction=texel`), the paper's future work: a texel's direction
+// follows those of its neighbours too, and texels that move sweep along the water beside them.
 //
-// A direction is one word: the first of two of the eight neighbours (figure 8), the share of what
-// is given that goes to the next one clockwise, in 256ths, and whether the texel moved by itself,
-// rather than swept along. A texel that gives nothing has none, 0.
+// A direction is one word. It has the first of two of the eight neighbours (figure 8), and the
+// share of the given water that goes to the next one clockwise, in 256ths. A bit says whether the
+// texel moved by itself, or was swept along. The word is 0 if the texel gives nothing.
 #ifndef RG_KERNELS_FLOW_SWEPT_HEADING_H
 #define RG_KERNELS_FLOW_SWEPT_HEADING_H
 
@@ -40,7 +40,8 @@ RG_FN float flow_heading_share(uint heading)
     return rg_to_float(rg_to_int((heading >> 3) & 255u)) * (1.0f / 256.0f);
 }
 
-// The nearest direction to one, which is not (0, 0): by angle, 4 * 256 parts in half a turn.
+// The word for the direction nearest to (x, y), which is not (0, 0): by angle, 4 * 256 parts in
+// half a turn.
 RG_FN uint flow_heading_of(float x, float y)
 {
     float parts = rg_atan2(y, x) * 325.949323f;
@@ -49,7 +50,7 @@ RG_FN uint flow_heading_of(float x, float y)
            (rg_to_uint(nearest & (FLOW_HEADING_SHARES - 1)) << 3);
 }
 
-// Of unit length.
+// The direction of a word, of unit length.
 RG_FN flow_way flow_heading_way(uint heading)
 {
     int e = flow_heading_eighth(heading);
@@ -63,7 +64,7 @@ RG_FN flow_way flow_heading_way(uint heading)
     return way;
 }
 
-// A pane as a texel of this direction sees it.
+// A pane whose two directions and share are those of this word.
 RG_FN flow_pane flow_pane_headed(flow_pane pane, uint heading)
 {
     int e = flow_heading_eighth(heading);

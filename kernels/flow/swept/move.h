@@ -1,5 +1,5 @@
-// flow: the movement of water where texels keep directions. Each texel looks at those that may lead
-// to it, one and two texels away in each of the eight directions.
+// flow: water moves, where texels keep directions. Each texel looks at those that may lead to it,
+// one and two texels away in each of the eight directions.
 #include "kernels/flow/swept/heading.h"
 
 #define RG_PARAMS flow_params
@@ -8,7 +8,7 @@
     IN(2, float, given) INOUT(3, float, moved) IN(4, flow_pane, panes) IN(5, uint, heading)
 #include "kernels/dialect/slots/slots.h"
 
-// What the texel at (x, y) gives to the first, or to the second, texel in a direction.
+// The water that texel i gives to the first, or to the second, texel in a direction.
 RG_FN float part_from(rg_ctx rg, flow_params p, flow_pane pane, int i, int eighth, bool is_far)
 {
     float given = given_at(rg, i);
@@ -22,7 +22,7 @@ RG_FN float part_from(rg_ctx rg, flow_params p, flow_pane pane, int i, int eight
     return from == eighth ? a : ((from + 1) & 7) == eighth ? b : 0.0f;
 }
 
-// Where no texel in reach gives, and the water is there already.
+// Idle: texels without a giver in reach, whose water is in `moved` already.
 #define RG_IDLE_ITEMS 16
 RG_GRID_IDLE(flow_swept_move)
 {

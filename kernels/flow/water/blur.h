@@ -1,4 +1,4 @@
-// flow: the mean of a texel and its eight neighbours, against the steps that thresholds leave
+// flow: the mean of a texel and its eight neighbours, which smooths the steps that thresholds leave
 // (section 4.3, figures 14 and 15). Beyond the edge the pane is dry.
 #include "kernels/flow/water/water.h"
 

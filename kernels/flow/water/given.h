@@ -1,5 +1,5 @@
-// flow: what every texel gives away in this step (equation 3, with one predicate for giver and
-// taker, so that nothing is lost between them).
+// flow: the water that each texel gives away in this step (equation 3, with one predicate for giver
+// and taker, so that nothing is lost between them).
 #include "kernels/flow/water/water.h"
 
 #define RG_PARAMS flow_params
@@ -10,7 +10,7 @@
 
 #include "kernels/flow/water/maps.h"
 
-// Texels with too little water to move, which gave nothing before either.
+// Idle: texels with too little water to move, which gave nothing before either.
 #define RG_IDLE_ITEMS 16
 RG_GRID_IDLE(flow_given)
 {

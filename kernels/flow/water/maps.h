@@ -1,9 +1,8 @@
-// How flow's texels read the remainder and the noise map, by the slots remainder and noise of the
-// including kernel.
+// Reads the remainder map and the noise map, the slots remainder and noise of the including kernel.
 #ifndef RG_KERNELS_FLOW_WATER_MAPS_H
 #define RG_KERNELS_FLOW_WATER_MAPS_H
 
-// The remainder map is read at the water amount: its nearest entry.
+// The entry of the remainder map that is nearest to the water's amount.
 RG_FN float remainder_of(rg_ctx rg, flow_params p, float water)
 {
     float entry = water * p.remainder_scale + 0.5f;

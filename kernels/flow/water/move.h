@@ -1,5 +1,5 @@
-// flow: the movement of water (equation 3 and figure 13). Each texel keeps what it does not give
-// and takes what the texels above it give to it.
+// flow: water moves (equation 3 and figure 13). Each texel keeps the water that it does not give,
+// and takes that which the texels above give to it.
 #include "kernels/flow/water/water.h"
 
 #define RG_PARAMS flow_params

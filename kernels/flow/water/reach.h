@@ -1,5 +1,5 @@
-// flow: what comes from three and four texels above, where `reach` lets water go so far. It
-// runs after flow_move, which brings the rest.
+// flow: water comes from three and four texels above, if `reach` lets it go so far. Runs after
+// flow_move, which brings the rest.
 #include "kernels/flow/water/water.h"
 
 #define RG_PARAMS flow_params

@@ -1,5 +1,5 @@
-// flow: a drop lands on the pane, as a cap of water whose profile is a half ellipse (figure 5). One
-// run a drop, over the texels that it covers.
+// flow: a drop lands on the pane, as a cap of water whose profile is a half ellipse (figure 5).
+// Each drop is a run over the texels that it covers.
 #include "kernels/flow/water/water.h"
 #include "kernels/flow/water/splat_params.h"
 

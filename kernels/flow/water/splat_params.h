@@ -1,4 +1,4 @@
-// One drop that lands on the pane of flow.
+// The parameters of splat.h: one drop that lands on a pane.
 #ifndef RG_KERNELS_FLOW_WATER_SPLAT_PARAMS_H
 #define RG_KERNELS_FLOW_WATER_SPLAT_PARAMS_H
 

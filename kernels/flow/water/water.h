@@ -1,12 +1,12 @@
 // Water on a pane: the formulas of flow, after Stuppacher & Supan, "Rendering of Water Drops in
 // Real-Time" (2007), sections 4.2 and 4.3. docs/flow.md says how the paper's gaps are filled.
 //
-// A pane is a square of `size` texels, row 0 on top; x runs right, y down. Its maps carry a margin
-// of FLOW_MARGIN texels on every side that stays dry, so that no pass needs to ask where the pane
-// ends; flow_index knows the layout. Maps of several panes lie one behind the other. Each texel
-// holds an amount of water in units of height, a whole number of droplets of 2^-16 ("droplets are
-// atomic and therefore the smallest amount of water", section 3). Amounts below 256 add and
-// subtract exactly in a float, so water is conserved to the last droplet, and is never subnormal.
+// A pane is a square of `size` texels, row 0 on top; x runs right, y down. Its maps have a dry
+// margin of FLOW_MARGIN texels on every side, so that no pass needs to check where the pane ends;
+// flow_index has the layout. Maps of several panes follow one another. Each texel holds an amount
+// of water in units of height, a whole number of droplets of 2^-16 ("droplets are atomic and
+// therefore the smallest amount of water", section 3). Amounts below 256 add and subtract exactly
+// in a float, so that water is conserved to the last droplet, and never subnormal.
 #ifndef RG_KERNELS_FLOW_WATER_WATER_H
 #define RG_KERNELS_FLOW_WATER_WATER_H
 
@@ -16,7 +16,7 @@
 #define FLOW_DROPLET           1.52587890625e-5f
 #define FLOW_REMAINDER_ENTRIES 1024  // of the remainder map, evenly spaced over the water amount
 #define FLOW_MARGIN            4     // the farthest that water goes in a step
-#define FLOW_EDGE_HOLDS        64.0f // water up to which a texel takes in what crosses an edge
+#define FLOW_EDGE_HOLDS        64.0f // up to this much, a texel takes in water that crosses an edge
 
 #define FLOW_MAX_PANES 6
 #define FLOW_NO_PANE   -1
@@ -30,35 +30,35 @@
 RG_STRUCT(flow_params)
 {
     int size;               // texels along a side of a pane
-    float move_threshold;   // L: a texel with more water than this gives some away
+    float move_threshold;   // L: a texel with more water gives some away
     float fast_threshold;   // M: one with more than this also reaches the texel two below,
     float third_threshold;  // with more than this the one three below,
     float fourth_threshold; // and four below
-    float far_share;        // r: the share of what goes so far that goes one texel further
-    float capacity;         // water that a texel never keeps more of
-    float remainder_scale;  // entries of the remainder map a unit of water
+    float far_share;        // r: share of the water that goes so far and goes a texel further
+    float capacity;         // most water that a texel keeps
+    float remainder_scale;  // entries of the remainder map per unit of water
     int noise_size;         // texels along a side of the noise map
-    float noise_step;       // noise texels a pane texel
-    float noise_x, noise_y; // where the window begins, in noise texels
-    float sweep; // of texels that keep directions: the neighbours' share in a texel's own
+    float noise_step;       // noise texels per pane texel
+    float noise_x, noise_y; // beginning of the window, in noise texels
+    float sweep; // for texels that keep directions: the neighbours' share in a texel's own
 };
 RG_STRUCT_SIZE(flow_params, 13)
 
-// Where water that leaves a pane over an edge goes.
+// The destination of water that leaves a pane over an edge.
 RG_STRUCT(flow_neighbour)
 {
-    int pane;   // the one beyond the edge; FLOW_NO_PANE: it is lost
-    int side;   // of that pane, by which it enters: 0 top, 1 bottom, 2 left, 3 right
-    int turned; // 1: it runs along that side the other way
+    int pane;   // the one beyond the edge; FLOW_NO_PANE: the water is lost
+    int side;   // of that pane, by which the water enters: 0 top, 1 bottom, 2 left, 3 right
+    int turned; // 1: places run along that side the other way
 };
 
-// What distinguishes the panes of a scene.
+// A pane of a scene.
 RG_STRUCT(flow_pane)
 {
     int ax, ay;        // the direction down, in whole texels (figure 8)
-    int bx, by;        // a second direction, where gravity lies between two of the eight
-    float b_share;     // the share of what is given that goes that way, 0 to 1
-    float speed;       // cos(alpha) of equation 2: scales what is given
+    int bx, by;        // a second direction, if gravity lies between two of the eight
+    float b_share;     // the share of the given water that goes that way, 0 to 1
+    float speed;       // cos(alpha) of equation 2: scales the given water
     float noise_shift; // of the noise map's window, in noise texels: no two panes move alike
     flow_neighbour top, bottom, left, right;
     // Tangent (right), binormal (down) and normal (outwards) in the world.
@@ -71,7 +71,8 @@ RG_FN float flow_whole_droplets(float amount)
     return rg_floor(amount * FLOW_DROPLETS_PER_UNIT) * FLOW_DROPLET;
 }
 
-// Where the texel at x reads the noise map: a window that scrolls and wraps (section 4.2.3).
+// The index at which the texel at x reads the noise map: a window that scrolls and wraps (section
+// 4.2.3).
 RG_FN int flow_noise_index(float begin, float step, int x, int noise_size)
 {
     int i = rg_to_int(begin + step * rg_to_float(x));
@@ -79,18 +80,18 @@ RG_FN int flow_noise_index(float begin, float step, int x, int noise_size)
     return i >= noise_size ? i - noise_size : i;
 }
 
-// What a texel gives away in one step, by its water and the remainder and noise found for it:
-// the second line of equation 3, scaled by the pane's inclination (equation 2). Water above the
-// capacity spills whatever the maps say: else a user's map could dam it and pile it up without end.
+// The water that a texel gives away in one step, from its water, remainder and noise: the second
+// line of equation 3, scaled by the pane's inclination (equation 2). Water above the capacity
+// spills whatever the maps say; else a user's map could dam it up without end.
 RG_FN float flow_given(flow_params p, float speed, float water, float remainder, float noise)
 {
     float given = flow_whole_droplets(water * (1.0f - remainder * noise) * speed);
     return water > p.move_threshold ? rg_max(given, water - p.capacity) : 0.0f;
 }
 
-// The parts of what a texel gives, into each of two directions: to the next texel, to the one after
-// it (section 4.2.3, figure 13), and, where thresholds let it, to the two beyond, which the paper
-// leaves open. They add up to `given` exactly.
+// The parts of a texel's given water in each of two directions: to the next texel, to the one after
+// it (section 4.2.3, figure 13), and, if thresholds let it, to the two beyond. The paper leaves
+// these two open. All parts add up to `given` exactly.
 RG_STRUCT(flow_parts)
 {
     float near_a;

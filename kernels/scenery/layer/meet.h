@@ -1,5 +1,5 @@
-// A layer of light that was gathered from black in single precision, and what lies behind it: both
-// meet once, and are rounded once, to nearest. A subnormal on the way would not be seen.
+// Blends a layer of light, which was gathered from black in single precision, over its background.
+// The sum is rounded once, to nearest. A subnormal on the way would be too small to see.
 #include "kernels/scenery/layer/params.h"
 
 #define RG_PARAMS layer_params

@@ -1,4 +1,4 @@
-// The parameters of meet.h: there is nothing to say.
+// The parameters of meet.h, which needs none.
 #ifndef RG_KERNELS_SCENERY_LAYER_PARAMS_H
 #define RG_KERNELS_SCENERY_LAYER_PARAMS_H
 

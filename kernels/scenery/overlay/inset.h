@@ -1,4 +1,4 @@
-// A depth map in a corner of the picture, near white, in a white frame.
+// A depth map in a corner of the picture: near is white, and so is its frame.
 #include "kernels/scenery/overlay/inset_params.h"
 
 #define RG_PARAMS scenery_inset_params

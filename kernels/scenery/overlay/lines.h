@@ -28,7 +28,7 @@ RG_FN rg_corner scenery_line_end(rg_ctx rg, scenery_lines_params p, int i, int w
                               scenery_line_word(rg, i, word + 2)));
 }
 
-// What is seen of line i.
+// The visible part of line i.
 RG_FN scenery_line scenery_line_seen(rg_ctx rg, rg_draw_state draw, scenery_lines_params p, int i)
 {
     scenery_line s;

@@ -4,12 +4,12 @@
 
 #include "kernels/dialect/matrix.h"
 
-// A line's words: both ends, a premultiplied colour, and its width in pixels. A sheet's: four
+// A line's words: both ends, a premultiplied colour, and its width in pixels. A sheet's words: four
 // corners, in turn, and a premultiplied colour.
 #define SCENERY_LINE_WORDS  11
 #define SCENERY_SHEET_WORDS 16
 
-// Wider lines than this may end before the picture does.
+// Lines are at most this wide; a wider one might end before the picture's edge.
 #define SCENERY_WIDEST_PX 64.0f
 
 RG_STRUCT(scenery_lines_params)

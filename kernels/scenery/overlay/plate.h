@@ -28,7 +28,8 @@ RG_DRAW_ITEM(streaks_plate)
     return scenery_plate_item(p);
 }
 
-// Its first corner's weights of the second and the last are the place across the map and down.
+// The plate's planes over its first, second and last corner: the weights of the last two are the
+// place across the map and down.
 RG_DRAW_RECORD(streaks_plate)
 {
     rg_item t = scenery_plate_item(p);

@@ -12,7 +12,7 @@ RG_STRUCT(scenery_plate_params)
     float corner_x, corner_y, corner_z;
     float across_x, across_y, across_z;
     float down_x, down_y, down_z;
-    float white_at; // the map's value that is white
+    float white_at; // the map's value that is drawn white
     float black_at; // and black
 };
 RG_STRUCT_SIZE(scenery_plate_params, 27)

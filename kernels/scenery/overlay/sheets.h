@@ -1,4 +1,4 @@
-// Flat sheets of one colour through the world: the planes of the overlay.
+// Flat sheets of one colour in the world: the planes of the overlay.
 #include "kernels/scenery/overlay/lines_params.h"
 #include "kernels/dialect/draw/triangle.h"
 

@@ -1,6 +1,7 @@
-// shower: a step of all particles, and what becomes of those that leave or land. A kernel defines
-// SHOWER_FULL, 1 where attributes are kept, and SHOWER_BODY, 1 where a drop's corners are tested
-// and not its point, and includes this. No branches: compilers move several side by side.
+// shower: a step of all particles, including those that leave or land. A kernel defines
+// SHOWER_FULL, 1 to keep attributes, and SHOWER_BODY, 1 to test a drop's corners and not its point,
+// and includes this file. The code has no branches, so that compilers move several particles side
+// by side.
 #include "kernels/shower/body.h"
 #include "kernels/shower/promotion.h"
 
@@ -80,7 +81,7 @@ RG_GRID_KERNEL(shower_move)
     int afresh = raised | (crossed & back.is_deep);
     float fresh = p.fall_m_s * shower_share(p, shower_ahead(p, m.at.x, m.at.z));
     float promoted = shower_promoted(p, m.at, ground);
-    int there = stays | raised; // nothing is left in a free slot
+    int there = stays | raised; // a free slot is all 0
     m.at = v3_make(there != 0 ? m.at.x : 0.0f,
                    there == 0    ? 0.0f
                    : raised != 0 ? promoted

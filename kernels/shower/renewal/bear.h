@@ -10,7 +10,7 @@
 
 #include "kernels/shower/renewal/place.h"
 
-// New particles: what is wanted less what there is, and never less than none.
+// The number of new particles: those wanted less those there, at least 0, at most the free slots.
 RG_FN int shower_births(shower_params p, int unused)
 {
     return rg_iclamp(p.wanted - (p.slots - unused), 0, unused);

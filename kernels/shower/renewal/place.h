@@ -1,5 +1,5 @@
-// shower: puts a new particle into a slot. Kernels include it behind their slots, which have
-//   INOUT or OUT(1, float, particles), OUT(4, float, attributes)  of one word where none are kept
+// shower: puts a new particle into a slot. Kernels include this file after their slots, which have
+//   INOUT or OUT(1, float, particles), OUT(4, float, attributes)  of one word if none are kept
 #ifndef RG_KERNELS_SHOWER_RENEWAL_PLACE_H
 #define RG_KERNELS_SHOWER_RENEWAL_PLACE_H
 

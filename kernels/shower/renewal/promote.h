@@ -1,7 +1,6 @@
-// shower: ends the step of a system whose particles are promoted, a chunk of slots an item. What
-// was promoted is counted; particles whose column has no top, or that have no place yet, get
-// another place, unless that lies outside of what is seen or below what stands there: then they
-// wait.
+// shower: ends the step of a system whose particles are promoted; an item does a chunk of slots. It
+// counts promotions. Particles whose column has no top, or that have no place yet, get another
+// place. If that is out of sight or below the ground, they wait.
 #include "kernels/shower/birth.h"
 #include "kernels/shower/body.h"
 

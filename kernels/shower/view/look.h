@@ -1,5 +1,5 @@
 // A drop as it is seen: its two ends on the screen, and how much of a pixel's width it fills.
-// Programs include it behind their slots, which have
+// Programs include this file after their slots, which have
 //   IN(1, float, particles)  the planes x, y, z and fall
 #ifndef RG_KERNELS_SHOWER_VIEW_LOOK_H
 #define RG_KERNELS_SHOWER_VIEW_LOOK_H
@@ -37,7 +37,7 @@ RG_FN shower_drop shower_drop_at(rg_ctx rg, shower_view_params p, int i)
     return d;
 }
 
-// A corner so many pixels beside an end.
+// A corner (x_px, y_px) beside an end.
 RG_FN rg_corner shower_beside_end(shower_view_params p, rg_corner end, float x_px, float y_px)
 {
     return rg_corner_make(end.x + x_px / p.half_width * end.w, end.y + y_px / p.half_height * end.w,
@@ -55,7 +55,8 @@ RG_FN rg_item shower_item(shower_view_params p, shower_drop d, float x_px, float
     return t;
 }
 
-// What a drop hides of a pixel that its texture fills: drops narrower than a pixel hide less.
+// The share that a drop hides of a pixel which its texture fills: drops narrower than a pixel hide
+// less.
 RG_FN float shower_opacity(shower_view_params p, shower_drop d)
 {
     return p.opacity * rg_min(d.width_px, 1.0f);

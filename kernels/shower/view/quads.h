@@ -1,5 +1,5 @@
-// shower: drops as small quads with a texture, which face the eye: what the paper's segments stand
-// in for. None is narrower than a pixel.
+// shower: drops as small textured quads that face the eye, for which the paper's segments stand in.
+// None is narrower than a pixel.
 #include "kernels/dialect/math.h"
 #include "kernels/shower/view/params.h"
 #include "kernels/shower/particle.h"
@@ -8,7 +8,8 @@
 #define RG_SLOTS   IN(1, float, particles) IMAGE(2, R16F, drop)
 #define RG_CORNERS 4
 
-// u goes across the quad, v from its upper end to its lower one: planes over the screen.
+// u runs across the quad, v from its upper end to its lower one: both are linear functions of the
+// pixel.
 RG_STRUCT(shower_quad)
 {
     float u_x, u_y, u_at;
@@ -21,10 +22,10 @@ RG_STRUCT(shower_quad)
 
 #include "kernels/shower/view/look.h"
 
-// Along the drop and across it, in pixels.
+// A drop's extents along and across, in pixels.
 RG_STRUCT(shower_sides)
 {
-    float x, y; // unit vector upwards along it
+    float x, y; // unit vector along the drop, upwards
     float high; // length
     float wide;
 };

@@ -1,5 +1,5 @@
-// shower: drops as line segments (section III.A), one pixel wide: a pixel of each row, or of each
-// column where the line is flatter, as OpenGL draws lines without smoothing.
+// shower: drops as line segments (section III.A), one pixel wide: a pixel in each row, or in each
+// column if the line is flatter, as OpenGL draws lines without smoothing.
 #include "kernels/shower/view/params.h"
 #include "kernels/shower/particle.h"
 

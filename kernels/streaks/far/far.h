@@ -1,8 +1,8 @@
 // streaks: rain beyond the culling radius, as slabs of the rain space (Creus, section 5.5, after
-// section 3.2.1). A slab adds and hides, in the mean and in the variance of a pixel, what the drops
-// between its planes would: drops a cubic metre, times their light, times the way that a pixel's
-// ray has in the slab. Slabs stand still in the rain space: x = i * thickness where a ray runs
-// along x more than along y, and y = i * thickness elsewhere.
+// section 3.2.1). A slab adds and hides as much as the drops between its planes would, in the mean
+// and the variance of a pixel. The mean is drops per cubic metre, times their light, times the
+// length of the pixel's ray in the slab. Slabs stand still in the rain space: x = i * thickness for
+// rays that run along x more than along y, and y = i * thickness for the others.
 #include "kernels/dialect/math.h"
 #include "kernels/dialect/rng.h"
 #include "kernels/scenery/light.h"
@@ -50,7 +50,7 @@ RG_STRUCT(streaks_far_way)
     float ahead; // along the view, to the middle
     float plane; // metres along the ray, to the slab's middle plane
     float away;  // of that plane, straight from the eye
-    int side;    // 0 to 3: what the slab faces
+    int side;    // 0 to 3: the direction that the slab faces
     int index;   // of the slab in the rain space
     v3 middle;
 };
@@ -86,7 +86,7 @@ RG_FN streaks_far_way streaks_far_way_of(streaks_far_params p, streaks_far_slab 
     return way;
 }
 
-// Drops a cubic metre at a place: none outside of the rain space, and none under what they hit.
+// Drops per cubic metre at a place: 0 outside the rain space, and below the surface that they hit.
 RG_FN float streaks_far_drops(rg_ctx rg, streaks_far_params p, v3 at)
 {
     float width = rg_to_float(density_width(rg, 0));
@@ -116,15 +116,17 @@ RG_FN float streaks_far_view(float elevation)
     return rg_min(rg_abs(elevation), rg_to_float(STREAKS_VIEWS - 1));
 }
 
-// What a streak adds: its mean over all oscillations and places on the swing, and its mean square.
+// The light that a streak adds: its mean over all oscillations and places on the swing, and its
+// mean square.
 RG_STRUCT(streaks_far_lit)
 {
     float mean;
     float square;
 };
 
-// Of two neighbours along an axis of the atlas: how much each has of what is seen, and of its
-// square the first one's, the product of both, and the second one's.
+// Weights of two neighbours along an axis of the atlas. `parts` has those of each for the mean.
+// `squares` has those for the mean square: of the first one's square, of the product of both, and
+// of the second one's square.
 RG_STRUCT(streaks_far_blend)
 {
     int low; // the first neighbour
@@ -132,8 +134,8 @@ RG_STRUCT(streaks_far_blend)
     v3 squares;
 };
 
-// The second neighbour has a part t of what each drop shows (both: 1), or shows in a part t of the
-// drops (0).
+// With `both` 1, each drop shows a part t of the second neighbour. With 0, a part t of the drops
+// shows the second neighbour alone.
 RG_FN streaks_far_blend streaks_far_blend_of(int low, float t, float both)
 {
     float product = both * t * (1.0f - t);
@@ -161,7 +163,7 @@ RG_FN float streaks_far_triple(rg_ctx rg, int at, v3 weights)
            means_at(rg, at + 2) * weights.z;
 }
 
-// Of the sky and of two views.
+// The light of the sky, blended from two views.
 RG_FN streaks_far_lit streaks_far_sky(rg_ctx rg, float shown)
 {
     streaks_far_blend views = streaks_far_views(shown);
@@ -172,29 +174,29 @@ RG_FN streaks_far_lit streaks_far_sky(rg_ctx rg, float shown)
     return lit;
 }
 
-// 4 means, in rows of azimuths.
+// Blends 4 means, in rows of azimuths.
 RG_FN float streaks_far_flat(rg_ctx rg, int at, v3 on, v3 up)
 {
     return streaks_far_pair(rg, at, on) * up.x + streaks_far_pair(rg, at + 2, on) * up.y;
 }
 
-// 9 products, in rows of azimuths.
+// Blends 9 products, in rows of azimuths.
 RG_FN float streaks_far_square(rg_ctx rg, int at, v3 on, v3 up)
 {
     return streaks_far_triple(rg, at, on) * up.x + streaks_far_triple(rg, at + 3, on) * up.y +
            streaks_far_triple(rg, at + 6, on) * up.z;
 }
 
-// What a pixel of a slab sees of a light: one half of the slab from about here in the atlas, over
-// so much of each axis.
+// A light as one half of a slab sees it, at one of the two places of Gauss' rule: its place in the
+// atlas, and its strength.
 RG_STRUCT(streaks_far_seen)
 {
     float elevation;
     float azimuth;
-    float reaches; // of the light, were it as strong as at 1 m
+    float reaches; // of the light, as if it were at 1 m
 };
 
-// Blends of elevations, azimuths and views.
+// Blends elevations, azimuths and views.
 RG_FN streaks_far_lit streaks_far_cell(rg_ctx rg, streaks_far_blend up, streaks_far_blend on,
                                        float shown)
 {
@@ -211,13 +213,13 @@ RG_FN streaks_far_lit streaks_far_cell(rg_ctx rg, streaks_far_blend up, streaks_
     return lit;
 }
 
-// From one place of Gauss' rule of two towards the other, to the middle of its half, as a share;
-// and the half's length as such a share.
+// Shares of the distance between the two places of Gauss' rule: from one of them to the middle of
+// its half, towards the other; and the half's length.
 #define STREAKS_FAR_INWARDS 0.0669872981f
 #define STREAKS_FAR_HALF    0.866025404f
 
-// Drops show both neighbours, or (0) the nearer one: then those of the half about a place are
-// spread evenly over what it sees of the axis.
+// With `both` 1, drops show both neighbours; with 0, the nearer one. Then the drops of the half
+// about a place are spread evenly over the part of the axis that the half sees.
 RG_FN streaks_far_blend streaks_far_axis(float here, float other, int last, float both)
 {
     float place = here + (other - here) * (STREAKS_FAR_INWARDS * (1.0f - both));
@@ -228,8 +230,8 @@ RG_FN streaks_far_blend streaks_far_axis(float here, float other, int last, floa
     return streaks_far_blend_of(low, beyond + (on - beyond) * both, both);
 }
 
-// Of the half of a slab about one of Gauss' places. As many of the atlas' textures count as are
-// read near the observer.
+// The light of the half of a slab about one place of Gauss' rule. It blends as many textures of the
+// atlas as streaks near the observer read.
 RG_FN streaks_far_lit streaks_far_streak(rg_ctx rg, streaks_far_params p, float shown,
                                          streaks_far_seen here, streaks_far_seen other)
 {
@@ -243,15 +245,15 @@ RG_FN streaks_far_lit streaks_far_streak(rg_ctx rg, streaks_far_params p, float 
     return lit;
 }
 
-// How strong a light is between two places of a ray, which falls off with the squared distance: the
-// mean, and the mean square. What a drop makes of it is taken at two places, by Gauss' rule in the
-// angle at which the light sees them.
+// The strength of a light between two places of a ray, which falls off with the squared distance:
+// its mean, and its mean square. Drops are lit as at two places, by Gauss' rule in the angle at
+// which the light sees them.
 RG_STRUCT(streaks_far_fall)
 {
     float mean;
     float square;
     float at0, at1; // metres along the ray
-    float nearer;   // how much of the mean square the first place stands for
+    float nearer;   // the first place's share of the mean square
 };
 
 RG_FN float streaks_far_strength(float beside2, float x)
@@ -259,7 +261,8 @@ RG_FN float streaks_far_strength(float beside2, float x)
     return 1.0f / (beside2 + x * x);
 }
 
-// From the middle to a place of Gauss' rule of two, which is at 1 / sqrt(3) of the half.
+// The distance from the middle to a place of Gauss' rule of two points, which is at 1 / sqrt(3) of
+// the half.
 #define STREAKS_FAR_NODE 0.288675135f
 
 RG_FN float streaks_far_tangent(float angle)
@@ -292,9 +295,9 @@ RG_FN streaks_far_fall streaks_far_fall_of(v3 eye, streaks_far_way way, scenery_
     float nearest = rg_min(x0 * x0, x1 * x1) + beside2;
     streaks_far_fall fall;
     fall.mean = sun != 0 ? 1.0f : angle / (beside * length);
-    // Far away the exact form is a difference of large numbers, and Simpson's rule is as good.
-    // A sum, because gcc makes no vectors of a choice that is alike for all pixels within one that
-    // is not.
+    // Far away the exact form is a difference of large numbers, and Simpson's rule is as good. A
+    // sum makes the choice, because gcc does not vectorise a choice that is the same for all pixels
+    // inside one that is not.
     float lamp = rg_to_float(1 - sun);
     fall.square = 1.0f - lamp + lamp * (nearest > 9.0f * length * length ? far : near);
     fall.at0 = foot + at0;
@@ -325,9 +328,8 @@ RG_FN float streaks_far_grey(float r, float g, float b)
     return (r + g + b) * 0.333333343f;
 }
 
-// What one drop adds, of all drops in the slab: the mean, and in `a` the variance of the mean of
-// the colours. Variances of several lights are added up: what one light shows of a drop is hardly
-// alike to what another does.
+// The light that a drop of the slab adds: the mean, and in `a` the variance of the mean of the
+// colours. Variances of several lights are added up, because the lights of a drop hardly correlate.
 RG_DRAW_LIGHT(streaks_far)
 {
     scenery_light l = lights_at(rg, light);
@@ -349,8 +351,8 @@ RG_DRAW_LIGHT(streaks_far)
 
 // --- the pattern ---
 
-// Metres squared that a streak covers, if it were equally strong all over it: what it adds is to be
-// shared out over it as the streaks near the observer are (kernels/streaks/rain.h).
+// The square metres that a streak covers, if it were equally strong all over. Its light is spread
+// over them like that of streaks near the observer (kernels/streaks/rain.h).
 RG_FN float streaks_far_footprint(streaks_far_params p, streaks_far_way way)
 {
     float thinnest = p.rain.thinnest_px * way.ahead / p.rain.focal_px;
@@ -369,9 +371,9 @@ RG_FN float streaks_far_random(uint a, uint b, uint c)
     return rg_uniform(h ^ (h >> 16));
 }
 
-// 0 to 1, of the grain that a pixel sees: grains hang in columns of the slab's middle plane, a
-// streak long, and fall. Columns are one to two pixels wide, by powers of 2, so that they stay as
-// they are while the observer moves.
+// The random number, 0 to 1, of the grain that a pixel sees. Grains are as long as a streak, and
+// fall in columns of the slab's middle plane. Columns are one to two pixels wide, in powers of 2 of
+// a metre, so that they do not change while the observer moves.
 RG_FN float streaks_far_grain(streaks_far_params p, streaks_far_way way)
 {
     float thinnest = rg_max(p.rain.thinnest_px * way.away / p.rain.focal_px, p.rain.half_width);
@@ -386,8 +388,8 @@ RG_FN float streaks_far_grain(streaks_far_params p, streaks_far_way way)
     return streaks_far_random(slab, column, rg_to_uint(rg_to_int(row)) & 0xffffu);
 }
 
-// Turns equally frequent numbers into such with a mean of 1 and this variance: up to a third
-// equally frequent ones, and beyond it more and more that are nothing.
+// Turns uniform numbers, 0 to 1, into numbers with a mean of 1 and this variance. These are uniform
+// up to a variance of a third; beyond it, more and more of them are 0.
 RG_FN float streaks_far_spread(float random, float variance)
 {
     float some = rg_min(4.0f / (3.0f * (1.0f + variance)), 1.0f);

@@ -4,17 +4,16 @@
 
 #include "kernels/streaks/params.h"
 
-// Slabs a layer.
+// Slabs in a layer.
 #define STREAKS_FAR_PARTS 4
 
-// What an atlas' streaks add, for each block of neighbours: two views, two elevations of the light
-// and two of its azimuths, between which pictures are blended
-// (core/techniques/streaks/far/means.c). A blend's mean follows from the means of the 8 corners.
-// Its mean square follows from the means of their products, of which 27 differ in how often the
-// upper neighbour along each axis is in them. Behind all blocks stand those of the sky, for each
-// two views: 2 means and 3 products.
+// The light of an atlas' streaks (core/techniques/streaks/far/means.c), for each block of
+// neighbours between which pictures are blended: two views, two elevations and two azimuths of the
+// light. A blend's mean follows from the means of the 8 corners. Its mean square follows from the
+// means of their products, of which 27 differ in how often the upper neighbour along each axis is
+// in them. The sky's follow after all blocks, for each two views: 2 means and 3 products.
 #define STREAKS_FAR_BLOCK   35  // floats
-#define STREAKS_FAR_SQUARES 8   // where the products begin
+#define STREAKS_FAR_SQUARES 8   // index of the first product
 #define STREAKS_FAR_WIDE    8   // blocks along the azimuth: STREAKS_AZIMUTHS - 1
 #define STREAKS_FAR_HIGH    9   // STREAKS_HEIGHTS - 1
 #define STREAKS_FAR_BLOCKS  288 // STREAKS_VIEWS - 1 times these
@@ -24,10 +23,10 @@ RG_STRUCT(streaks_far_params)
 {
     streaks_params rain;
     int lights;    // as kernels/dialect/draw/draw.h asks for them
-    float nearest; // where it begins, as the culling prism counts distances, and where it ends
+    float nearest; // distance at which far rain begins, as the culling prism counts it, and ends
     float farthest;
     float thickness; // of a slab
-    float fallen;    // how far the rain has come since frame 0
+    float fallen;    // way of the rain since frame 0
     float drops_m3;  // where the density map is white
     int seed;
     int taps; // textures that are read for a light: 2, 4 or 8

@@ -1,6 +1,6 @@
-// streaks from outside: each drop as a line along its fall, each splash as a shorter one on what is
-// hit, in the colour of their height: from blue at the rain space's top, by green, to red on its
-// ground (Creus, figure 4.1).
+// streaks from outside: each drop as a line along its fall, each splash as a shorter one on the
+// surface it hits. Colours show the height: from blue at the rain space's top, by green, to red on
+// its ground (Creus, figure 4.1).
 #include "kernels/streaks/params.h"
 #include "kernels/dialect/draw/line.h"
 
@@ -28,8 +28,8 @@ RG_FN float streaks_mark_reach(streaks_params p)
     return 0.5f * p.thinnest_px + 0.5f;
 }
 
-// Without limits the local space is repeated beyond the rain space's top, where nothing is shown. A
-// drop's mark reaches up from the drop by p.fall, a splash's by half of that from what is hit.
+// With limits=off the local space repeats beyond the rain space's top, where nothing is shown. A
+// drop's mark reaches up from the drop by p.fall, a splash's from the surface by half of that.
 RG_FN streaks_mark streaks_mark_of(rg_ctx rg, rg_draw_state draw, streaks_params p, int i)
 {
     streaks_particle t = streaks_particle_at(rg, p, i);

@@ -1,12 +1,12 @@
-// What a billboard's pixel shows: of a drop its streak textures, by each light and by the sky, of a
-// splash its crown. A program defines STREAKS_TAPS and includes this (kernels/streaks/rain.h).
+// The look of a billboard's pixel: a drop's streak textures, for each light and for the sky, or a
+// splash's crown. A program defines STREAKS_TAPS and includes this file (kernels/streaks/rain.h).
 #ifndef RG_KERNELS_STREAKS_TAPS_LIGHT_H
 #define RG_KERNELS_STREAKS_TAPS_LIGHT_H
 
 #include "kernels/streaks/rain.h"
 
-// Two textures of a drop, by which light of one elevation and azimuth shows in its two views, each
-// times its share.
+// The sum of a drop's textures in its two views, for light of one elevation and azimuth, each times
+// its share.
 RG_FN float streaks_point(rg_ctx rg, streaks_params p, streaks_strip s, int column, float u,
                           float lower, float higher)
 {
@@ -16,8 +16,8 @@ RG_FN float streaks_point(rg_ctx rg, streaks_params p, streaks_strip s, int colu
            points_between(rg, x, s.y1, s.oscillation, level).r * higher;
 }
 
-// The part of a column's texture in what is seen of a drop, in the lower of its views (0) or the
-// other (1).
+// The weight of a column's texture in a drop's picture, in the lower of its views (0) or the other
+// (1).
 RG_FN float streaks_part_of(rg_ctx rg, streaks_billboard r, int view, int column, float part)
 {
     int drop = 1 - streaks_is(r, STREAKS_LOOK_SPLASH);
@@ -28,8 +28,8 @@ RG_FN float streaks_part_of(rg_ctx rg, streaks_billboard r, int view, int column
     return factors_at(rg, row * STREAKS_COLUMNS + column) * (seen * part);
 }
 
-// Which textures show light from a direction of length 1 on a streak that is seen along a ray
-// (figure 4.6).
+// Selects the textures that show light from a direction of length 1, on a streak that is seen along
+// a ray (figure 4.6).
 RG_FN streaks_lighting streaks_lighting_from(rg_ctx rg, streaks_billboard r, v3 to_light, v3 ray)
 {
     float below = 1.0f - rg_to_float(2 * streaks_is(r, STREAKS_LOOK_BELOW));
@@ -70,8 +70,8 @@ RG_FN streaks_lighting streaks_lighting_from(rg_ctx rg, streaks_billboard r, v3 
     return by;
 }
 
-// From the eye to the middle of a billboard, where its planes are half of what they grow to: so the
-// record need not have it.
+// The vector from the eye to the middle of a billboard, where u and v are 0.5. It follows from the
+// planes, so that the record need not have it.
 RG_FN v3 streaks_to_middle(streaks_params p, streaks_billboard r)
 {
     float ux = r.u_x - 0.5f * r.inverse_w_x;
@@ -88,7 +88,7 @@ RG_FN v3 streaks_to_middle(streaks_params p, streaks_billboard r)
     return v3_scale(streaks_ray(p, r.origin_x + dx, r.origin_y + dy), w);
 }
 
-// Angles are those at the billboard's middle, as the thesis has it.
+// Angles are those at the billboard's middle, as in the thesis.
 RG_FN streaks_lighting streaks_lighting_of(rg_ctx rg, streaks_params p, streaks_billboard r,
                                            int light)
 {
@@ -98,7 +98,7 @@ RG_FN streaks_lighting streaks_lighting_of(rg_ctx rg, streaks_params p, streaks_
     return streaks_lighting_from(rg, r, scenery_light_reach(l, middle).to_light, ray);
 }
 
-// A streak's radiance at a pixel, for light that brings an irradiance of 1.
+// A streak's radiance at a pixel, for light of irradiance 1.
 RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot,
                            streaks_lighting by)
 {
@@ -117,14 +117,14 @@ RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, str
     return radiance;
 }
 
-// What is seen of a drop or of a splash (0 or 1). Where all are drops, nothing of splashes is
-// found.
+// The value of a drop, or of a splash (0 or 1). If all pixels show drops, nothing is computed for
+// splashes.
 RG_FN float streaks_either(rg_ctx rg, float drop, float crown, float splash)
 {
     return rg_all_plain(rg) != 0 ? drop : streaks_between(drop, crown, splash);
 }
 
-// Splashes are matt and face up from what they stand on.
+// Splashes are matt, and face upwards from their surface.
 RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int px, int py,
                           int light, streaks_lighting by)
 {
@@ -146,8 +146,8 @@ RG_FN float streaks_sky_texture(rg_ctx rg, streaks_params p, streaks_strip s, in
     return skies_between(rg, x, y, s.oscillation, s.level - p.first_level).r * factor;
 }
 
-// A streak's radiance at a pixel under a sky of radiance 1 all around, which is also what it hides
-// of what lies behind it.
+// A streak's radiance at a pixel under a sky of radiance 1 all around. It is also the share that
+// the streak hides of its background.
 RG_FN float scenery_sky(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot)
 {
     streaks_strip s = streaks_strip_of(p, r, spot.u, spot.v);
@@ -163,7 +163,7 @@ RG_FN float streaks_crown_texture(rg_ctx rg, streaks_billboard r, int frame, flo
     return crowns_linear(rg, u, v, layer, streaks_level_of(r)).r;
 }
 
-// A splash's pixel, between the two nearest frames.
+// A splash's pixel, interpolated between the two nearest frames.
 RG_FN float streaks_crown(rg_ctx rg, streaks_billboard r, streaks_spot spot)
 {
     int frame = rg_to_int(r.shown);
@@ -183,7 +183,8 @@ RG_FN rg_fragment streaks_fragment_of(rg_ctx rg, streaks_params p, streaks_billb
     float share = r.share * streaks_place_of(r, spot.u, spot.v).window;
     float sky = share * scenery_sky(rg, p, r, spot);
     float crown = r.share * streaks_crown(rg, r, spot);
-    // What stands for many covers no pixel more than once, and shines no more than that.
+    // A billboard that stands for many drops covers a pixel at most once, and shines no more than
+    // that.
     float once = 1.0f / rg_max(streaks_either(rg, sky, crown, splash), 1.0f);
     float from_sky = once * streaks_either(rg, sky * p.gain, crown * p.splash_gain, splash);
     float from_lights = once * streaks_either(rg, share * p.gain, crown * p.splash_gain, splash);

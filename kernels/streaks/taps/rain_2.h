@@ -1,4 +1,4 @@
-// streaks: particles, with 2 streak textures a light.
+// streaks: particles, with 2 streak textures for each light.
 #define STREAKS_TAPS 2
 #include "kernels/streaks/taps/light.h"
 #include "kernels/streaks/taps/unseen.h"

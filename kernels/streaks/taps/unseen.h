@@ -1,12 +1,12 @@
-// Which particles are out of sight: a ball around each is held against the view's sides, long
-// before the billboard's corners are known. What is added for rounding is far more than what floats
-// lose.
+// Finds particles out of sight: tests a ball around each against the view's sides, long before the
+// billboard's corners are known. The margin for rounding far exceeds the error of floats.
 #ifndef RG_KERNELS_STREAKS_TAPS_UNSEEN_H
 #define RG_KERNELS_STREAKS_TAPS_UNSEEN_H
 
 #include "kernels/streaks/material.h"
 
-// What the particles of a block share; their words are fetched, a cache line at a time.
+// The values that the particles of a block share; prefetches the particles' words, a cache line at
+// a time.
 RG_FN streaks_block streaks_block_ahead(rg_ctx rg, streaks_params p, int i)
 {
     streaks_block b = streaks_block_at(rg, p, i);
@@ -26,8 +26,8 @@ RG_FN float streaks_length(float x, float y, float z)
     return rg_sqrt(x * x + y * y + z * z);
 }
 
-// Whether a ball around a place lies beyond one of the view's sides, each of which is where a sum
-// of two of the matrix's rows is 0.
+// Whether a ball around a place lies beyond one of the view's sides. On a side, the sum or
+// difference of two of the matrix's rows is 0.
 RG_FN int streaks_out_of_view(m4 m, v3 at, float radius)
 {
     rg_corner g = m4_project(m, at);
@@ -45,7 +45,8 @@ RG_FN int streaks_out_of_view(m4 m, v3 at, float radius)
     return rg_min(inside, g.z + before) + lost < 0.0f ? 1 : 0;
 }
 
-// No less than streaks_slope, which stays within a texel of the map, times 4 at most.
+// An upper bound of streaks_slope, which goes half a texel of the map across and down, times 4 at
+// most.
 RG_FN float streaks_slope_within(rg_ctx rg, streaks_params p)
 {
     float x = 1.0f / (p.map_per_x * rg_to_float(numbers_width(rg, 0)));
@@ -53,8 +54,8 @@ RG_FN float streaks_slope_within(rg_ctx rg, streaks_params p)
     return rg_to_float(p.follows) * 2.1f * (rg_abs(x) + rg_abs(y));
 }
 
-// The ball has the billboard's corners within: a drop's around the middle of its streak, which is
-// no thinner than thinnest_px, a splash's around what it hits.
+// The ball contains the billboard's corners. A drop's ball is around the middle of its streak,
+// which is at least thinnest_px wide; a splash's is around the impact.
 RG_FN int streaks_unseen(rg_ctx rg, streaks_params p, streaks_particle t)
 {
     float splash = t.state == STREAKS_SPLASH ? 1.0f : 0.0f;

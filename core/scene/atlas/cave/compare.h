@@ -4,8 +4,8 @@
 
 #include "core/scene/atlas/cave/find.h"
 
-// How a picture of ours is mirrored before it is compared. Copies of the database differ in the
-// side of the light, and drops that swing left mirror those that swing right.
+// The mirroring of our picture before it is compared. Copies of the database differ in the side of
+// the light, and drops that swing left mirror those that swing right.
 enum rg_cave_way {
     RG_CAVE_AS_IT_IS,
     RG_CAVE_MIRRORED,   // drop and light are both mirrored

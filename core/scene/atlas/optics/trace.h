@@ -1,4 +1,4 @@
-// Rays through a drop: the directions from which the light came that the viewer sees.
+// Rays through a drop: the directions from which the viewer's light came.
 #ifndef RG_CORE_SCENE_ATLAS_OPTICS_TRACE_H
 #define RG_CORE_SCENE_ATLAS_OPTICS_TRACE_H
 

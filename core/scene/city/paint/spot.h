@@ -1,4 +1,4 @@
-// The texel being painted, and what all texture painters share: for this folder alone.
+// The texel being painted, and the noise that all texture painters share: for this folder alone.
 #ifndef RG_CORE_SCENE_CITY_PAINT_SPOT_H
 #define RG_CORE_SCENE_CITY_PAINT_SPOT_H
 
@@ -14,7 +14,7 @@ struct paint {
 struct city_painter {
     struct city_settings settings;
     uint32_t seed;
-    int size;     // texels a side
+    int size;     // texels along a side
     float *fine;  // white noise
     float *cloud; // features from a quarter of the square down to a few texels
     float *stain; // streaks drawn downwards, as running water leaves them

@@ -8,7 +8,7 @@ enum cartoon_wind_kind { CARTOON_WIND_CONSTANT, CARTOON_WIND_RANDOM, CARTOON_WIN
 enum cartoon_query { CARTOON_QUERY_DISCS, CARTOON_QUERY_SPHERES, CARTOON_QUERY_API };
 enum cartoon_answers { CARTOON_ANSWERS_NOW, CARTOON_ANSWERS_LATE };
 
-// Accumulated water: volumes of the heaviest drop, in m3, and how water flows and dries.
+// Accumulated water: the heaviest drop's volume, and the drying and spreading of water.
 struct cartoon_water_settings {
     int on;
     double drop_m3, dry_s, spread_m2_s, from_m;
@@ -16,7 +16,7 @@ struct cartoon_water_settings {
 
 struct cartoon_rain_settings {
     int drops_s, steps_s;
-    // Where drops start, and how they fall.
+    // The start and the fall of drops.
     double top_m, speed_m_s, spread_deg, gravity_m_s2;
     int drag; // CARTOON_DRAG_*
     double drag_m_s2, drag_1_m;

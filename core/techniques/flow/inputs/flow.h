@@ -60,7 +60,7 @@ extern const struct rg_param_table flow_param_table;
 // The items of an instance's state, in order.
 enum flow_state { FLOW_STATE_WATER, FLOW_STATE_LEDGER };
 
-// The number of panes in the scene: 6, or 1. Front, back, right, left, top and bottom.
+// The number of panes in the scene: 6, or 1. Their order is front, back, right, left, top, bottom.
 int flow_pane_count(const struct flow_settings *settings);
 
 // A pane's frame in the world at a frame of the simulation: tangent (right), binormal (down) and
@@ -75,7 +75,7 @@ void flow_panes_at(const struct flow_settings *settings, int noise_size, int64_t
 // The camera's distance from the middle of the box at a frame. It stays half a pane's side away
 // from the box's corners, unless it starts nearer.
 double flow_distance_mm(const struct flow_settings *settings, int64_t frame);
-// Texels along a side of a pane: resolution_px, or what the camera's distance asks for.
+// Texels along a side of a pane: resolution_px, or as many as the camera's distance asks for.
 int flow_texels(const struct flow_settings *settings, int64_t frame, int height_px);
 
 // The parameters of the movement's and the normal map's kernels at a frame.
@@ -95,8 +95,8 @@ void flow_view_model(const struct flow_settings *settings, int64_t frame, const 
 int flow_environment_levels(const struct flow_settings *settings);
 int flow_reflection_level(const struct flow_settings *settings);
 
-// A drop by its number on a pane: of the initial ones if `frame` is -1, else of those that fall in
-// a frame.
+// A drop by its number on a pane: one of the initial ones if `frame` is -1, else of those that fall
+// in that frame.
 flow_splat_params flow_drop(const struct flow_settings *settings, int pane, int64_t frame,
                             int number);
 // The number of drops that fall on a pane in a frame: constant on average, not random.
@@ -107,7 +107,7 @@ int flow_drops_at(const struct flow_settings *settings, int64_t frame);
 // failure.
 float *flow_remainder_map(const struct flow_settings *settings);
 float *flow_noise_map(const struct flow_settings *settings, int *size);
-// How much water clings to each texel of a pane with sliding drops, in units of height: size x size
+// The water that clings to each texel of a pane with sliding drops, in units of height: size x size
 // floats that tile horizontally. Ownership and errors as above.
 float *flow_bead_map(const struct flow_settings *settings);
 

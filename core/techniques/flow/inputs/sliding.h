@@ -14,7 +14,7 @@ int flow_relax_runs(const struct flow_settings *settings);
 
 // The parameters of a run's kernels; runs are numbered through all frames.
 flow_slide_params flow_slide_params_at(const struct flow_settings *settings, int64_t run);
-// How far water slides in a run, in whole texels: right and down, for each pane and pace.
+// The distance that water slides in a run, in whole texels: right and down, for each pane and pace.
 void flow_ways_at(const struct flow_settings *settings, int64_t frame, int64_t run, int32_t *ways);
 
 #endif

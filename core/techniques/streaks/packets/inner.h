@@ -86,7 +86,7 @@ int64_t streaks_kd_leaves(int64_t count, int size);
 bool streaks_kd_build(struct streaks_packets *packets, int64_t count);
 bool streaks_quad_build(struct streaks_packets *packets, int64_t count);
 
-// --- which scheme: its packets and its memory, before memory is taken ---
+// --- the choice of a scheme: its packets and its memory, before memory is taken ---
 
 struct streaks_plan {
     enum streaks_scheme scheme;
@@ -116,7 +116,7 @@ int64_t streaks_grid_total(const struct streaks_grid *grid);
 // The particles of all used buckets, including padding.
 int64_t streaks_grid_slots(const struct streaks_grid *grid);
 bool streaks_grid_build(struct streaks_packets *packets);
-// How far a cell's particles are ahead of the run position, in [0, 1).
+// The lead of a cell's particles over the run position, in [0, 1).
 double streaks_cell_turn(uint32_t seed, int64_t cell);
 
 // --- blocks ---
@@ -158,7 +158,7 @@ struct streaks_sight {
 
 void streaks_sight_of(const struct streaks_packets *packets, const struct streaks_view *view,
                       struct streaks_sight *sight);
-// Finds which of a run's blocks the view can see, 1 or 0 each; returns their number.
+// Finds the blocks of a run that the view can see, 1 or 0 each; returns their number.
 int64_t streaks_bounds_seen(const struct streaks_packets *packets,
                             const struct streaks_sight *sight, const struct streaks_run *run,
                             uint8_t *seen);

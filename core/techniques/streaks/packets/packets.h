@@ -1,5 +1,5 @@
-// streaks: the rain's particles, grouped in packets, and which of them a frame draws (Creus,
-// sections 4.3.2, 4.3.3 and 4.4.1). docs/packets.md explains the choices.
+// streaks: the rain's particles, grouped in packets, and the choice of those that a frame draws
+// (Creus, sections 4.3.2, 4.3.3 and 4.4.1). docs/packets.md explains the choices.
 //
 // The local space holds as many particles as the density map asks for. A scheme cuts it, across the
 // fall, into packets. `world`: one packet. `kd`: halves with equal numbers of particles, across the
@@ -13,9 +13,9 @@
 // Particles lie in buffers of at most STREAKS_BUFFER_PARTICLES. Each packet begins at a multiple of
 // 32, and zeros fill up its last 32.
 //
-// A frame draws blocks of 32 particles of one buffer: STREAKS_BLOCK_WORDS words each, which are the
+// A frame draws blocks of 32 particles of one buffer. A block has STREAKS_BLOCK_WORDS words: the
 // first particle's place in the buffer, a mask of the particles that count (bit k: the k-th),
-// shift_x and shift_y to add to x and y (float bits), and turn in [0, 1) (float bits): the particle
+// shift_x and shift_y to add to x and y (float bits), and turn in [0, 1) (float bits). A particle
 // is at s = top + height * fract(start + turn).
 //
 // One struct of packets may serve several threads and instances: nothing changes it but
@@ -36,7 +36,7 @@ enum {
 };
 
 // In the order of the parameter `packets`. auto: the one of kd, quad and grid with the fewest
-// packets (for the grid, buckets) that fits into memory; world where one packet holds all.
+// packets (for the grid, buckets) that fits into memory; world if one packet holds all.
 enum streaks_scheme {
     STREAKS_AUTO,
     STREAKS_WORLD,
@@ -114,13 +114,14 @@ struct streaks_view {
     double radius_m;      // half a side of the culling prism; INFINITY: no prism
     double top_m;         // of the local space (rg_rain_local_top)
     double run;           // rg_rain_run
-    // How far a streak or splash may reach from its particle's place: across the fall, above the
-    // local top and below the local ground. Splashes outlast drops on surfaces that these have
-    // passed, so that above_m is a streak's length, a drop's fall while a splash lasts, and a
-    // splash's height. No particle is culled whose streak or splash could touch the frustum.
+    // The reach of a streak or splash from its particle's place: across the fall, above the local
+    // top and below the local ground. Splashes outlast drops on surfaces that these have passed, so
+    // that above_m is a streak's length, a drop's fall while a splash lasts, and a splash's height.
+    // No particle is culled whose streak or splash could touch the frustum.
     double across_m, above_m, below_m;
-    // Exact: the convex hull of the visible part of the local space within the prism. If false, as
-    // Creus does it: the bounding rectangles of prism and frustum on the top plane.
+    // If true, selection is exact: by the convex hull of the visible part of the local space within
+    // the prism. If false, it is Creus's: by the bounding rectangles of prism and frustum on the
+    // top plane.
     bool hull;
     bool apart; // a block's particles fall at different speeds, and are anywhere along the fall
     bool whole; // lists all blocks of the packets, whether visible or not
@@ -158,8 +159,8 @@ struct streaks_selection {
     struct streaks_draw *draws;
     int64_t block_count;
     uint32_t *blocks; // STREAKS_BLOCK_WORDS each
-    // Scratch of streaks_select: runs of particles, masks of drawn particles, and which blocks are
-    // drawn.
+    // Scratch of streaks_select: runs of particles, masks of drawn particles, and flags of drawn
+    // blocks.
     struct streaks_run *runs;
     uint32_t *masks;
     uint8_t *seen;

@@ -10,7 +10,7 @@
 
 #include "core/techniques/streaks/packets/part.h"
 
-// Writes 3 floats a particle: x, y, oscillation + start.
+// Writes 3 floats for each particle: x, y, oscillation + start.
 void streaks_scatter(const struct streaks_scatter *scatter, int64_t count, float *particles);
 
 // The number of non-empty leaves of a quad-tree over these particles, at most `size` in each.

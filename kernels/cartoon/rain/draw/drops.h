@@ -1,4 +1,4 @@
-// Drops: the texture goes by the drop's size, and runs along its velocity (figure 3).
+// Drops: a drop's size selects the texture, whose v runs along the drop's velocity (figure 3).
 #include "kernels/cartoon/rain/draw/record.h"
 #include "kernels/cartoon/rain/params.h"
 

@@ -1,4 +1,4 @@
-// What the fragments of a sprite need (draw/sprite.h).
+// The record of a sprite, which its fragments read (draw/sprite.h).
 #ifndef RG_KERNELS_CARTOON_RAIN_DRAW_RECORD_H
 #define RG_KERNELS_CARTOON_RAIN_DRAW_RECORD_H
 

@@ -13,8 +13,8 @@
 
 #include "kernels/cartoon/rain/draw/sprite.h"
 
-// The texture's top points along the normal. A splash stands on its surface: its depth is that of a
-// place half its side nearer to the eye, so that the surface does not cut it.
+// The texture's top points along the normal. A splash gets the depth of a place half its side
+// nearer to the eye, so that the surface it stands on does not cut it.
 RG_FN cartoon_sprite cartoon_sprite_of_splash(rg_ctx rg, cartoon_rain_params p, int i)
 {
     cartoon_spray d = sprays_at(rg, rg_to_int(living_at(rg, p.drop_slots + i)));

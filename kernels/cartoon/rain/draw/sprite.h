@@ -1,6 +1,6 @@
 // Sprites: squares that face the eye, with a texture that is turned about its middle, (.5, .5).
-// From the slots rain_textures, whose texels are premultiplied, and boxes: of each level of each
-// layer what is not transparent.
+// They read the slots rain_textures, whose texels are premultiplied, and boxes: the rectangle that
+// is not transparent, for each level of each layer.
 #ifndef RG_KERNELS_CARTOON_RAIN_DRAW_SPRITE_H
 #define RG_KERNELS_CARTOON_RAIN_DRAW_SPRITE_H
 
@@ -20,7 +20,7 @@ RG_FN int cartoon_level(cartoon_rain_params p, float side_px)
     return rg_imin(rg_to_int(rg_log2(ratio) + 0.5f), p.textures - 1);
 }
 
-// A square of so many metres about a point; its v runs along (right, up) of the eye space.
+// A square of `side_m` about a point; its v runs along (right, up) of the eye space.
 RG_FN cartoon_sprite cartoon_sprite_at(cartoon_rain_params p, v3 at, float side_m, float right,
                                        float up)
 {

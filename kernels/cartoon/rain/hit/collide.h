@@ -1,8 +1,9 @@
 // Whether a drop has hit, where on its way in this step, and what.
 //
-// Faithful to the paper, a drop has hit where fewer samples of its sphere are seen than a threshold
-// (`any`, its older extension: where none is). That is also so behind things. Correct is that its
-// middle passes from before what is seen to behind it, through a face: not past the rim of one.
+// `faithful` follows the paper: a drop has hit when fewer samples of its sphere are seen than a
+// threshold. `any`, an older occlusion query, asks that none is seen. Both also hold for a drop
+// that is merely hidden. `correct` asks that the drop's middle passes through a face that is seen,
+// from its front to behind it, and not past its rim.
 #include "kernels/cartoon/rain/params.h"
 #include "kernels/dialect/math.h"
 
@@ -39,8 +40,9 @@ RG_FN bool cartoon_collides(rg_ctx rg, cartoon_rain_params p, v3 at)
     return cartoon_samples(rg, p, s) < cartoon_least(p);
 }
 
-// The same where the drop is now, from the queries' answers where it is theirs to say: by nth
-// living drop, and late ones by slot. Who has just been released has not been asked about late.
+// Whether the drop may have hit where it is now. `faithful` and `any` take the answers of the
+// queries: by nth living drop, or by slot if they are a frame late. A drop just released has no
+// late answer.
 RG_FN bool cartoon_may_hit(rg_ctx rg, cartoon_rain_params p, int nth, int slot, int age, v3 old,
                            v3 now)
 {
@@ -62,12 +64,11 @@ RG_STRUCT(cartoon_hit)
 {
     v3 at;
     float share; // of the way, there
-    float step;  // by which the share before, where it had not hit, is less
+    float step;  // at share - step the drop had not hit yet
 };
 
-// Bisection between where the drop was and where it is, until the two ends are as near as the
-// precision asks: the paper's step (c) forgets where it began, so this takes the half in which the
-// test changes.
+// Bisects the way from the drop's old place to its new one, until the ends are precision_m apart.
+// The paper's step (c) forgets where it began; this takes the half in which the test changes.
 RG_FN cartoon_hit cartoon_hit_between(rg_ctx rg, cartoon_rain_params p, v3 old, v3 now)
 {
     v3 before_it = old;
@@ -93,8 +94,9 @@ RG_FN cartoon_hit cartoon_hit_between(rg_ctx rg, cartoon_rain_params p, v3 old, 
     return hit;
 }
 
-// What passes behind the rim of something nearer has not hit it: the way meets no face there.
-#define CARTOON_ROUNDED_M 2e-5f // of places and of where rays meet faces
+// A drop that passes behind the rim of something nearer has not hit it: its way meets no face
+// there.
+#define CARTOON_ROUNDED_M 2e-5f // rounding of places and of the points in which rays meet faces
 
 RG_FN bool cartoon_has_met(rg_ctx rg, cartoon_rain_params p, cartoon_hit hit, v3 old, v3 now)
 {
@@ -106,7 +108,7 @@ RG_FN bool cartoon_has_met(rg_ctx rg, cartoon_rain_params p, cartoon_hit hit, v3
                           hit.share + slack);
 }
 
-// The normal from the normal map (section 4), and its angle with the way that the drop came.
+// The normal from the normal map (section 4), and its angle with the direction the drop came from.
 RG_FN cartoon_surface cartoon_surface_at(rg_ctx rg, cartoon_rain_params p, v3 at, v3 velocity)
 {
     cartoon_spot s = cartoon_spot_of(p, at);

@@ -1,5 +1,5 @@
-// The visible samples of each living drop: one query a drop, if it has not hit and is in the
-// viewing frustum. Others have none, and are not asked.
+// Counts the visible samples of each living drop: one query for each that has not hit and is in the
+// viewing frustum. The others get 0, without a query.
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params

@@ -1,5 +1,5 @@
-// Answers that are read a frame late are kept by slot, because the next step lists the living anew.
-// Drops that were not asked about, since they had hit or were out of sight, have CARTOON_UNASKED.
+// Keeps answers that are read a frame late by slot, because the next step lists the living anew.
+// Drops without a query, which had hit or were out of sight, get CARTOON_UNASKED.
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params

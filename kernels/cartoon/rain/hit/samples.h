@@ -1,16 +1,16 @@
-// The samples of a drop's bounding sphere that the scene leaves to be seen: what the occlusion
-// query of the paper counts (section 4). From the slot depth_map.
+// The samples of a drop's bounding sphere that the scene does not hide. The paper counts them by an
+// occlusion query (section 4). Reads the slot depth_map.
 #ifndef RG_KERNELS_CARTOON_RAIN_HIT_SAMPLES_H
 #define RG_KERNELS_CARTOON_RAIN_HIT_SAMPLES_H
 
 #include "kernels/cartoon/rain/view.h"
 
-// Pixels whose centres are in the disc that the sphere is on the screen, and where its near side
-// lies before the scene.
+// Counts the pixels with their centre in the sphere's disc on the screen, in which the sphere's
+// near side lies before the scene.
 RG_FN int cartoon_samples(rg_ctx rg, cartoon_rain_params p, cartoon_spot s)
 {
     float radius_m = cartoon_bound_m(p, s.distance_m);
-    float m_px = s.distance_m / p.focal_px; // that a pixel spans there
+    float m_px = s.distance_m / p.focal_px; // width of a pixel at the drop
     float radius_px = radius_m / m_px;
     int left = rg_imax(rg_to_int(rg_floor(s.x_px - radius_px + 0.5f)), 0);
     int right = rg_imin(rg_to_int(rg_floor(s.x_px + radius_px - 0.5f)), p.width - 1);

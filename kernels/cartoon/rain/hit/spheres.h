@@ -1,8 +1,7 @@
-// A query a drop, as the paper asks it: the drop's bounding sphere is rasterised, tessellated, and
-// its visible samples are counted. The paper gives no tessellation; ours has CARTOON_SLICES by
-// CARTOON_STACKS quads, and leaves out those that are turned away, so that no pixel counts twice.
-// A drop may take more items than that, because the API's queries begin at multiples of 32; the
-// others draw nothing.
+// One query for each drop, as in the paper: the device rasterises the drop's tessellated bounding
+// sphere, and counts its visible samples. The paper gives no tessellation. Ours has CARTOON_SLICES
+// by CARTOON_STACKS quads, without those that are turned away, so that no pixel counts twice. A
+// drop may take more items, because the API's queries begin at multiples of 32; these draw nothing.
 #include "kernels/cartoon/rain/params.h"
 #include "kernels/dialect/draw/triangle.h"
 
@@ -30,8 +29,8 @@ RG_FN rg_corner cartoon_on_sphere(rg_ctx rg, cartoon_rain_params p, v3 middle, f
                                          middle.z + radius * sphere_at(rg, 3 * k + 2)));
 }
 
-// Which drop facet i is of: i / p.facets. Compilers vectorise no division of integers by a
-// variable, so floats divide first i, and then what that leaves, which is small enough to be exact.
+// The drop of facet i: i / p.facets. Compilers vectorise no division of integers by a variable, so
+// floats divide: first i, then the remainder, which is small enough to be exact.
 RG_FN int cartoon_facet_drop(cartoon_rain_params p, int i)
 {
     float facets = rg_to_float(p.facets);
@@ -39,8 +38,8 @@ RG_FN int cartoon_facet_drop(cartoon_rain_params p, int i)
     return nth + rg_to_int(rg_floor(rg_to_float(i - nth * p.facets) / facets));
 }
 
-// The lowest ring begins with its upper corners: a facet turns as its first three corners do, which
-// must not be in one place.
+// The lowest ring begins with its upper corners: a facet's first three corners say which way it
+// turns, so they must not be in one place.
 RG_FN rg_item cartoon_facet_of(rg_ctx rg, cartoon_rain_params p, int i)
 {
     int nth = cartoon_facet_drop(p, i);

@@ -1,4 +1,4 @@
-// What the facets of a drop's sphere come to, and room for the next step's counts.
+// Sums the samples of each drop's facets, and clears them for the next step's counts.
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params

@@ -1,6 +1,6 @@
-// The surface that the camera sees, between the texels of its images: the faces that are seen in
-// the texel of a place and in those about it, from the slots face_map, positions and indices. Where
-// the nearest face ends within a texel, no image says; the faces do.
+// The surface that the camera sees, more exactly than its images: no image says at which point
+// within a texel the nearest face ends. The faces do: those seen in a place's texel and its
+// neighbours, from the slots face_map, positions and indices.
 #ifndef RG_KERNELS_CARTOON_RAIN_HIT_SURFACE_H
 #define RG_KERNELS_CARTOON_RAIN_HIT_SURFACE_H
 
@@ -8,7 +8,7 @@
 
 #define CARTOON_ABOUT 9 // texels: a place's own and its neighbours
 
-// The number of the face that is seen in the nth of the texels about a place; -1: none.
+// The number of the face seen in the nth of the CARTOON_ABOUT texels; -1: none.
 RG_FN int cartoon_face_about(rg_ctx rg, cartoon_rain_params p, cartoon_spot s, int nth)
 {
     int x = rg_to_int(rg_floor(s.x_px)) + nth % 3 - 1;
@@ -33,7 +33,7 @@ RG_FN v3 cartoon_less(v3 a, v3 b)
 }
 
 // The share of a way after which it meets a face (Moeller and Trumbore, 1997); -1: it does not. The
-// face is larger by a share of itself.
+// face is enlarged by the share `wider` of itself.
 RG_FN float cartoon_meets(rg_ctx rg, int face, v3 from, v3 way, float wider)
 {
     v3 a = cartoon_corner_of(rg, face, 0);
@@ -50,8 +50,8 @@ RG_FN float cartoon_meets(rg_ctx rg, int face, v3 from, v3 way, float wider)
     return is_within ? v3_dot(aside, turned) * inverse : -1.0f;
 }
 
-// Whether a face that is seen about a place lies between it and the eye. Faces are larger by what
-// rounding may come to, so that no ray goes between two of them.
+// Whether a face lies between a place and the eye, of those in the texels about the place. Faces
+// are enlarged by as much as rounding may add up to, so that no ray slips between two of them.
 #define CARTOON_WIDER 1e-6f
 
 RG_FN bool cartoon_is_behind(rg_ctx rg, cartoon_rain_params p, cartoon_spot s, v3 at)
@@ -71,7 +71,7 @@ RG_FN bool cartoon_is_behind(rg_ctx rg, cartoon_rain_params p, cartoon_spot s, v
     return is_behind;
 }
 
-// Whether a way meets such a face between two shares of it.
+// Whether a way meets a face of the texels about a place, between two shares of the way.
 RG_FN bool cartoon_is_met(rg_ctx rg, cartoon_rain_params p, cartoon_spot s, v3 from, v3 way,
                           float least, float most)
 {

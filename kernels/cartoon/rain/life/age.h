@@ -1,4 +1,4 @@
-// A step of the splashes: six textures, each for the same time, that fade until they have ended.
+// A step of the splashes: each shows six textures, for the same time each, and fades to its end.
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params

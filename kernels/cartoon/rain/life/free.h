@@ -1,4 +1,4 @@
-// Which slots are free: those of drops, then those of splashes.
+// Flags the free slots: those of drops, then those of splashes.
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params

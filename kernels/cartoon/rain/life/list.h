@@ -1,4 +1,4 @@
-// Fills the lists: a slot is in one of the two.
+// Fills the lists: each slot is in the free list or in the living one.
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params

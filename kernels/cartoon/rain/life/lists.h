@@ -1,12 +1,12 @@
-// The lists of a step. The free ones are in the order of the slots, and so are the living; what is
-// created takes slots from the beginning of the free list, and stands at the end of the living one.
-// Lists of splashes begin at the number of drops' slots.
+// The lists of a step, free and living slots, are in the order of the slots. A new particle takes
+// the first slot of the free list, and is appended to the living one. Splashes' lists begin at
+// element drop_slots.
 #ifndef RG_KERNELS_CARTOON_RAIN_LIFE_LISTS_H
 #define RG_KERNELS_CARTOON_RAIN_LIFE_LISTS_H
 
 #include "kernels/cartoon/rain/params.h"
 
-// Where in the list of the living those stand that are created in this step.
+// The index in the list of the living at which those created in this step begin.
 RG_FN int cartoon_new_drops(cartoon_rain_params p)
 {
     return p.drop_slots - p.free_drops;

@@ -1,13 +1,13 @@
-// A step of the drops: those that fall move, those that have hit stick and fade.
+// A step of the drops: falling ones move; those that have hit stick and fade.
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params
 #define RG_SLOTS  IN(1, uint, living) INOUT(2, cartoon_raindrop, raindrops) ATOMIC(3, uint, tally)
 #include "kernels/dialect/slots/slots.h"
 
-// Figure 1. The paper's air resists with a constant force along the vertical and not at all along
-// the horizontal, on which the wind pushes with a force of its own; or it resists by equation 2, f
-// = k v^2, where v is the speed through air that moves with the wind.
+// Figure 1. With constant drag, the paper's air resists by a constant vertical force, and the wind
+// pushes by a horizontal one. With quadratic drag, air resists by equation 2, f = k v^2, where v is
+// the speed through air that moves with the wind.
 RG_FN v3 cartoon_acceleration(cartoon_rain_params p, cartoon_raindrop d)
 {
     float through_x = d.vx - p.push_x;
@@ -20,7 +20,7 @@ RG_FN v3 cartoon_acceleration(cartoon_rain_params p, cartoon_raindrop d)
                    is_constant ? p.push_z : -k * through_z);
 }
 
-// Euler's scheme: place and speed both go on from where they were.
+// Euler's scheme: the new place and velocity both follow from the old ones.
 RG_FN cartoon_raindrop cartoon_fallen(cartoon_rain_params p, cartoon_raindrop was)
 {
     cartoon_raindrop d = was;

@@ -1,5 +1,5 @@
-// Drops are released: each takes a slot from the free list to the active one. They start anywhere
-// in their space, downwards within a cone.
+// Releases drops: each moves a slot from the free list to the living one. They start anywhere in
+// their space, downwards within a cone.
 #include "kernels/cartoon/rain/params.h"
 #include "kernels/dialect/math.h"
 #include "kernels/dialect/rng.h"
@@ -12,7 +12,7 @@
 
 #include "kernels/cartoon/rain/life/lists.h"
 
-// A direction within the cone, all of its parts alike.
+// A direction within the cone, uniform over its solid angle.
 RG_FN v3 cartoon_down(cartoon_rain_params p, rg_uint4 chance)
 {
     float turn = rg_uniform(chance.x) * RG_PI * 2.0f;

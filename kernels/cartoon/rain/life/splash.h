@@ -1,5 +1,4 @@
-// Drops that have hit in this step send what they met to the splashes: the first of them takes the
-// first free slot, and so on.
+// Makes a splash of each drop that has hit in this step: the nth takes the nth free slot.
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params
@@ -14,7 +13,8 @@
 
 #include "kernels/cartoon/rain/life/lists.h"
 
-// By the angle of impact: the paper has three patterns; their bounds, 30 and 60 degrees, are ours.
+// The angle of impact selects one of the paper's three patterns; the bounds, 30 and 60 degrees, are
+// ours.
 #define CARTOON_STEEP_RAD 0.523598776f
 #define CARTOON_FLAT_RAD  1.04719755f
 
