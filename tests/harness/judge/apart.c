@@ -265,7 +265,7 @@ static void count_verdicts(enum noise noise, double ratio, double between, int c
         counts[run_course(noise, ratio, between).decision.verdict]++;
 }
 
-// Of 400 gates on identical programs, whose runs differ by 2 %, at most one finds a change, in each
+// At most one of 400 gates on identical programs, whose runs differ by 2 %, finds a change, in each
 // kind of noise.
 static void test_same(void **state)
 {

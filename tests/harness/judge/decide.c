@@ -183,7 +183,7 @@ static void count_verdicts(enum noise noise, double change, int launches, int co
     }
 }
 
-// Of 400 equal pairs at most one is told apart, with few launches and with many. Correlated
+// At most one of 400 equal pairs is told apart, with few launches and with many. Correlated
 // launches are not always noticed; the test of courses covers these (course.c).
 static void test_same(void **state)
 {

@@ -1,4 +1,4 @@
-// What the comparison key of a device depends on, and what it ignores.
+// A device's comparison key depends on some fields of its passport and ignores others.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>

@@ -1,6 +1,5 @@
-// What a dry run of a sweep learns about its cells by opening some of them, and how a cell's time
-// follows from its frames'. Devices and a technique take time by a script, and only they move the
-// clock.
+// A dry run of a sweep learns about its cells by opening some of them, and a cell's time follows
+// from its frames'. Devices and a technique take time by a script, and only they move the clock.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

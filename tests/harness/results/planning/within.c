@@ -58,7 +58,7 @@ static void make_tables(void)
 
 // --- a command ---
 
-// What was printed of each table, and the exit status.
+// The printed part of each table, and the exit status.
 static struct {
     struct {
         int rows, devices, variants, works, divisor, cells;
@@ -101,7 +101,7 @@ static void hear(enum rg_log_level level, const char *line, void *user)
         assert_int_equal(sscanf(strstr(line, "; give "), "; give %lfs or more", &got.needed_s), 1);
 }
 
-// What happens to a run.
+// Events of a run.
 struct fate {
     double passed_s; // since the command began
     bool loses_gl;
