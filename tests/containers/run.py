@@ -15,7 +15,7 @@ Prints TAP, for meson. What needs a namespace of its own is skipped where it may
 import os
 import sys
 
-sys.dont_write_bytecode = True  # the sources' folder stays as it is
+sys.dont_write_bytecode = True  # the sources' folder stays unchanged
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "cli"))
 
 import links
