@@ -1,4 +1,4 @@
-"""What a gate reads from text: its cells, and what it expects to go wrong; how results meet that, and files that are written anew."""
+"""A gate's input from text: its cells and expectations; how results meet these, and files that are written anew."""
 from fault import Fault
 
 TESTS = ("gate cells", "expectations", "expectations mended", "regular expressions", "command line, acts")
