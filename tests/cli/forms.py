@@ -35,7 +35,7 @@ def validator(form):
 
 
 def problems(form, document):
-    """Where a document departs from the schema of this form: "table", "diff", ..."""
+    """Problems: places where a document departs from the schema of a form: "table", "diff", ..."""
     errors = sorted(validator(form).iter_errors(document), key=lambda error: list(map(str, error.absolute_path)))
     return ["%s --json: %s: %s" % (form, "/".join(map(str, error.absolute_path)), error.message[:300]) for error in errors[:5]]
 

@@ -407,7 +407,7 @@ def check_gtest(runner):
 
 
 def check_required(runner):
-    """a device that is missing skips its cells; named by --require, it fails the gate, and each of its cells is an error in every report"""
+    """a device that is missing skips its cells; named by --require, it fails the gate, with an error a cell in every report"""
     problems = []
     with Files(TORUS) as files:
         path, env = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}

@@ -105,7 +105,7 @@ def side_by_side(check, *lists):
 
 
 def outcomes_of(command, report, device):
-    """What the command's JSON says about its requests of a device."""
+    """The outcomes that the command's JSON reports of a device."""
     rows, name = {"doctor": ("devices", "name"), "table": ("cells", "device"), "sweep": ("cells", "device"), "verify": ("checks", "device"),
                   "diff": ("failures", "device")}[command]
     return {row["status"] for row in report[rows] if row[name] == device}

@@ -162,7 +162,7 @@ def every(commands):
 
 
 def check_ways(runner):
-    """a driver that cannot be loaded, opened or found fails, with the reason; an absent one is unsupported; one beside a good one is a warning"""
+    """a driver that cannot be loaded, opened or found fails, with the reason, or warns beside a good one; an absent one is unsupported"""
     return check_pairs(runner, every(["render"]))
 
 

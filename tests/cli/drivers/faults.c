@@ -16,8 +16,8 @@ enum kind { VK_CODE, VK_VALUE, VK_NOTHING, CL_CODE, CL_HANDLE, CL_VALUE, EGL_VAL
 
 // --- interception of each function ---
 
-// The program is linked with functions of Vulkan and OpenCL by name. Those of EGL and OpenGL are
-// looked up, and must not intercept the driver's own calls.
+// The program is linked with functions of Vulkan and OpenCL by name. It looks up those of EGL and
+// OpenGL; the driver's own calls of these must not be intercepted.
 #define NAMED(name)           ".globl " #name "\n.type " #name ", @function\n" #name ":\n"
 #define LABEL_VK_CODE         NAMED
 #define LABEL_VK_VALUE        NAMED

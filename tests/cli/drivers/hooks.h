@@ -1,4 +1,4 @@
-// The common part of the tests' drivers, which intercept the real ones: functions that are looked
+// The common part of the tests' drivers, which intercept the real ones. Functions that are looked
 // up by name get a hook, which goes on to the real function. A driver for Vulkan is in front of
 // lavapipe, and the loader finds it by a manifest. For EGL, OpenGL and OpenCL it is loaded before
 // others (LD_PRELOAD).

@@ -3,8 +3,8 @@
 //
 // RG_MISBEHAVE=FUNCTION:HOW:CALLS names the function, the way (one of ways.h, lost or none), and
 // the number of good calls before. All other calls go to the real driver. For Vulkan this library
-// is a driver in front of lavapipe, which the loader finds by a manifest (VK_DRIVER_FILES), and it
-// may change a constant of a shader; for EGL, OpenGL and OpenCL it is loaded before others
+// is a driver in front of lavapipe, which the loader finds by a manifest (VK_DRIVER_FILES). It may
+// also change a constant of a shader. For EGL, OpenGL and OpenCL it is loaded before others
 // (LD_PRELOAD). faults.c makes any function fail, but is no driver of its own.
 #define _GNU_SOURCE // for hooks.h
 #include <stdbool.h>
