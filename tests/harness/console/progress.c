@@ -72,8 +72,8 @@ static void what_is_left_follows_from_what_was_done(void **state)
     assert_equals(rg_progress_unit_ms(&(struct rg_progress){.total = 9}, now_ms), 0);
 }
 
-// Nothing is estimated if the last units took more than twice or less than half as long as all:
-// drivers compile in the first ones, or later ones are heavier.
+// Nothing is estimated if the last units took more than twice or less than half as long as all.
+// Drivers may compile in the first ones, or later ones may be heavier.
 static void units_that_are_not_alike_tell_nothing(void **state)
 {
     (void)state;

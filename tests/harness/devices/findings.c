@@ -1,4 +1,4 @@
-// A driver may have overwritten what a worker found out about a device: counts above their bound,
+// A driver may have overwritten a worker's findings about a device: counts above their bound,
 // numbers that are NaN or infinite, bytes that are no bool. The harness refuses each in one line,
 // and keeps earlier findings.
 #include <setjmp.h>

@@ -1,6 +1,6 @@
-// A worker that lies: any byte of a reply may change, numbers become ones that no message has,
+// A worker that lies. Any byte of a reply may change, numbers become ones that no message has,
 // replies are cut or lengthened, and announced sizes are wrong. The harness must not crash, read
-// beyond a reply, or wait for ever, and must name the device when it refuses a reply.
+// beyond a reply, or wait for ever. It must name the device when it refuses a reply.
 //
 // The harness keeps the first reply to each call and tampers with it on arrival, so that a
 // million calls take minutes. Now and then it asks the worker again, which lies about the size that

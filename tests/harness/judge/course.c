@@ -168,8 +168,8 @@ static void test_ends(void **state)
     assert_int_equal(found[1].decision.verdict, RG_TWO_PASS);
 }
 
-// No course of 300 on equal sides ends with a verdict but pass or inconclusive, on a machine that
-// is faster now for one side and now for the other, for some launches each.
+// On equal sides, none of 300 courses ends with a verdict but pass or inconclusive. The machine is
+// faster now for one side and now for the other, for some launches each.
 static bool take_linked(int row, bool b_first, struct rg_quads *quads, void *user)
 {
     double *last = user;

@@ -56,8 +56,8 @@ static void test_quads(void **state)
     assert_near(rg_block_log_ratio(twice, a), -log(2), 1e-12);
 }
 
-// With 16 launches and a tail of 0.0005, all must be on one side but one. The interval ends next to
-// the smallest and the largest, by the binomial distribution.
+// With 16 launches and a tail of 0.0005, all must be on one side but one. The interval's ends are
+// the smallest and the largest, or their neighbours, by the binomial distribution.
 static void test_interval(void **state)
 {
     (void)state;
@@ -140,8 +140,8 @@ static void test_coarse(void **state)
     }
 }
 
-// With a spread s, 64 launches and a tail of 0.025 the interval must be 1.96 errors above 0,
-// and 1.645 more are needed for 95 %; the error of a median is 1.2533 s / 8.
+// With a spread s, the error of a median of 64 launches is 1.2533 s / 8. With a tail of 0.025 the
+// interval must be 1.96 errors above 0, and 95 % power needs 1.645 errors more.
 static void test_what_could_be_seen(void **state)
 {
     (void)state;
@@ -183,7 +183,7 @@ static void count_verdicts(enum noise noise, double change, int launches, int co
     }
 }
 
-// At most one of 400 equal pairs is told apart, with few launches and with many. Correlated
+// With few launches and with many, at most one of 400 equal pairs is found to differ. Correlated
 // launches are not always noticed; the test of courses covers these (course.c).
 static void test_same(void **state)
 {

@@ -1,6 +1,5 @@
-// Decisions on launches of real processes, which tests/harness/gate/selftest.py --traces wrote:
-// they end as they did then, and the gate finds in their noise the changes that it promises to
-// find.
+// Decisions on launches of real processes, which tests/harness/gate/selftest.py --traces wrote.
+// They end as they did then, and the gate finds the promised changes in their noise.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -170,8 +169,8 @@ static bool join(struct gate *joined, int first, int row)
     return trace->count >= 32;
 }
 
-// In the noise of equal sides the gate finds 5 % more or less, from whichever launch on, takes no
-// change for one, and passes 1 %.
+// In the noise of equal sides the gate finds 5 % more or less, from whichever launch on. It takes
+// no change for one, and passes 1 %.
 static void test_in_their_noise(void **state)
 {
     (void)state;

@@ -1,8 +1,6 @@
-// A device and a technique that only take time, by a script, and a wall clock that only they move:
-// a test can work out by hand what the harness reports. As on a GPU, requested work takes its time
-// at the next wait.
-//
-// fake.c replaces rg_now_ms of harness/console/clock.h.
+// A device and a technique that only take time, by a script, and a wall clock that only they move.
+// So a test can work out by hand what the harness reports. As on a GPU, requested work takes its
+// time at the next wait.
 #ifndef RG_TESTS_HARNESS_MEASURING_FAKE_H
 #define RG_TESTS_HARNESS_MEASURING_FAKE_H
 

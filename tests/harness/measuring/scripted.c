@@ -1,5 +1,5 @@
-// Which frames are timed, how often and in which order, by a clock that moves only as the script
-// says: every number can be worked out by hand.
+// How often and in which order frames are timed, by a clock that moves only as the script says:
+// every number can be worked out by hand.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

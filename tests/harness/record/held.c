@@ -103,7 +103,7 @@ static void test_errors(void **state)
     }
 }
 
-// --- where it lies ---
+// --- the journal's folder ---
 
 // The path of a journal without a given folder, after the test's folder; "" if there is none.
 static const char *place_with(const char *state_home, const char *home)

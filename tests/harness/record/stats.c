@@ -124,7 +124,9 @@ static void test_coverage(void **state)
 
 // A machine that got slower along the axis, to the power 0.1, may have made the slope steeper by
 // that, and one that got faster may have hidden as much. A row without a load says nothing about
-// the others.
+// A machine that got slower along the axis, to the power 0.1, may have made the slope steeper by
+// that. One that got faster may have hidden as much. A row without a load says nothing about the
+// others.
 static void test_drift(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Results on disk: they are read back as they were written, and a file that is no result is refused
-// in one line that says where.
+// Results on disk are read back as they were written. A file that is no result is refused in one
+// line that says where.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -117,7 +117,7 @@ static void test_quick_choice(void **state)
     rg_result_free(&found);
 }
 
-// --- what is refused ---
+// --- refusals ---
 
 static json_t *document_of_test(void)
 {

@@ -16,8 +16,8 @@
 
 // --- the order of two sets ---
 
-// The share of all ways to choose m of m + n ranks as the first set's in which at least `pairs`
-// pairs have the first set's below.
+// The probability that at least `pairs` pairs have the first set's value below the second's, over
+// all ways to give m of m + n ranks to the first set.
 static double enumerated(int m, int n, int pairs)
 {
     int ways = 0, as_far = 0;

@@ -171,8 +171,8 @@ static void test_settings(void **state)
     }
 }
 
-// The works that --work chooses among: the printed work, another reading of it, work that saves
-// something and says so, and printed work by the API's queries, which some devices lack.
+// The works that --work chooses among: the printed work, another reading of it, and work that saves
+// something and says so. Printed work by the API's queries, which some devices lack, is one, too.
 static void check_work(const struct rg_table_work *work)
 {
     const bool is_ours = !strcmp(work->name, "ours"), is_first = !strcmp(work->name, "paper");

@@ -188,7 +188,7 @@ static void test_no_rain(void **state)
     finish(&rig);
 }
 
-// --- which rows of a table are measured ---
+// --- the measured rows of a table ---
 
 // No cell can be opened with these settings, so nothing takes time.
 #define ROW                                                                                        \
@@ -309,7 +309,7 @@ static void test_unsupported(void **state)
     finish(&rig);
 }
 
-// --- what the cells of a table share ---
+// --- the common objects of a table's cells ---
 
 static void test_kept(void **state)
 {

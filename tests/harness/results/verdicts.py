@@ -124,7 +124,7 @@ def check_falls(raingauge):
 
 
 def check_order(raingauge):
-    """rows in the order of print confirm the claim, others refute it, and noise leaves it open; rows that are equal in print have no order"""
+    """rows in the order of print confirm the claim, others refute it, and noise leaves it open; rows equal in print have no order"""
     made, words = Made(raingauge, "stuppacher-1"), "rates by model"
     ordered, turned = [10, 13, 13.1, 12.5, 11], [10, 13, 13.1, 12.5, 9]  # print has Buddha and the dragon equal
     return (settled(made.count(words, by_row(ordered), 0.005), YES) + settled(made.count(words, by_row(turned), 0.02), NO) +
@@ -165,7 +165,7 @@ def check_size(raingauge):
 
 
 def check_variants(raingauge):
-    """one variant that is a fifth faster in all rows, one that is not in the last row, and one exactly at the bound; missing rows confirm nothing"""
+    """one variant a fifth faster in all rows, one that is not in the last row, and one exactly at the bound; missing rows confirm nothing"""
     made, words = Made(raingauge, "ye-1"), "generated much faster"
     of = lambda last: lambda row, variant: 10 if variant == "heap" else 7.75 if row < 2 else last
     level = lambda row, variant: 10 if variant == "heap" else 10 / 1.2

@@ -29,8 +29,8 @@ static bool fail_on_cpu(struct rg_instance *instance)
     return rg_driver_error("kernel 'rain': its driver is tired");
 }
 
-// The difference of one texel of `cpu` from the other device's, in steps of a half: 1 is a
-// rounding, 80 some 4 codes of 255.
+// How far one texel of `cpu` is from the other device's, in steps of a half: 1 is a rounding, 80
+// some 4 codes of 255.
 static int steps_off;
 
 static bool draw(struct rg_instance *instance)
@@ -167,8 +167,8 @@ static void poses_say_how_long(void **state)
     expect_steps(RG_VERIFY_USUAL, 4, 3 * 4 + 8, "5 runs of 4 steps, identical to cpu:reference");
 }
 
-// Usual runs take a fifth of the full steps, but no fewer than the quick ones, without which it may
-// not rain, and no more than the full ones.
+// Usual runs take a fifth of the full steps, but no more than all of these, and no fewer than the
+// quick ones, without which it may not rain.
 static void usual_runs_are_shorter(void **state)
 {
     (void)state;

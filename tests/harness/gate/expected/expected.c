@@ -122,7 +122,7 @@ static const char own[] = "# known\n"
 struct judged {
     struct rg_known_result result;
     const char *today;
-    const char *word; // of rg_judged_word
+    const char *word; // as rg_judged_word gives it
 };
 
 static void judge(const struct rg_known *expected, const struct judged *rows, size_t count)
@@ -231,7 +231,7 @@ static void mesas_files_are_read_as_they_are(void **state)
     rg_known_free(&expected);
 }
 
-// --- what is wrong ---
+// --- errors in files ---
 
 #define REST "\n reason r\n since 2026-01-01\n until 2026-02-01\n"
 

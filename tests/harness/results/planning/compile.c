@@ -1,5 +1,5 @@
-// Drivers compile beforehand: one cell of each technique on each device with a driver, each in its
-// own process, as many at a time as there are cores. A script replaces the program.
+// Drivers compile beforehand: one cell of each technique on each device with a driver. Each
+// compiles in its own process, as many at a time as there are cores. A script replaces the program.
 #define _GNU_SOURCE // sched_setaffinity
 #include <setjmp.h>
 #include <stdarg.h>

@@ -190,8 +190,8 @@ static void rows_that_are_alike_are_told(void **state)
     assert_below(told.lines[0].at_ms - told.start_ms, 0.6 * (end_ms - told.start_ms));
 }
 
-// Frames take five times as long as in the warm-up: either all timed frames, or in a window those
-// from the tenth on, which the first samples do not show.
+// Frames take five times as long as in the warm-up: all timed ones, or in a window those from the
+// tenth on, which the first samples do not show.
 static void samples_tell_their_pace(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// The order in which tables are measured, as a function of what was measured and how long it took,
-// and the rows that curves and claims need.
+// The order in which tables are measured follows from earlier measurements and their times. Curves
+// and claims need certain rows.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -138,7 +138,7 @@ static void what_was_tried_is_not_tried_again(void **state)
 }
 
 // A cell's time is estimated from its own table's, or from its technique's, by how that device
-// compares with others there; else from the device's time elsewhere.
+// compares with others there. Otherwise it is the device's time elsewhere.
 static void what_cells_take_follows_from_others(void **state)
 {
     (void)state;

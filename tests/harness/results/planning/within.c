@@ -141,7 +141,7 @@ static void expect_told(const char *words)
 // most samples.
 static const double most_cell_s = 1e-3 * ((400 + 50 + 2 * 10 * 440) + 1000 + 40 * 3 * 440);
 
-// --- what comes first ---
+// --- the order ---
 
 static void all_is_measured_where_there_is_time(void **state)
 {
