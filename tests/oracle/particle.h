@@ -22,8 +22,8 @@ struct particle_seen {
     double margin_m; // the distance of a length from the next change of state
 };
 
-// The state of a particle that began at clip coordinates (x, y), `start` of the way through the
-// local space, after all have run `run` of the way, over a surface at `hit`.
+// The state of a particle over a surface at `hit`. It began at clip coordinates (x, y), `start` of
+// the way through the local space; all have run `run` of the way.
 struct particle_seen particle_oracle(const struct particle_space *space, double x, double y,
                                      double start, double run, double hit);
 

@@ -1,5 +1,5 @@
-// A rasteriser that shares nothing with kernels/: the pixels that a polygon covers, in exact
-// integers, and where a ray through a pixel's centre meets a face, in double precision.
+// A rasteriser that shares nothing with kernels/. In exact integers, it finds the pixels that a
+// polygon covers; in double precision, where a ray through a pixel's centre meets a face.
 #ifndef RG_TESTS_ORACLE_RASTER_H
 #define RG_TESTS_ORACLE_RASTER_H
 

@@ -26,8 +26,8 @@ struct oracle_drop {
 // Eq. 2: the distance at which a drop of this height is a pixel high.
 double oracle_farthest(double drop_height_m, double beta, int height_px);
 
-// A place for the viewer: the distance ahead, and the shares of half the view's width and height by
-// which it is beside and above the middle. Visible places have shares of -1 to 1.
+// A place for the viewer: the distance ahead, and how far it is beside and above the middle, as
+// shares of half the view's width and height. Visible places have shares of -1 to 1.
 struct oracle_sight {
     double ahead, across, up;
 };
@@ -41,8 +41,8 @@ double oracle_share(const struct oracle_rain *rain, const struct oracle_drop *dr
 // Eqs. 14 and 15, or 16 to 18: a drop after one step.
 struct oracle_drop oracle_moved(const struct oracle_rain *rain, const struct oracle_drop *drop);
 
-// The distance of a drop inside the visible body, in metres: that from the nearest of the six
-// sides, which are planes through the body's corners. Below 0 the drop has left.
+// The distance of a drop inside the visible body, in metres, to the nearest of the six sides. The
+// sides are planes through the body's corners. Below 0 the drop has left.
 double oracle_inside(const struct oracle_rain *rain, const struct oracle_drop *drop);
 
 // Spherical coordinates of a place, by eqs. 3 to 5.

@@ -46,8 +46,8 @@ static struct vec ray_of(const struct scene_oracle *o, double x_px, double y_px)
     return plus(plus(o->ahead, u, o->right), v, o->down);
 }
 
-// The distance of a face along a ray, with the weights of its second and third corner; below 0: the
-// ray misses it (Moeller and Trumbore, 1997).
+// The distance of a face along a ray, with the weights of its second and third corner (Moeller and
+// Trumbore, 1997). Below 0 the ray misses the face.
 static double meet(const struct scene_oracle *o, struct vec ray, int face, double weights[2])
 {
     const uint32_t *k = o->indices + 3 * (uint64_t)face;

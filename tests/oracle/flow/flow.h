@@ -1,7 +1,7 @@
 // An independent model of water on a pane, in double precision and whole droplets.
 //
 // Written from the equations of Stuppacher & Supan (2007) and the rules of docs/flow.md, without
-// anything of kernels/ or core/techniques/: it pushes water where the kernels pull it, has no
+// anything of kernels/ or core/techniques/. It pushes water where the kernels pull it, has no
 // margins, counts droplets in integers, and turns the pane by rotating vectors. Both share only
 // inputs: the maps' values and the list of drops.
 #ifndef RG_TESTS_ORACLE_FLOW_FLOW_H

@@ -1,5 +1,6 @@
-// A ray caster of flow's box and of its one pane, in double precision: the pictures that
-// cpu:reference has to draw, from docs/flow.md without anything of kernels/ or core/techniques/.
+// A ray caster of flow's box and of its one pane, in double precision: it makes the pictures that
+// cpu:reference has to draw. Written from docs/flow.md without anything of kernels/ or
+// core/techniques/.
 #ifndef RG_TESTS_ORACLE_FLOW_PICTURE_H
 #define RG_TESTS_ORACLE_FLOW_PICTURE_H
 

@@ -81,7 +81,7 @@ static void draw_part(const struct streak_view *view, const struct streak_far *f
                       double last, double light[3])
 {
     // The share of the ray that drops cover, times the ratio of a drop's time at a place to the
-    // atlas' time there: a cell of the atlas is 32 texels wide, a drop 23.744.
+    // atlas' time there. A cell of the atlas is 32 texels wide, a drop 23.744.
     const double shown = fmin(fabs(ray->elevation), STREAK_VIEWS - 1);
     const double covers = far->drops_m3 * (last - first) * 2 * far->radius_m *
                           (2 * far->radius_m * 32 / 23.744) / streak_atlas_share(shown);

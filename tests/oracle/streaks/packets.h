@@ -17,8 +17,8 @@ double oracle_evenness(double *numbers, int64_t count);
 uint64_t oracle_random(uint64_t *state);
 double oracle_uniform(uint64_t *state, double low, double high);
 
-// The rain frame by its documentation: x, y and s of a world point or direction, with its origin in
-// the world, for rain that falls along `fall`.
+// The documented rain frame, for rain that falls along `fall`: x, y and s of a world point or
+// direction, with its origin in the world.
 struct oracle_frame {
     double origin[3], axes[3][3];
 };
