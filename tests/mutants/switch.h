@@ -1,5 +1,5 @@
-// Picks a fault in a copy of the source that has them all (mutants.py puts this line into each file
-// that it changes): the one whose number is in the environment's RG_MUTANT; without it, none.
+// Picks the fault whose number is in the environment's RG_MUTANT, or none. It is for a copy of the
+// source that has all faults; mutants.py puts this line into each file that it changes.
 #ifndef RG_TESTS_MUTANTS_SWITCH_H
 #define RG_TESTS_MUTANTS_SWITCH_H
 
