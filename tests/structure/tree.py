@@ -1,10 +1,10 @@
-"""What the sources of raingauge include, define and use, read from their text.
+"""Reads from their text what the sources of raingauge include, define and use.
 
-A unit is a header and the source of the same name beside it (`core/scene/camera.h` and `camera.c`), or either alone. Unit
-A uses unit B if A includes B's header, or names a function or an object that B defines for others: an umbrella header
-such as `backends/gl/gl.h` declares the functions of many sources, so that includes alone would hide who needs whom.
-Definitions are found by their form, which clang-format keeps: they begin at the first column, and a function's brace
-stands alone. That needs no build, so that any commit can be measured.
+A unit is a header and the source of the same name beside it (`core/scene/camera.h` and `camera.c`), or either alone. Unit A uses
+unit B if A includes B's header, or names a function or an object that B defines for others. Includes alone would hide that: an
+umbrella header such as `backends/gl/gl.h` declares the functions of many sources. Definitions are found by their form, which
+clang-format keeps: they begin at the first column, and a function's brace stands alone. This needs no build, so that any commit
+can be measured.
 """
 import os
 import re
