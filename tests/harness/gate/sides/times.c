@@ -39,8 +39,7 @@ static void a_gate_ends_where_no_look_is_to_be_had(void **state)
     } rows[] = {
         {0, 0, 100, false, 100},    // no launch was taken yet
         {0, 0, 1000, true, 1000},   // no time is left
-        {0, 500, 700, false, 4200}, // the first launch of all ends nothing, though its look is
-                                    // given
+        {0, 500, 700, false, 4200}, // the first launch ends nothing; its look is given
         {1, 100, 300, false, 900},  // six more
         {1, 120, 300, true, 1020},
         {6, 100, 800, false, 900},
