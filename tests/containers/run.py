@@ -10,7 +10,7 @@
            all wants     all of it
            links         output through links that other users put into a folder for all
 
-Prints TAP, for meson. What needs a namespace of its own is skipped where it may not have one.
+Prints TAP, for meson. A test that needs its own namespace is skipped if it may not have one.
 """
 import os
 import sys
