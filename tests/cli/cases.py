@@ -1,4 +1,4 @@
-"""Cases: a command line, its exit status, its message, the files it leaves. A new command adds rows."""
+"""Cases: a command line, its exit status, its message, and the files it leaves. A new command adds rows."""
 import collections
 import os
 import re
@@ -105,7 +105,7 @@ COMMANDS = [
     Case("doctor cpu", 2, r"doctor: 'cpu' is one argument too many"),
     Case("doctor --device cpu", 0, None),
 
-    # diff: what is given and not used
+    # diff: unused arguments
     Case("diff flow --device cpu,,cpu:reference", 2, r"--device 'cpu,,cpu:reference': names no device beside a comma"),
     Case("diff flow --device ,cpu,cpu:reference", 2, r"names no device beside a comma"),
     Case("diff flow --device cpu,cpu:reference --background {data}/a.png", 2, r"--background: belongs to `diff A B`, and 1 argument is given; leave it out"),
@@ -128,11 +128,11 @@ COMMANDS = [
     Case("verify raster --stages --frame 0 --device cpu", 2, r"--frame 0: --stages compares what the stages of frames leave, at least of 1"),
     Case("verify raster --stages --frame 1 --size 32x32 --device cpu", 0, None),
 
-    # a variable that says nothing of use
+    # a variable with an unusable value
     *[Case("render raster --frame 0 --size 32x32 -o {tmp}/a.png", 0, r"warning: RG_MEMORY_BYTES=%s: is no whole number of bytes above 0, and is ignored; " % text,
            {"RG_MEMORY_BYTES": text}, made=("a.png",)) for text in ("abc", "1G", "0", "-5", "99999999999999999999")],
 
-    # values that are empty
+    # empty values
     Case("diff flow --device cpu,cpu:reference --output=", 2, r"--output '': is empty"),
     Case("shrink flow --device cpu,cpu:reference --output=", 2, r"--output '': is empty"),
     Case("table --require=", 2, r"--require '': is empty"),
@@ -149,7 +149,7 @@ COMMANDS = [
     Case("sweep flow --axis seed=1,,2", 2, r"--axis seed=1,,2: write it as NAME=VALUE,VALUE"),
     Case("sweep flow --axis drops=-1", 2, r"parameter 'drops': -1 is out of range; 0 to 100000$"),
 
-    # what is written replaces nothing that is read
+    # outputs never replace inputs
     Case("diff {data}/in-flip.png {data}/b.png -o {data}/in", 2, r"in-flip\.png: would be overwritten, and is read as '.*/in-flip\.png'; name another with -o"),
     Case("diff {data}/b.png {data}/in-difference.png -o {data}/in", 2, r"in-difference\.png: would be overwritten, and is read as"),
     Case("diff {data}/a.png {data}/b.png --background {data}/in-flip.png -o {data}/in", 2, r"in-flip\.png: would be overwritten"),
@@ -164,7 +164,7 @@ COMMANDS = [
     Case("shrink drops --device nonsense,cpu --set background={data}/in.files/a.png -o {data}/in", 2,
          r"in\.files: would be overwritten, and is read from '.*/in\.files/a\.png'; name another case with -o"),
 
-    # what is no file: nothing waits for it
+    # FIFOs and sockets: no command waits for them
     Case("gate cpu cpu --cells {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
     Case("gate cpu cpu --expectations {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
     Case("gate cpu cpu --fails {data}/socket.json", 2, r"socket\.json: is not a regular file"),
@@ -285,7 +285,7 @@ RENDERS = [
     # figures
     Case("figures creus-4.11a --size 64x36 -o {tmp}", 0, None, made=("creus-4.11a.exr", "creus-4.11a.png", "figures.md")),
 
-    # what it is asked
+    # arguments
     Case("render", 2, r"no technique named; `raingauge list techniques`"),
     Case("render nonsense", 2, r"technique 'nonsense': unknown; the nearest is '.*', and `raingauge list techniques`"),
     Case("render flow flow", 2, r"'flow' is one argument too many"),
@@ -327,7 +327,7 @@ RENDERS = [
     Case(RENDER + "-o {tmp}/a.png -z", 2, r"-z: unknown option"),
     Case(RENDER + "--output", 2, r"--output: .*`raingauge render --help`"),
 
-    # what it reads
+    # inputs
     Case(RENDER + "--set environment=/nonexistent.exr -o {tmp}/a.png", 2, r"/nonexistent\.exr: .*check the name"),
     Case(RENDER + "--set environment={data}/short.ktx -o {tmp}/a.png", 2, r"short\.ktx: .*truncated"),
     Case(RENDER + "--set environment={data}/half.ktx -o {tmp}/a.png", 2, r"half\.ktx: "),
@@ -339,11 +339,11 @@ RENDERS = [
     Case(RENDER + "--set model={data}/a.png -o {tmp}/a.png", 2, r"a\.png: Assimp cannot read it"),
     Case(RENDER + "--set model={data}/folder.exr -o {tmp}/a.png", 2, r"folder\.exr: "),
     Case(RENDER + "--set model=sphere --set model_faces=1 -o {tmp}/a.png", 2, r"sphere: .*1 faces; ask for more"),
-    # a model stands in a box of glass alone, and is not looked for elsewhere
+    # only a box of glass holds a model; elsewhere its file is not looked for
     Case(RENDER + "--set panes=mirror --set model=nonsense -o {tmp}/a.png", 0, None, made=("a.png",)),
     Case(RENDER + "--set view=pane --set model=nonsense -o {tmp}/a.png", 0, None, made=("a.png",)),
 
-    # rain that cannot be
+    # impossible rain
     Case(RAIN + "--set density_map=/nonexistent.png -o {tmp}/a.png", 2, r"/nonexistent\.png: .*check the name"),
     Case(RAIN + "--set density_map={data}/folder.exr -o {tmp}/a.png", 2, r"folder\.exr: "),
     Case(PANE + "--set background=/nonexistent.png -o {tmp}/a.png", 2, r"/nonexistent\.png: .*check the name"),
@@ -401,11 +401,11 @@ RENDERS = [
     Case(RENDER + "--set spin_roll_deg_s=1e9 -o {tmp}/a.png", 2, r"parameter 'spin_roll_deg_s': 1e9 is out of range"),
     Case(RENDER + "--set glow=2 -o {tmp}/a.png", 2, r"parameter 'glow': 2 is out of range; 0 to 1"),
     Case(RENDER + "--set model_size=0 -o {tmp}/a.png", 2, r"parameter 'model_size': 0 is out of range; 0\.01 to 1"),
-    # the camera inside the box, and far off
+    # the camera inside the box, and far away
     Case(RENDER + "--set model=sphere --set distance_mm=1 -o {tmp}/a.png", 0, None, made=("a.png",)),
     Case(RENDER + "--set model=sphere --set distance_mm=1000000 --set pane_mm=1 -o {tmp}/a.png", 0, None, made=("a.png",)),
 
-    # what it writes
+    # outputs
     Case(RENDER + "-o {tmp}/a.png", 0, None, made=("a.png",)),
     Case(RENDER + "-o {tmp}/a.exr", 0, None, made=("a.exr",)),
     Case(RENDER + "-o {tmp}/a.hdr", 0, None, made=("a.hdr",)),
@@ -432,7 +432,7 @@ RENDERS = [
 ]
 
 TABLES = [
-    # what it is asked
+    # arguments
     Case("table stupacher-2", 2, r"table 'stupacher-2': unknown; the nearest is 'stuppacher-2', and `raingauge list tables` prints them"),
     Case("table --rows 0-1", 2, r"--rows 0-1: rows count from 1, the first not after the last"),
     Case("table --rows 3-2", 2, r"--rows 3-2: rows count from 1, the first not after the last"),
@@ -480,7 +480,7 @@ TABLES = [
     Case("table --device nonsense", 2, UNKNOWN_DEVICE),
     Case("table --device ,", 2, r"--device ',': names no device"),
 
-    # what it writes
+    # outputs
     Case(TABLE, 0, None),
     Case(TABLE + "-o {tmp}", 0, None, made=TABLE_FILES),
     Case(TABLE + "stuppacher-2 -o {tmp}", 0, None, made=TABLE_FILES),
@@ -498,7 +498,7 @@ WITH_DRIVERS = [
          {"XDG_DATA_DIRS": "/nonexistent"}),
     Case("list devices", 0, r"cpu: RG_CPU_LEVEL=v9 is no level .*; use plain, v2, v3 or v4$", {"RG_CPU_LEVEL": "v9"}),
 
-    # what is absent
+    # absent drivers
     Case(RENDER + "--device vulkan -o {tmp}/a.png", 77, NO_VULKAN, NO_DRIVERS),
     Case(RENDER + "--device opencl -o {tmp}/a.png", 77, NO_OPENCL, NO_DRIVERS),
     Case(RENDER + "--device gl -o {tmp}/a.png", 77, NO_GL, NO_DRIVERS),
@@ -511,7 +511,7 @@ WITH_DRIVERS = [
     Case("diff flow --frame 1 " + SMALL, 0, ABSENT, NO_DRIVERS),
     Case("verify flow --stages " + SMALL, 0, ABSENT, NO_DRIVERS),
 
-    # a folder of kernels that are no files
+    # a folder of kernels that are FIFOs
     Case(RENDER + "--device opencl -o {tmp}/a.png", 2, r"fifos/.*\.cl: cannot be read; RG_KERNEL_DIR must hold",
          {"RG_KERNEL_DIR": "{data}/fifos"}),
 
@@ -524,7 +524,7 @@ WITH_DRIVERS = [
 
 
 def write_what_is_no_file(runner, data):
-    """FIFOs that nobody writes, and a socket."""
+    """FIFOs without a writer, and a socket."""
     database = os.path.join(data, "fifos", "point_light_database", "txt")
     os.makedirs(database)
     for name in ("fifo.png", "fifo.tif", "fifo.json", "fifo.ktx", "fifo.obj", "fifo.txt", "fifos/stuppacher-2.tex", "fifos/sweep-flow.json",

@@ -1,4 +1,4 @@
-"""render --frames: clips, which are taken apart and decoded again, and numbered pictures."""
+"""render --frames: clips, which are parsed and decoded again, and numbered pictures."""
 import glob
 import json
 import os
@@ -13,7 +13,7 @@ import zlib
 import forms
 from cases import FRAMES, RAIN
 
-# The box spins fast enough that each frame is another picture; the width is odd.
+# The box spins fast enough that each frame differs; the width is odd.
 FIRST, COUNT, WIDTH, HEIGHT, FPS = 3, 6, 75, 64, 25
 SPIN = ("render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --set model=none "
         "--set spin_yaw_deg_s=900 --size %dx%d " % (WIDTH, HEIGHT))
@@ -132,7 +132,7 @@ def decode(path, width, height):
 
 
 def check_clip(runner):
-    """a clip has each of its frames, in order, as `render --frame` draws it, and its size, speed and kind of colours"""
+    """a clip has all its frames in order, as `render --frame` draws them, and its size, speed and colour space"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         result = runner.run((CLIP + "-o %s/a.webm --json" % tmp).split())
@@ -159,7 +159,7 @@ def check_clip(runner):
 
 
 def compare(frames, pictures):
-    """Problems: where a frame is not its picture, or another picture's."""
+    """Problems: frames that are not their own picture, or are another's."""
     problems = [] if len(frames) == len(pictures) else ["%d frames, not %d" % (len(frames), len(pictures))]
     for i, frame in enumerate(frames):
         far = [distance(frame, picture) for picture in pictures]
@@ -180,7 +180,7 @@ def check_same_bytes(runner):
         for name in "ab":
             texts.append(runner.run((CLIP + "-o %s/%s.webm" % (tmp, name)).split()).stdout)
             now = int(time.time())
-            wait_until(lambda: int(time.time()) > now)  # vpxenc would derive the track's number from the time
+            wait_until(lambda: int(time.time()) > now)  # otherwise vpxenc would derive the track's number from the same second
         same = read(tmp + "/a.webm") == read(tmp + "/b.webm")
     said = re.match(r".*/a\.webm: flow, frames 3-8, 25 a second, 75x64, on cpu ", texts[0])
     return [] if same and said else ["the same: %s, printed: %s" % (same, texts[0])]
@@ -205,10 +205,10 @@ def check_series(runner):
     return problems
 
 
-# --- what goes wrong ---
+# --- failures ---
 
 def with_encoder(folder, script):
-    """Variables with which raingauge finds this script as vpxenc."""
+    """Variables with which raingauge takes this script for vpxenc."""
     path = os.path.join(folder, "vpxenc")
     with open(path, "w") as file:
         file.write("#!/bin/sh\n" + script)
@@ -228,7 +228,7 @@ FAILURES = {
 
 
 def check_failing_encoder(runner):
-    """a vpxenc that fails, crashes or makes nothing is told in one line, and leaves nothing"""
+    """a vpxenc that fails, crashes or makes nothing is reported in one line, and leaves nothing"""
     problems = []
     for script, says in FAILURES.items():
         with tempfile.TemporaryDirectory() as tmp, tempfile.TemporaryDirectory() as fake:
@@ -240,7 +240,7 @@ def check_failing_encoder(runner):
 
 
 def check_hanging_encoder(runner):
-    """a vpxenc that takes nothing, codes nothing or stops is ended and told in one line; one that is slow and goes on is waited for"""
+    """a vpxenc that takes nothing, codes nothing or stops is ended and reported in one line; a slow one is waited for"""
     problems = []
     slow = "for i in 1 2 3 4 5 6; do sleep 0.4; echo webm >&1; done; cat > /dev/null"
     for script in ("exec sleep 1000", "cat > /dev/null; exec sleep 1000", "exec <&-; exec sleep 1000", "kill -STOP $$", slow):
@@ -273,8 +273,8 @@ def wait_until(holds, limit_s=60):
 
 
 def interrupted(runner, args, env, ready, number=signal.SIGINT):
-    """Sends a signal to a command that is `ready`: its exit status, messages, and the children that outlive it. One that
-    does not end is killed."""
+    """Sends a signal to a command once it is `ready`. Returns its exit status, its messages, and the children that outlive it. A
+    command that does not end is killed."""
     process = runner.start(args.split(), env)
     wait_until(lambda: process.poll() is not None or ready(process.pid))
     encoders = children(process.pid)
@@ -289,7 +289,7 @@ def interrupted(runner, args, env, ready, number=signal.SIGINT):
 
 
 def check_interrupted_clip(runner):
-    """Ctrl-C ends a clip and its vpxenc, also one that hangs, and leaves no file"""
+    """Ctrl-C ends a clip and its vpxenc, even one that hangs, and leaves no file"""
     problems = []
     for number, frames, script in ((signal.SIGINT, "0-1000000", None), (signal.SIGINT, "0-1000000", "exec sleep 1000"),
                                    (signal.SIGTERM, "0-1", "cat > /dev/null; touch $0.end; exec sleep 1000")):
@@ -306,7 +306,7 @@ def check_interrupted_clip(runner):
 
 
 def check_interrupted_series(runner):
-    """Ctrl-C ends numbered pictures between two frames, and says which are written"""
+    """Ctrl-C ends numbered pictures between two frames, and a line names the written ones"""
     with tempfile.TemporaryDirectory() as tmp:
         status, messages, _ = interrupted(runner, SPIN + "--frames 5-1000000 -o %s/%%d.png" % tmp, {},
                                           lambda pid: os.path.exists(tmp + "/8.png"))

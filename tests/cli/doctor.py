@@ -1,4 +1,4 @@
-"""`raingauge doctor`: what its report says of this machine and of broken ones."""
+"""`raingauge doctor`: its report on this machine and on broken ones."""
 import json
 import os
 import re
@@ -10,7 +10,7 @@ from runner import NO_DRIVERS
 
 
 def examine(runner, args, env={}):
-    """A doctor's report as JSON, its exit status and its messages, with what the schema says against it."""
+    """A doctor's report as JSON, its exit status and its messages, with the schema's objections."""
     result = runner.run(["doctor", "--json"] + args, env)
     report = json.loads(result.stdout)
     return report, result.returncode, result.stderr + "".join(line + "\n" for line in forms.problems("doctor", report))
@@ -40,7 +40,7 @@ def check_devices(runner):
 
 
 def check_passport(runner):
-    """The passport says where numbers come from, and nothing that changes by itself."""
+    """The passport says where numbers come from, and has nothing that changes by itself."""
     variables = {"GOMP_SPINCOUNT": None, "LP_NUM_THREADS": "3", "RG_KERNEL_DIR": "/nonexistent"}
     passport, again = (examine(runner, ["--device", "cpu"], variables)[0]["passport"] for _ in range(2))
     problems = [] if passport == again else ["two passports of one machine differ"]
@@ -57,7 +57,7 @@ def check_passport(runner):
 
 
 def check_missing(runner):
-    """Where drivers are absent, the report names the package that brings them, or the variable that hides them."""
+    """If drivers are absent, the report names the package that has them, or the variable that hides them."""
     hidden = {name: value for name, value in NO_DRIVERS.items() if name != "VK_DRIVER_FILES"}
     result = runner.run(["doctor"], dict(hidden, XDG_DATA_DIRS="/nonexistent"))
     text = " ".join(result.stdout.split())
@@ -70,7 +70,7 @@ def check_missing(runner):
 
 
 def check_warnings(runner):
-    """Thread variables that differ, and a kernel folder, are warned of."""
+    """Differing thread variables, and a kernel folder, cause warnings."""
     report = examine(runner, ["--device", "cpu"], {"LP_NUM_THREADS": "1", "POCL_MAX_PTHREAD_COUNT": "2", "OMP_NUM_THREADS": "2",
                                                    "RG_KERNEL_DIR": "/nonexistent"})[0]
     warnings = "\n".join(report["warnings"])
@@ -100,7 +100,7 @@ def check_crash(runner):
 
 
 def check_wrong_arithmetic(runner):
-    """One operation that is wrong on one device is found and named, and the exit status is 1."""
+    """One wrong operation on one device is found and named, and the exit status is 1."""
     right, wrong = "floatBitsToUint(a *b)", "(floatBitsToUint(a *b) ^ 1u)"
     with tempfile.TemporaryDirectory() as tmp:
         kernels = runner.kernels_with(tmp, "probe_ops.glsl", right, wrong)
@@ -121,7 +121,7 @@ def check_wrong_arithmetic(runner):
 
 
 def check_drawing(runner):
-    """A device that makes no pipeline, or draws another picture, is found, whichever API; and each draws into three formats."""
+    """A device of any API that makes no pipeline, or draws another picture, is found; each device draws into three formats."""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         for device, function, how, status, says in (
@@ -147,7 +147,7 @@ def problems_drawn(runner, device, env, wanted, says):
 
 
 def check_own_rounding(runner):
-    """gl and vulkan run the programs that round quotients themselves where they are asked to, and no others"""
+    """gl and vulkan run the programs that round quotients themselves on request, and no others"""
     problems = []
     own = {"RG_ROUNDING": "own"}
     with tempfile.TemporaryDirectory() as tmp:
@@ -172,7 +172,7 @@ def check_own_rounding(runner):
 
 
 def check_own_blending(runner):
-    """programs of gl and vulkan blend where they are asked to, draw what the driver draws, and doctor tells of the variable"""
+    """programs of gl and vulkan blend on request, draw what the driver draws, and doctor names the variable"""
     problems = []
     report, status, errors = examine(runner, ["--device", "gl,vulkan"], {"RG_BLENDING": "program"})
     for name, device in by_name(report).items():
@@ -186,7 +186,7 @@ def check_own_blending(runner):
 
 
 def check_full(runner):
-    """a report that does not fit on standard output is an error of its own, also of a device that is not supported"""
+    """a report that does not fit on standard output is an error of its own, also for a device that is not supported"""
     with open("/dev/full", "w") as full:
         result = runner.run("doctor --device vulkan".split(), NO_DRIVERS, stdout=full)
     if result.returncode != 71 or not re.fullmatch(r"raingauge: .*no Vulkan driver.*\nraingauge: standard output: .*\n", result.stderr):

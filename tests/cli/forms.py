@@ -1,4 +1,4 @@
-"""The machine forms against docs/records.schema.json, which users hold them against."""
+"""Compares the machine forms with docs/records.schema.json, by which users check them."""
 import functools
 import json
 import os
@@ -10,7 +10,7 @@ DOCS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "doc
 
 
 def closed(schema):
-    """The schema with no room for fields that it does not name: readers skip them, we say what each is."""
+    """The schema without room for unnamed fields: readers skip these, but raingauge documents every field."""
     if isinstance(schema, list):
         return [closed(part) for part in schema]
     if not isinstance(schema, dict):
@@ -35,26 +35,26 @@ def validator(form):
 
 
 def problems(form, document):
-    """What of a document is not as the schema has this form: "table", "diff", ..."""
+    """Problems: places where a document departs from the schema of a form: "table", "diff", ..."""
     errors = sorted(validator(form).iter_errors(document), key=lambda error: list(map(str, error.absolute_path)))
     return ["%s --json: %s: %s" % (form, "/".join(map(str, error.absolute_path)), error.message[:300]) for error in errors[:5]]
 
 
 def unsealed(record):
-    """A record of a table whose cells have no checksum, as those of before there were any: it can be changed."""
+    """A table's record without checksums, as before there were any, so that it can be changed."""
     for cell in record["cells"]:
         cell.pop("checksum", None)
     return record
 
 
 def described(part):
-    """Whether a field's schema, or the one that it refers to, says what the field means; what is constant needs no words."""
+    """Whether a field's schema, or the one that it refers to, describes the field; a constant needs no words."""
     target = schema()["$defs"].get(part.get("$ref", "").split("/")[-1], {})
     return bool("const" in part or part.get("description") or target.get("description"))
 
 
 def silent(part, place):
-    """The places of all fields of a schema that nothing describes."""
+    """The places of all fields of a schema without a description."""
     if isinstance(part, list):
         return [name for inner in part for name in silent(inner, place)]
     if not isinstance(part, dict):
@@ -66,7 +66,7 @@ def silent(part, place):
 
 
 def undocumented():
-    """Fields that the schema does not describe, and forms that docs/records.md does not tell of."""
+    """Fields that the schema does not describe, and forms that docs/records.md does not name."""
     with open(os.path.join(DOCS, "records.md")) as file:
         told = set(re.findall(r"`([^`]+)`", file.read()))
     every = [form["$ref"].split("/")[-1] for form in schema()["oneOf"]]

@@ -1,4 +1,4 @@
-"""`meson install`: what it puts where, and that the installed program runs by itself."""
+"""`meson install`: which files it installs where, and whether the installed program runs by itself."""
 import json
 import os
 import subprocess
@@ -17,7 +17,7 @@ RENDER = "render flow --set environment=sky --set environment_px=16 --set resolu
 
 
 def install(runner, folder):
-    """Installs into a folder; where it is, as the build's options say, relative to that."""
+    """Installs into a folder. Returns the paths of the build's options, relative to that folder."""
     build = os.path.dirname(os.path.dirname(runner.raingauge))
     done = subprocess.run(["meson", "install", "-C", build, "--destdir", folder, "--no-rebuild", "--quiet"],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8")
@@ -42,7 +42,7 @@ def check_install(runner):
 
 
 def draw(runner, installed):
-    """Problems: where the installed program, alone in a folder, draws something else than the build's."""
+    """Problems if the installed program, alone in a folder, draws another picture than the build's."""
     with tempfile.TemporaryDirectory() as folder:
         model = os.path.join(folder, "tetrahedron.obj")
         with open(model, "w") as file:

@@ -1,4 +1,4 @@
-"""The tables that the repository keeps: what is printed from each record is what lies beside it."""
+"""The tables in the repository: each record prints as the files next to it."""
 import csv
 import io
 import json
@@ -31,7 +31,7 @@ def python(*args):
 
 
 def check_printed(runner):
-    """each table that is kept has a record, from which table --from prints its other forms byte for byte"""
+    """each stored table has a record, from which table --from prints its other forms byte for byte"""
     tables = [table["name"] for table in json.loads(runner.run(["list", "tables", "--json"]).stdout)["tables"]]
     wanted = sorted("%s.%s" % (table, form) for table in tables for form in FORMS)
     problems = [] if sorted(os.listdir(KEPT)) == wanted else ["kept: %s" % sorted(os.listdir(KEPT))]
@@ -46,7 +46,7 @@ def check_printed(runner):
 
 
 def check_compact(runner):
-    """keep.py makes the same records of what table -o writes of them, a line a cell, and leaves nothing behind"""
+    """keep.py makes the same records from the files of table -o, a line a cell, and leaves nothing behind"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         runner.run(["table", "--from", KEPT, "-o", tmp + "/written"])
@@ -66,7 +66,7 @@ def check_compact(runner):
 
 
 def of_another_commit(runner, text, folder):
-    """What a record would be had it been measured with another commit."""
+    """A record as if it had been measured with another commit."""
     record = forms.unsealed(json.loads(text))
     record["passport"]["raingauge"]["commit"] = "0" * 40
     pathlib.Path(folder, "other.json").write_text(json.dumps(record), encoding="utf-8")
@@ -76,7 +76,7 @@ def of_another_commit(runner, text, folder):
 
 
 def damages(other):
-    """What a hand or a merge does to a record of stuppacher-2, and what is said of it. `other`: a record of another commit."""
+    """Damage by hand or by a merge to a record of stuppacher-2, and the line about it. `other`: a record of another commit."""
     def with_cell(cell, change):
         def damage(record):
             change(record, record["cells"][cell])
@@ -111,7 +111,7 @@ def damages(other):
 
 
 def check_damaged(runner):
-    """a record of which something was changed by hand or in a merge is refused with one line that names the cell, and nothing of it is printed"""
+    """a record changed by hand or in a merge is refused with one line that names the cell, and no part of it is printed"""
     problems = []
     text = read(KEPT, "stuppacher-2.json")
     with tempfile.TemporaryDirectory() as tmp:
@@ -138,7 +138,7 @@ def check_damaged(runner):
 
 
 def check_walk(runner):
-    """the README, docs/tables.md and docs/claims.md show what table --from prints of the tables that are kept, and walk.py notices where one does not"""
+    """the README, docs/tables.md and docs/claims.md show the stored tables as table --from prints them, and walk.py notices differences"""
     with tempfile.TemporaryDirectory() as tmp:
         page = os.path.join(tmp, "page.md")
         def walk(*words):
@@ -156,7 +156,7 @@ def check_walk(runner):
 
 
 def check_scripts(runner):
-    """what the scripts of results/ cannot read is one line that names it, and exit status 2; nothing is written"""
+    """a file that the scripts of results/ cannot read ends with one line that names it, and exit status 2; nothing is written"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         with open(os.path.join(tmp, "raster-1.json"), "w") as file:
@@ -186,7 +186,7 @@ def check_scripts(runner):
     return problems
 
 
-# A table of each technique whose first row takes little time, and the parts of it that are measured.
+# A table of each technique whose first row takes little time, and the parts of it to measure.
 COUNTED = {
     ("chin-grid", "creus-5.2", "feng-2", "raster-1", "stuppacher-2", "ye-1"): (),
     ("creus-5.4",): ("--work", "paper", "--variant", "no_geometry"),
@@ -198,7 +198,7 @@ def without_first_row(record):
 
 
 def check_counted(runner):
-    """rows that are measured anew count what the tables that are kept do, to the last error, and same.py says of which cell something differs"""
+    """rows measured anew have the stored tables' counts, to the last error, and same.py names the cell that differs"""
     changes = {
         r"tally\.items is \d+, and 1 was kept": lambda record: record["cells"][0]["tally"].update(items=1),
         r"tally\.records is \d+, and null was kept": lambda record: record["cells"][0]["tally"].pop("records"),
@@ -228,7 +228,7 @@ def check_counted(runner):
 
 
 def check_colours(runner):
-    """on a terminal what is faster than print, or is reproduced, is green, but not what is faster than our own; headings are plain, and all is where the terminal or the user wants none"""
+    """on a terminal, cells faster than print and reproduced claims are green, but not those faster than ours alone; headings are plain; colours can be off"""
     args = ["table", "stuppacher-2", "--from", KEPT]
     plain = runner.run(args).stdout
     shown = runner.on_terminal(args, {"TERM": "xterm", "NO_COLOR": None}).stdout
@@ -244,7 +244,7 @@ def check_colours(runner):
 
 
 def check_failed_colours(runner):
-    """on a terminal cells that failed, in whichever way, are red, and those that are not supported yellow"""
+    """on a terminal failed cells are red, in whichever way they failed, and unsupported ones yellow"""
     due = {"fail": "31", "error": "31", "crash": "31", "timeout": "31", "unsupported": "33"}
     record = forms.unsealed(json.loads(read(KEPT, "stuppacher-2.json")))
     for cell, status in zip(record["cells"], due):
@@ -258,14 +258,14 @@ def check_failed_colours(runner):
 
 
 def row_name(row):
-    """What reasons call a row: its values, each with its name but for a first one that is a text."""
+    """A row's name in reasons: its values, each with its name, except a first one that is a text."""
     words = ["%s %s" % (name, value if isinstance(value, str) else "%.10g" % value) for name, value in row.items()]
     first = next(iter(row.values()))
     return ", ".join([first] + words[1:] if isinstance(first, str) else words)
 
 
 def reason_problems(wide):
-    """Reasons that name no row of their table in full, or tell a rate as a power of ten."""
+    """Reasons that do not name a row in full, or print a rate as a power of ten."""
     problems = []
     for table, reason in re.findall(r"(?m)^- ([a-z0-9.-]+), (.* fps.*)$", wide):
         rows = {row_name(cell["row"]) for cell in json.loads(read(KEPT, table + ".json"))["cells"]}
@@ -275,7 +275,7 @@ def reason_problems(wide):
 
 
 def check_claims(runner):
-    """table --claims judges what papers claim of the tables that are kept, each on its devices, and one alone; --wide has every reason"""
+    """table --claims judges the papers' claims about the stored tables, on each device and on one alone; --wide has every reason"""
     printed = runner.run(["table", "--claims", "--from", KEPT, "--format", "csv"])
     rows = list(csv.DictReader(io.StringIO(printed.stdout)))
     verdicts = {verdict for row in rows for verdict in list(row.values())[3:] if verdict}
@@ -290,14 +290,14 @@ def check_claims(runner):
     return problems + reason_problems(wide) + page_problems(runner, rows) + json_problems(runner, rows, wide)
 
 
-# The words for verdicts on the page that fits one screen; figures of one launch stand in brackets.
+# The words for verdicts on the page that fits on one screen; figures of one launch are in brackets.
 MARKS = {"reproduced": "yes", "not reproduced": "no", "at the bound": "bound", "undecided": "open", "other work": "other", "not seen": "unseen",
          "one launch: fits": "(yes)", "one launch: misses": "(no)", "one launch: near the bound": "(near)", "": ""}
 OF_ONE_LAUNCH = {"fits": "one launch: fits", "misses": "one launch: misses", "near": "one launch: near the bound"}
 
 
 def page_problems(runner, rows):
-    """The page says what the wide one does, in as many lines and columns as a screen has."""
+    """The page says the same as the wide one, in as many lines and columns as a screen has."""
     page = runner.run(["table", "--claims", "--from", KEPT]).stdout
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines() if line.startswith("|")]
     lead = [line for line in page.splitlines()[:12] if line.startswith("- ")]
@@ -313,13 +313,13 @@ def page_problems(runner, rows):
     return problems
 
 
-# The bounds that each test has.
+# The bounds of each test.
 BOUNDS = {"ratio": ["least"], "apart": ["least"], "faster": ["least"], "rate": ["least"], "flattens": ["least"], "alike": ["most"],
           "exponent": ["least", "most"], "times": ["least", "most"]}
 
 
 def json_problems(runner, rows, wide):
-    """One document says what the rows of CSV do, with the reasons of the wide page and what was judged, and nothing else is printed."""
+    """One JSON document has the rows of CSV, with the reasons of the wide page and the judged values, and nothing else is printed."""
     done = runner.run(["table", "--claims", "--json", "--from", KEPT])
     if done.returncode or done.stderr or done.stdout != runner.run(["table", "--claims", "--format", "json", "--from", KEPT]).stdout:
         return ["as JSON: status %d, %s" % (done.returncode, done.stderr)]
@@ -352,7 +352,7 @@ def json_problems(runner, rows, wide):
 
 
 def check_lengths(runner):
-    """table --claims names the length of what it judged, and judges no table that is there twice"""
+    """table --claims names the length of the judged tables, and refuses a table that is given twice"""
     kept = forms.unsealed(json.loads(read(KEPT, "feng-2.json")))
     small = {"budget": {"seconds": 240, "size_divisor": 4, "few_samples": False, "left_out": []}}
     lengths = {"full": {"length": "full"}, "quick": {"length": "quick"}, "quick, with 1/4 of the width and height": dict(small, length="quick")}
@@ -374,7 +374,7 @@ def check_lengths(runner):
 
 
 def check_dirty_tree(runner):
-    """make results refuses a tree with changes that no commit holds, with one line, before it builds"""
+    """make results refuses a tree with uncommitted changes, with one line, before it builds"""
     git = ["git", "-c", "user.name=a", "-c", "user.email=a", "-c", "commit.gpgsign=false"]
     with tempfile.TemporaryDirectory() as tmp:
         tools, tree = tmp + "/tools", tmp + "/tree"

@@ -1,4 +1,4 @@
-"""The manual page and bash's completion, which the build makes from the tables that `--help` prints."""
+"""The manual page and bash's completion, which the build makes from the tables of `--help`."""
 import os
 import pty
 import re
@@ -19,12 +19,12 @@ def page(runner, name):
 
 
 def words(text):
-    """A text without line breaks and without what marks commands in it."""
+    """A text without line breaks and without the marks around commands."""
     return re.sub(r"\s+", " ", text.replace("`", "")).strip()
 
 
 def plain(roff):
-    """What a reader of the page sees, but for its layout."""
+    """The page's text as a reader sees it, without its layout."""
     return words(re.sub(ESCAPES, lambda escape: {"-": "-", "e": "\\"}.get(escape.group(1), ""), roff))
 
 
@@ -90,7 +90,7 @@ def check_manual_renders(runner):
 
 
 def complete(runner, lines, folder):
-    """What the completion offers in the folder for each of the lines, whose cursors are at their ends."""
+    """The words that the completion offers in the folder for each line, with the cursor at its end."""
     script = 'source "$0"; for line; do COMP_LINE=$line COMP_POINT=${#line}; _raingauge; echo "${COMPREPLY[*]}"; done'
     done = subprocess.run(["bash", "-c", script, page(runner, "raingauge")] +
                           [runner.raingauge + " " + line for line in lines], env=runner.variables({}), encoding="utf-8",
@@ -103,7 +103,7 @@ def listed(runner, *what):
 
 
 def of_known_files(above):
-    """A folder whose files and neighbours the expectations name, so that they don't hang on where tests lie."""
+    """A folder with known files and neighbours, so that the expectations do not depend on where tests are."""
     for folder in ("cli/devices", "cli/drivers", "core"):
         os.makedirs(os.path.join(above, folder))
     for file in ("run.py", "runner.py"):
@@ -169,7 +169,7 @@ def check_completed_words(runner):
 
 
 def type_into_bash(runner, text, limit_s=60):
-    """What a terminal shows of an interactive bash with our completion, into which `text` is typed."""
+    """The text that a terminal shows while `text` is typed into an interactive bash with our completion."""
     variables = runner.variables({"PS1": "$ ", "TERM": "dumb", "HISTFILE": "", "PAGE": page(runner, "raingauge"),
                                   "PATH": os.path.dirname(runner.raingauge) + ":" + os.environ["PATH"]})
     child, terminal = pty.fork()

@@ -41,7 +41,7 @@ import os
 import signal
 import sys
 
-sys.dont_write_bytecode = True  # the sources' folder stays as it is
+sys.dont_write_bytecode = True  # the sources' folder stays unchanged
 for room in ("devices", "drivers", "printed"):
     sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), room))
 

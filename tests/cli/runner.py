@@ -30,7 +30,7 @@ PR_CAPBSET_DROP, CAP_DAC_OVERRIDE = 24, 1
 
 
 def obey_modes():
-    """Has what this process starts obey the modes of files, though it is root's."""
+    """Makes processes that this one starts obey the modes of files, even for root."""
     if os.getuid() == 0 and ctypes.CDLL(None, use_errno=True).prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0):
         raise OSError(ctypes.get_errno(), "CAP_DAC_OVERRIDE cannot be dropped")
 
@@ -43,8 +43,8 @@ class Runner:
         self.state = tempfile.TemporaryDirectory()  # files that commands keep between runs
 
     def variables(self, env):
-        """This process's, without those that change what raingauge does, and with these, of which None is left out.
-        Threads do not spin, since other tests run on the same cores."""
+        """This process's variables, without those that change what raingauge does, and with these; None removes one. Threads do not
+        spin, since other tests run on the same cores."""
         variables = {k: v for k, v in os.environ.items() if not CHANGES.match(k)}
         variables["GOMP_SPINCOUNT"] = "0"
         variables["RG_LONG_S"] = "1e9"  # keeps a busy machine from adding a line, like the next
@@ -54,19 +54,19 @@ class Runner:
         return {name: value for name, value in variables.items() if value is not None}
 
     def start(self, args, env={}, obeys_modes=False):
-        """A command that goes on beside this process; the caller waits for it."""
+        """A command that runs beside this process; the caller waits for it."""
         return subprocess.Popen([self.raingauge] + args, env=self.variables(env), stdin=subprocess.DEVNULL,
                                 preexec_fn=obey_modes if obeys_modes else None,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
 
     @staticmethod
     def rest_of(messages):
-        """What a command said, without the line with which tables end."""
+        """A command's messages without the closing line of tables."""
         return CLOSING.sub("", messages)
 
     def run(self, args, env={}, limit=None, stdout=subprocess.PIPE, obeys_modes=False):
-        """A command with these variables, which can write files of up to `limit` bytes; root's own obeys the modes of files.
-        The line with which tables end is `closing`, and not in `stderr`."""
+        """Runs a command with these variables, which can write files of up to `limit` bytes; with `obeys_modes` even root's obeys
+        the modes of files. The closing line of tables is `closing`, and not in `stderr`."""
 
         def restrict():
             if limit is not None:
@@ -110,7 +110,7 @@ class Runner:
             print("# " + problem.replace("\n", "\n# "), flush=True)
 
     def check_all(self, checks):
-        """Functions that return a list of problems; their first lines say what holds."""
+        """Runs functions that return a list of problems; their docstrings say what holds."""
         for check in checks:
             self.report(check.__doc__, check(self))
 
@@ -119,14 +119,14 @@ class Runner:
         return 1 if self.failed else 0
 
     def crashing_vulkan(self, folder):
-        """Variables that make Vulkan's only driver one that crashes whoever asks for its devices."""
+        """Variables that make Vulkan's only driver one that crashes every process that asks for its devices."""
         path = os.path.join(folder, "crash.json")
         with open(path, "w") as file:
             json.dump({"file_format_version": "1.0.0", "ICD": {"library_path": self.crasher, "api_version": "1.3.0"}}, file)
         return {"VK_DRIVER_FILES": path}
 
     def kernels_with(self, folder, name, right, wrong):
-        """Copies the kernels into `folder`, with one piece of one file's text made another."""
+        """Copies the kernels into `folder`, with one piece of one file's text replaced."""
         for file in os.listdir(self.kernels):
             if file.endswith((".glsl", ".vert", ".frag", ".cl", ".spv")):
                 shutil.copy(os.path.join(self.kernels, file), folder)

@@ -1,4 +1,4 @@
-"""What is written through a link, or into a file, that another user has put into a folder for all, as fs.protected_symlinks and its kin have it."""
+"""Output through a link, or into a file, of another user in a folder for all, by the rules of fs.protected_symlinks and its kin."""
 import os
 import re
 import tempfile
@@ -36,7 +36,7 @@ def link(target, path, owner):
 
 
 def check_rules(runner):
-    """a picture goes through a link as the kernel's rule has it, where that is off as well"""
+    """a picture goes through a link by the kernel's rule, even if the kernel has it off"""
     problems = []
     for about, mode, folder_owner, link_owner, follows in RULES:
         for is_there in (False, True):
@@ -93,7 +93,7 @@ def check_outputs(runner):
 
 
 def check_appended(runner):
-    """nor is another's file appended to there"""
+    """another's file is not appended to there"""
     problems = []
     for owner, appends in ((OTHER, False), (0, True)):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-"""What a machine refuses is told as that: work goes on where it can, and nobody else is blamed."""
+"""A machine's refusals are reported as such: work goes on where possible, and nobody else is blamed."""
 import errno
 import os
 import re
@@ -25,12 +25,12 @@ EPERM, ENOSYS, EINVAL, EAGAIN = errno.EPERM, errno.ENOSYS, errno.EINVAL, errno.E
 
 
 def shell(line):
-    """What a shell does before the command."""
+    """Runs a shell line before the command."""
     return lambda refusing: ["sh", "-c", line + '; exec "$@"', "sh"]
 
 
 def within(line, *flags):
-    """The same in namespaces of its own."""
+    """The same in separate namespaces."""
     return lambda refusing: ["unshare", *(flags or ["-m"])] + shell(line)(refusing)
 
 
@@ -85,14 +85,14 @@ REFUSALS = {
     "state that takes no files": (shell("export XDG_STATE_HOME=/proc/s"), {}),
     "a folder that takes no files": (shell("cd /proc"), {}),
 }
-# Words that would blame somebody else.
+# Words that would blame others.
 BLAMES = re.compile(r"its driver (crashed|ended|did not)|is damaged|[Aa]ssimp crashed|install|the Debian package|Cannot allocate memory")
 # Parts of the output that may differ: times, names from the kernel, and folders.
 TOLD = re.compile(r"unnamed CPU|AMD[^\n]*?(?=  )|\d+(\.\d+)?(e[-+]\d+)? m?s\b")
 
 
 class Trial:
-    """A folder of inputs, and what each command does where nothing is refused."""
+    """A folder of inputs, and the result of each command without refusals."""
 
     def __init__(self, runner, refusing, folder):
         self.runner, self.refusing, self.folder, self.plain = runner, refusing, folder, {}
@@ -102,7 +102,7 @@ class Trial:
             file.write("raster/torus raster 32x32 2 scene=mesh model=torus faces=300\n")
 
     def run(self, name, wrapper):
-        """Exit status, stdout, stderr and the names of files that are there afterwards."""
+        """Exit status, stdout, stderr and the names of files afterwards."""
         out = tempfile.mkdtemp(dir=self.folder)
         command = [word.replace("OUT", out).replace("IN/", self.folder + "/") for word in COMMANDS[name].split()]
         done = subprocess.run(wrapper + [self.runner.raingauge] + command, env=self.runner.variables({}), timeout=300,
@@ -112,7 +112,7 @@ class Trial:
         return done.returncode, done.stdout.replace(out, "OUT"), done.stderr, files
 
     def problems(self, name, wrap, wanted):
-        """What is wrong with a command where that is refused; None where it cannot be tried."""
+        """Problems of a command under a refusal; None if it cannot be tried."""
         if name not in self.plain:
             self.plain[name] = self.run(name, [])
         status, out, err, files = self.run(name, wrap(self.refusing))

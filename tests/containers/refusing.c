@@ -1,9 +1,9 @@
-// Runs a command for which the kernel refuses some system calls, as the filters of containers and
-// of emulators do:
+// Runs a command for which the kernel refuses some system calls, like the filters of containers and
+// emulators:
 //
 //     refusing ERRNO CALL[,CALL]... COMMAND [ARGUMENT]...
 //
-// ERRNO is a number. "nameless" is openat where it asks for a file without a name (O_TMPFILE).
+// ERRNO is a number. "nameless" is openat for a file without a name (O_TMPFILE).
 #define _GNU_SOURCE // O_TMPFILE
 #include <errno.h>
 #include <fcntl.h>
@@ -89,7 +89,7 @@ int main(int argc, char **argv)
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) ||
         prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter))
         return perror("refusing: seccomp"), UNUSABLE;
-    execv(argv[3], argv + 3); // which a filter that refuses execve refuses too
+    execv(argv[3], argv + 3); // fails if the filter refuses execve
     perror(argv[3]);
     return REFUSED_ALL;
 }

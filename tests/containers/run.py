@@ -10,12 +10,12 @@
            all wants     all of it
            links         output through links that other users put into a folder for all
 
-Prints TAP, for meson. What needs a namespace of its own is skipped where it may not have one.
+Prints TAP, for meson. A test that needs its own namespace is skipped if it may not have one.
 """
 import os
 import sys
 
-sys.dont_write_bytecode = True  # the sources' folder stays as it is
+sys.dont_write_bytecode = True  # the sources' folder stays unchanged
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "cli"))
 
 import links

@@ -1,4 +1,4 @@
-"""INT, TERM and HUP end every command within two seconds, whoever it is: also a container's first process, for which the kernel ends nothing."""
+"""INT, TERM and HUP end every command within two seconds, even as a container's first process, for which the kernel has no default end."""
 import concurrent.futures
 import os
 import random
@@ -37,7 +37,7 @@ PATIENCE_S, AT_ONCE = 60, 4
 
 
 def below(pid):
-    """A process's children, and theirs."""
+    """A process's descendants."""
     try:
         with open("/proc/%d/task/%d/children" % (pid, pid)) as file:
             children = [int(word) for word in file.read().split()]
@@ -55,7 +55,7 @@ def runs(pid):
 
 
 def heed():
-    """Signals as a terminal has them, whatever started this."""
+    """Sets signals as in a terminal, whatever started this process."""
     for number in SIGNALS:
         signal.signal(number, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_SETMASK, [])
@@ -63,7 +63,7 @@ def heed():
 
 
 def disregard():
-    """What a careless supervisor passes on."""
+    """Sets signals as a careless supervisor leaves them."""
     heed()
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -92,7 +92,7 @@ class Folder:
 
 
 def end(folder, name, number, is_first=False, after_s=0.6, prepare=heed):
-    """What is wrong after a signal, so long after the start, and how long the end took; None where it had ended by then."""
+    """Problems after a signal that is sent this long after the start, and the time until the end; None if the command had ended before."""
     runner = folder.runner
     with tempfile.TemporaryDirectory() as out, tempfile.TemporaryDirectory() as tried:
         # The atlas is made again, which takes minutes.
@@ -123,7 +123,7 @@ def end(folder, name, number, is_first=False, after_s=0.6, prepare=heed):
 
 
 def end_all(folder, trials):
-    """What is wrong with several, of which the slowest is told."""
+    """The problems of several trials; the slowest is printed."""
     problems, slowest_s, tried = [], 0, 0
     with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:  # the threads mostly sleep
         ends = list(pool.map(lambda trial: end(folder, *trial), trials))

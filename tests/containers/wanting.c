@@ -1,10 +1,10 @@
-// A library that is loaded before raingauge, in which raingauge's own calls for means fail; those
-// of drivers and other libraries do not, for they return into other code.
+// A library, loaded before raingauge, in which raingauge's own calls for resources fail. Calls of
+// drivers and other libraries do not fail, since they return into other code.
 //
-//     WANT_CALL    which fail: "malloc" (with calloc, realloc and aligned_alloc), "mmap", "fdopen",
-//                  "memstream", "spawn", "pipe", "socketpair", "memfd" or "thread"
-//     WANT_AT      the Nth of them in a process alone; 0 or none: all of them
-//     WANT_OF      "worker": in workers alone; "harness": in all other processes; none: in all
+//     WANT_CALL    the calls that fail: "malloc" (with calloc, realloc and aligned_alloc), "mmap",
+//                  "fdopen", "memstream", "spawn", "pipe", "socketpair", "memfd" or "thread"
+//     WANT_AT      N: only a process's Nth such call; 0 or none: all of them
+//     WANT_OF      "worker": only in workers; "harness": only in other processes; none: in all
 #define _GNU_SOURCE // dl_iterate_phdr
 #include <dlfcn.h>
 #include <errno.h>
@@ -112,7 +112,7 @@ char *strdup(const char *text)
     return copy ? strcpy(copy, text) : NULL;
 }
 
-// With 64 bits of offsets, which is mmap64 to the linker.
+// With 64-bit offsets the linker's name is mmap64.
 void *mmap(void *place, size_t size, int allowed, int flags, int file, off_t from)
 {
     REFUSE("mmap", ENOMEM, MAP_FAILED);

@@ -1,4 +1,4 @@
-"""What raingauge itself lacks is told as that: it is no driver's fault, no skip, no bad usage, and no result is wrong for it."""
+"""Raingauge's own wants are reported as such: they are no driver's fault, no skip and no bad usage, and make no result wrong."""
 import json
 import os
 import random
@@ -76,7 +76,7 @@ TIMES = {"passport", "passport_text", "measured", "seconds", "created", "checksu
 
 
 def settled(value):
-    """A document without what differs from run to run."""
+    """A document without the parts that differ from run to run."""
     if isinstance(value, dict):
         return {name: settled(inner) for name, inner in value.items() if name not in TIMES}
     if isinstance(value, str):
@@ -101,7 +101,7 @@ class Trial:
             file.write("raster/torus raster 16x16 1 scene=mesh model=torus faces=300\n")
 
     def run(self, name, wrap, variables):
-        """Exit status, what it found, stderr, and JUnit's report."""
+        """Exit status, the findings, stderr, and JUnit's report."""
         out = tempfile.mkdtemp(dir=self.folder)
         words = [word.replace("OUT", out).replace("IN/", self.folder + "/") for word in COMMANDS[name].split()]
         before = [word.replace("OUT", out) for word in wrap(self.refusing)]
@@ -121,7 +121,7 @@ class Trial:
         return done.returncode, found, done.stderr, report
 
     def problems(self, name, wrap, variables):
-        """What is wrong with a command under a want; None where it cannot be tried."""
+        """Problems of a command under a want; None if it cannot be tried."""
         if name not in self.well:
             self.well[name] = self.run(name, plain, {})
         if self.well[name][0]:

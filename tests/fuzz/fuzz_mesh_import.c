@@ -1,5 +1,6 @@
-// The importer's own code and Assimp in this process, then the mesh: quick, and sees inside.
-// Assimp's own crashes and endless loops are found too; CONTRIBUTING.md says how to pass over them.
+// The importer's own code and Assimp in this process, then the mesh: quick, and sanitizers see all
+// of it. It also finds Assimp's own crashes and endless loops; CONTRIBUTING.md says how to ignore
+// them.
 #include <assimp/cimport.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +26,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (import_load(&import))
         fuzz_judge(create(&import));
     else if (!import.reply.error[0])
-        abort(); // refused without a word
+        abort(); // refused without a message
     aiReleaseImport(import.scene);
     free(import.bytes);
     free(import.positions);

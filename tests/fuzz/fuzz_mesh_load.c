@@ -1,5 +1,5 @@
-// The whole path as users take it: a file, the importer's process, a mesh. Whatever happens to the
-// importer, there is a sound mesh or one line. Some hundred files a second at best.
+// The whole path of a user: a file, the importer's process, a mesh. Whatever happens to the
+// importer, the result is a sound mesh or one line. Some hundred files a second at best.
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

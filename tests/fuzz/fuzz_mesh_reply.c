@@ -1,5 +1,5 @@
-// What the importer hands back, however wrong, and meshes of any topology brought to other numbers
-// of faces. The first two bytes are the wanted number; the rest is the reply.
+// The importer's reply, however wrong, and meshes of any topology with other numbers of faces. The
+// first two bytes are the wanted number; the rest is the reply.
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "core/scene/mesh/read.h"
 #include "tests/fuzz/fuzz.h"
 
-// Mostly a reply whose counts fit its size, or nothing else would be tried.
+// Mostly makes the counts fit the reply's size; otherwise nothing else would be tried.
 static void mend_header(uint8_t *reply, size_t size)
 {
     struct rg_import_reply header;
@@ -27,7 +27,7 @@ static uint32_t *find_indices(uint8_t *reply, const struct rg_import_reply *head
     return (uint32_t *)(void *)(reply + sizeof(*header) + 24 * (size_t)header->vertex_count);
 }
 
-// Mostly indices within range, for the same reason.
+// Mostly keeps indices within range, for the same reason.
 static void mend_indices(uint8_t *reply)
 {
     struct rg_import_reply header;

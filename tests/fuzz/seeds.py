@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the binary seeds of the fuzz targets of meshes into a folder: `seeds.py FOLDER`.
 
-They are made here rather than kept, so that the corpus can be read. Each is one triangle or two.
+They are generated, not stored, so that the corpus can be read. Each is one triangle or two.
 """
 import struct
 import sys

@@ -1,4 +1,4 @@
-// Every atomic of the dialect, many items to few words: tests that none is lost on any device.
+// Every atomic of the dialect, with many items on few words: tests that no device loses one.
 #include "tests/kernels/atomics_params.h"
 
 #define RG_PARAMS test_atomics_params

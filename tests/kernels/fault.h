@@ -1,4 +1,4 @@
-// Writes where it is told, even outside the buffer: tests that cpu:reference notices.
+// Writes at a given place, even outside the buffer: tests that cpu:reference notices.
 #include "tests/kernels/fault_params.h"
 
 #define RG_PARAMS test_fault_params

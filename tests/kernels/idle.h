@@ -1,5 +1,5 @@
-// Counts how often each item ran. Items whose marks are 0 say that they have nothing to do, though
-// they have: tests see by it who leaves them out.
+// Counts how often each item ran. Items with a mark of 0 say that they have nothing to do, though
+// they have: tests see by it which devices leave them out.
 #include "tests/kernels/idle_params.h"
 
 #define RG_PARAMS test_idle_params

@@ -1,4 +1,4 @@
-// a * b + c in every place where the dialect allows an expression: tests that none is fused.
+// a * b + c at every place where the dialect allows an expression: tests that none is fused.
 #include "tests/kernels/precise_params.h"
 
 #define RG_PARAMS test_precise_params

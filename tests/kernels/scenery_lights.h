@@ -1,4 +1,4 @@
-// What light y does at point x: for tests.
+// For tests: the effect of light y at point x.
 #include "kernels/scenery/light.h"
 #include "tests/kernels/scenery_lights_params.h"
 

@@ -1,4 +1,4 @@
-// The parameters of core/techniques/scenery/lights/lights.h.
+// The parameters of scenery_lights.h.
 #ifndef RG_TESTS_KERNELS_SCENERY_LIGHTS_PARAMS_H
 #define RG_TESTS_KERNELS_SCENERY_LIGHTS_PARAMS_H
 
@@ -10,14 +10,14 @@ RG_STRUCT(test_scenery_lights_params)
 };
 RG_STRUCT_SIZE(test_scenery_lights_params, 1)
 
-// What a light does at a point.
+// The effect of a light at a point.
 RG_STRUCT(test_streaks_lit)
 {
     v3 to_light;
     float share;
     float unshadowed;
     float soft;
-    float surface; // unshadowed, of a floor at the point
+    float surface; // soft, for a floor at the point
 };
 RG_STRUCT_SIZE(test_streaks_lit, 7)
 

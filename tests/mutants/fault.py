@@ -1,4 +1,4 @@
-"""A fault that somebody might make in host code: a place of the source, and what stands there instead."""
+"""A fault that somebody might make in host code: a place of the source, and its replacement."""
 import dataclasses
 import re
 
@@ -7,8 +7,8 @@ OPERATOR = re.compile(r"(\+=|-=|<<|[-+*/%&|])\s")  # a place may begin with an o
 @dataclasses.dataclass(frozen=True)
 class Fault:
     file: str
-    # The text around the place, which must occur once in the file; « and » enclose the place, else it is the whole
-    # text. A place is an expression, or statements that end with a semicolon or a brace.
+    # The text around the place, which must occur once in the file. « and » enclose the place; without them it is the whole text.
+    # A place is an expression, or statements that end with a semicolon or a brace.
     at: str
     new: str
     about: str
@@ -24,11 +24,11 @@ class Fault:
         return self.at.replace("«", "").replace("»", "")
 
     def start_in(self, text):
-        """Where the place begins in the text of its file."""
+        """The position of the place in the text of its file."""
         return text.index(self.around) + self.at.find("«") * ("«" in self.at)
 
     def with_switch(self, number, otherwise):
-        """What stands in the copy: the fault, what stands there `otherwise`, and the switch that picks one."""
+        """The copy's text: the fault, the text `otherwise`, and the switch that picks one."""
         if self.old.rstrip().endswith((";", "}")):
             return f"{{ if (rg_mutant({number})) {{ {self.new} }} else {{ {otherwise} }} }}"
         operator, new = OPERATOR.match(otherwise), self.new

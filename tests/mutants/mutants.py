@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Tries the tests: builds a copy of the source that holds every fault of rows/ behind a switch, and runs the tests that
-ought to notice each.
+"""Tries the tests: builds a copy of the source that holds every fault of rows/ behind a switch, and runs the tests that ought to
+notice each.
 
 mutants.py BUILD [AREA]...    BUILD is a build of the source; an area is a file of rows/, or a room of kernels
-mutants.py --places           whether the rows' places are in the source, and nothing is run
+mutants.py --places           only checks that the rows' places are in the source
 
-Without areas all are tried. The faults of kernels are those of tests/core/techniques/mutants.py, which runs them. Prints a
-line a fault: the test that noticed it and its seconds, or that it lived, with the reason where its row has one. Ends with
-counts. The exit status is 1 where fewer than 95 % were noticed, where one lived without a reason, or where a test fails on
-the source as it is. What noticed a fault is tried first the next time.
+Without areas all are tried. The faults of kernels are those of tests/core/techniques/mutants.py, which runs them. Prints a line a
+fault: the test that noticed it and its seconds, or that it lived, with its row's reason. Ends with counts. The exit status is 1
+if fewer than 95 % were noticed, if one lived without a reason, or if a test fails on the unchanged source. The test that noticed
+a fault is tried first the next time.
 """
 import importlib.util
 import json
@@ -61,7 +61,7 @@ def check_places(faults):
 
 
 def changed(path, faults):
-    """The text of a file with the switches of its faults."""
+    """A file's text with the switches of its faults."""
     text = (SOURCE / path).read_text(encoding="utf-8")
     places = {}
     for number, row in faults:
@@ -126,8 +126,8 @@ def build_copy(copy, modules, wanted):
 
 
 def notices(test, number, cache, limit_s=None):
-    """What a test says that fails with a fault, or that takes longer than it may; "" where it passes. What it leaves
-    running ends with it."""
+    """The message of a test that fails with a fault, or exceeds its time limit; "" if it passes. Processes that it leaves running
+    are ended."""
     env = dict(os.environ, **test["env"], GOMP_SPINCOUNT="0", RG_LONG_S="1e9", RG_PROBE_S="0", XDG_CACHE_HOME=str(cache), RG_MUTANT=str(number))
     with tempfile.TemporaryFile() as told:
         run = subprocess.Popen(test["cmd"], cwd=test["workdir"], env=env, stdin=subprocess.DEVNULL, stdout=told,
@@ -148,7 +148,7 @@ def notices(test, number, cache, limit_s=None):
 
 
 def try_unchanged(tests, cache):
-    """What each test may take, in seconds."""
+    """Each test's time limit, in seconds."""
     limits_s = {}
     for name, test in tests.items():
         start = time.monotonic()
@@ -159,7 +159,7 @@ def try_unchanged(tests, cache):
 
 
 class Found:
-    """Which test noticed a fault the last time."""
+    """The test that noticed a fault the last time."""
 
     def __init__(self, path):
         self.path = path
@@ -186,7 +186,7 @@ def try_fault(number, row, module, tests, limits_s, found, scratch):
 
 
 def try_host(modules, wanted, scratch):
-    """Tries the faults of areas. Counts of each, and how many lived without a reason."""
+    """Tries the faults of areas. Returns the counts of each, and the number that lived without a reason."""
     faults = numbered(modules)
     check_places(faults)
     copy_source(scratch / "source", faults)
@@ -210,7 +210,7 @@ def try_host(modules, wanted, scratch):
 
 
 def try_kernels(build, room, test):
-    """Has a room's own tool try the texts of its kernels."""
+    """Runs a room's own tool on the texts of its kernels."""
     run = subprocess.Popen(test["cmd"], cwd=test["workdir"], env=dict(os.environ, **test["env"]), text=True,
                            stdout=subprocess.PIPE)
     total = lived = 0

@@ -1,9 +1,9 @@
-// Picks a fault, in a copy of the source that has them all (mutants.py puts this line into each
-// file that it changes): the one whose number the environment's RG_MUTANT is; none without it.
+// Picks the fault whose number is in the environment's RG_MUTANT, or none. It is for a copy of the
+// source that has all faults; mutants.py puts this line into each file that it changes.
 #ifndef RG_TESTS_MUTANTS_SWITCH_H
 #define RG_TESTS_MUTANTS_SWITCH_H
 
-// A fault may leave something unused, or compare what it should not.
+// A fault may leave something unused, or make a senseless comparison.
 #pragma GCC diagnostic ignored "-Wextra"
 #pragma GCC diagnostic ignored "-Wunused-but-set-variable"
 #pragma GCC diagnostic ignored "-Wunused-variable"
@@ -14,7 +14,7 @@
 #pragma GCC diagnostic ignored "-Wformat-truncation"
 #pragma GCC diagnostic ignored "-Wstringop-overflow"
 
-// Declared here, since a file may define what system headers look at after this line.
+// Declared here, since a file may define macros for system headers after this line.
 extern char *getenv(const char *);
 extern int atoi(const char *);
 

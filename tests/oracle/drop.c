@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-// How far inside the surface a point is, in radii: the definition, by angles.
+// The depth of a point below the surface, in radii: the definition, by angles.
 static double depth_at(const struct oracle_drop *drop, const double p[3])
 {
     const double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
@@ -30,7 +30,7 @@ static void normal_at(const struct oracle_drop *drop, const double p[3], double 
         normal[i] /= sqrt(length);
 }
 
-// Steps along a ray until it crosses the surface, then halves the step; p moves there.
+// Steps along a ray until it crosses the surface, then halves the step; moves p there.
 static bool march(const struct oracle_drop *drop, double p[3], const double d[3], bool inside)
 {
     const double step = 1.0 / 512;
@@ -56,7 +56,7 @@ static bool march(const struct oracle_drop *drop, double p[3], const double d[3]
     return false;
 }
 
-// Parts light at a surface, by Snell's angles. Returns the share that is reflected.
+// Splits light at a surface, by Snell's angles. Returns the reflected share.
 static double part(const double d[3], const double outward[3], double ratio, double reflected[3],
                    double refracted[3])
 {

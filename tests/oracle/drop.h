@@ -1,5 +1,5 @@
 // Light through an oscillating drop, in double precision, by marching and bisection: slow and
-// plain. Shares nothing with core/scene/atlas.
+// plain. It shares nothing with core/scene/atlas.
 #ifndef RG_TESTS_ORACLE_DROP_H
 #define RG_TESTS_ORACLE_DROP_H
 
@@ -13,9 +13,9 @@ struct oracle_drop {
     double a, b, phi_drop, index;
 };
 
-// Where the light on a ray from `start` in direction `ray`, against the light's way, came from: for
-// each way (reflected; refracted; with one to three reflections inside) a unit vector towards its
-// source and its share. False when the ray misses the drop.
+// The sources of the light on a ray from `start` in direction `ray`, against the light's way. Each
+// way of light (reflected; refracted; with one to three reflections inside) gets a unit vector
+// towards its source and its share. False if the ray misses the drop.
 bool oracle_drop_light(const struct oracle_drop *drop, const double start[3], const double ray[3],
                        double direction[ORACLE_WAYS][3], double share[ORACLE_WAYS]);
 

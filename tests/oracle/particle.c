@@ -8,9 +8,9 @@ static void keep_least(double *least, double value)
         *least = fabs(value);
 }
 
-// One life of a particle: it enters at the top, passes the local ground, and goes on unseen.
-// Its drop is seen until its streak's end has passed the surface, its splash from then on, if that
-// happens above the local ground.
+// One life of a particle: it enters at the top, passes the local ground, and goes on unseen. Its
+// drop is seen until its streak's end has passed the surface. From then on its splash is seen, if
+// the surface is above the local ground.
 static void live(const struct particle_space *space, double s, double hit,
                  struct particle_seen *seen, int present)
 {
@@ -38,7 +38,7 @@ struct particle_seen particle_oracle(const struct particle_space *space, double 
     keep_least(&seen.margin_m, space->height - fallen);
     keep_least(&seen.margin_m, hit - space->top - space->height);
     live(space, seen.s, hit, &seen, 1);
-    live(space, seen.s + space->height, hit, &seen, 0); // the life before: its splash goes on
+    live(space, seen.s + space->height, hit, &seen, 0); // the splash of the life before goes on
     const double away = fmax(fabs(seen.x - space->eye_x), fabs(seen.y - space->eye_y));
     if (space->exact) {
         keep_least(&seen.margin_m, away - space->radius);

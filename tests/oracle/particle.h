@@ -1,5 +1,5 @@
-// Particles of streaks in double precision, from the words of C. Creus, "Real-time realistic
-// rain rendering", 2010, sections 4.2 and 4.4, without kernels/.
+// Particles of streaks in double precision, from the text of C. Creus, "Real-time realistic rain
+// rendering", 2010, sections 4.2 and 4.4, without kernels/.
 #ifndef RG_TESTS_ORACLE_PARTICLE_H
 #define RG_TESTS_ORACLE_PARTICLE_H
 
@@ -19,11 +19,11 @@ struct particle_seen {
     double x, y, s;
     enum particle_state state;
     double age_s;    // of a splash
-    double margin_m; // how far a length is from where the state changes
+    double margin_m; // the distance of a length from the next change of state
 };
 
-// A particle that began at clip coordinates (x, y), `start` of the way through the local space,
-// when all have run `run` of the way, over a surface at `hit`.
+// The state of a particle over a surface at `hit`. It began at clip coordinates (x, y), `start` of
+// the way through the local space; all have run `run` of the way.
 struct particle_seen particle_oracle(const struct particle_space *space, double x, double y,
                                      double start, double run, double hit);
 

@@ -104,7 +104,7 @@ struct rainfall_samples rainfall_count(const struct rainfall_eye *eye, struct ra
             const double near_m = s.distance_m - sqrt(radius_m * radius_m - off_m * off_m);
             const double before =
                 (double)eye->depth[y * eye->width + x] - rainfall_depth_of(eye, near_m);
-            // Near the rim a rounding of the place moves the sphere's side far along the view.
+            // Near the rim, rounding of the place moves the sphere's surface far along the view.
             const double slack =
                 doubt_depth + (off_px > radius_px - 0.1
                                    ? fabs(rainfall_depth_of(eye, s.distance_m) -
@@ -117,7 +117,7 @@ struct rainfall_samples rainfall_count(const struct rainfall_eye *eye, struct ra
     return n;
 }
 
-// --- what is seen ---
+// --- visible surfaces ---
 
 static double depth_at(const struct rainfall_eye *eye, int x, int y)
 {
@@ -126,7 +126,7 @@ static double depth_at(const struct rainfall_eye *eye, int x, int y)
     return (double)eye->depth[row * eye->width + column];
 }
 
-// The lesser of two slopes, in size; and whether they are so alike that rounding may choose.
+// The slope of smaller size.
 static double lesser(double a, double b)
 {
     return fabs(a) < fabs(b) ? a : b;
@@ -143,7 +143,7 @@ struct rainfall_gap rainfall_behind(const struct rainfall_eye *eye, struct rainf
     const double seen_m = distance_of(eye, depth);
     const double to_edge = fmin(fabs(s.x_px - round(s.x_px)), fabs(s.y_px - round(s.y_px)));
     struct rainfall_gap gap = {s.distance_m - seen_m, 2e-4};
-    // A rounding of the place may read the next texel.
+    // Rounding of the place may choose the next texel.
     if (to_edge < 0.01 || depth >= 0.9999)
         gap.doubt_m = 1e9;
     return gap;

@@ -14,9 +14,9 @@ static struct oracle_point centre_of(int px, int py)
     return (struct oracle_point){256 * (int64_t)px + 128, 256 * (int64_t)py + 128};
 }
 
-// The number of edges right of the centre is odd inside. An edge is met where one end is below the
-// centre, which lies a trifle lower than its integer says; and an edge through the centre itself is
-// to its left, since the centre lies a greater trifle to the right.
+// A centre is inside if the number of edges to its right is odd. The centre counts as a trifle
+// lower than its integer, so an edge is met if one end is below it. It also counts as a greater
+// trifle further right, so an edge through it is to its left.
 bool oracle_covers(const struct oracle_point *corners, int count, int px, int py)
 {
     const struct oracle_point p = centre_of(px, py);

@@ -58,8 +58,8 @@ static void cross(const double a[3], const double b[3], double c[3])
         c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-// The distance of a point from a side that runs through the eye and two corners of the view, on the
-// side of the view's middle.
+// The distance of a point from a side through the eye and two corners of the view, positive towards
+// the view's middle.
 static double from_side(const struct oracle_rain *r, const double a[2], const double b[2],
                         const double point[3])
 {
@@ -84,7 +84,7 @@ static double from_side(const struct oracle_rain *r, const double a[2], const do
     return by_point / sqrt(length) * (by_middle < 0 ? -1 : 1);
 }
 
-// The distance inside of one of the six sides.
+// The distance inside one of the six sides.
 static double from_plane(const struct oracle_rain *r, int side, const double point[3])
 {
     static const double corners[4][2] = {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
@@ -123,7 +123,7 @@ struct oracle_sphere oracle_sphere_of(const struct oracle_rain *r, const struct 
     return (struct oracle_sphere){length, acos(y / length), atan2(x, z)};
 }
 
-// A pinhole: a place ahead is seen where it lies across and above.
+// A pinhole camera's projection of a place ahead.
 static void project(const struct oracle_rain *r, const double place[3], double pixel[2])
 {
     const struct oracle_drop at = {place[0], place[1], place[2], 0};

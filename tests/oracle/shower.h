@@ -1,5 +1,5 @@
-// Ye's rain in double precision, written from the paper's equations: what one particle does in one
-// step, where it may be born, and where it is seen. It shares nothing with kernels/.
+// Ye's rain in double precision, written from the paper's equations: one step of a particle, where
+// it may be born, and where it is seen. It shares nothing with kernels/.
 #ifndef RG_TESTS_ORACLE_SHOWER_H
 #define RG_TESTS_ORACLE_SHOWER_H
 
@@ -23,36 +23,36 @@ struct oracle_drop {
     double x, y, z, fall_m_s;
 };
 
-// Eq. 2: where a drop of this height is a pixel high.
+// Eq. 2: the distance at which a drop of this height is a pixel high.
 double oracle_farthest(double drop_height_m, double beta, int height_px);
 
-// A place as the viewer has it: how far ahead, and which share of half the view's width or height
-// there it is beside or above the middle, -1 to 1 where it is seen.
+// A place for the viewer: the distance ahead, and how far it is beside and above the middle, as
+// shares of half the view's width and height. Visible places have shares of -1 to 1.
 struct oracle_sight {
     double ahead, across, up;
 };
 struct oracle_sight oracle_sight_of(const struct oracle_rain *rain, const struct oracle_drop *drop);
-// The other way round.
+// The inverse of oracle_sight_of.
 struct oracle_drop oracle_drop_at(const struct oracle_rain *rain, const struct oracle_sight *sight);
 
-// The share of size and speed that the drop's layer has (section III.E).
+// The drop's share of size and speed in its layer (section III.E).
 double oracle_share(const struct oracle_rain *rain, const struct oracle_drop *drop);
 
-// Eqs. 14 and 15, or 16 to 18, over one step.
+// Eqs. 14 and 15, or 16 to 18: a drop after one step.
 struct oracle_drop oracle_moved(const struct oracle_rain *rain, const struct oracle_drop *drop);
 
-// How far inside of the body that is seen a drop is, in metres: by the nearest of the six sides,
-// which are planes through corners of the body. Below 0 it has left.
+// The distance of a drop inside the visible body, in metres, to the nearest of the six sides. The
+// sides are planes through the body's corners. Below 0 the drop has left.
 double oracle_inside(const struct oracle_rain *rain, const struct oracle_drop *drop);
 
-// Spherical coordinates of a place as eqs. 3 to 5 have them.
+// Spherical coordinates of a place, by eqs. 3 to 5.
 struct oracle_sphere {
     double r, phi, theta;
 };
 struct oracle_sphere oracle_sphere_of(const struct oracle_rain *rain,
                                       const struct oracle_drop *drop);
 
-// A drop on the screen: its lower and upper end, in pixels from the upper left corner, and its
+// A drop in the picture: its lower and upper end, in pixels from the upper left corner, and its
 // width there.
 struct oracle_streak {
     double low[2], high[2], width_px;

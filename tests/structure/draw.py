@@ -17,7 +17,7 @@ text {{ text-anchor: middle }} #tip path {{ fill: #68a; marker-end: none }}
 
 
 def gather(tree, of):
-    """Includes between what `of` makes of their paths, each with a file that shows it: {from: {to: file}}."""
+    """Includes, with each path replaced by `of` of it, and a file that shows each: {from: {to: file}}."""
     graph = {}
     for path, _, target in tree.includes:
         if target and of(path) and of(target):
@@ -34,19 +34,19 @@ def folder_graph(tree):
 
 
 def room_graph(order):
-    """Includes between rooms. The tests', which include anything, are left out."""
+    """Includes between rooms, without the tests', which may include anything."""
     return gather(order.tree, lambda path: order.room[path] if not path.startswith("tests/") else None)
 
 
 def dot(graph):
-    """Text for Graphviz."""
+    """A graph as text for Graphviz."""
     lines = [f'  "{node}";' for node in sorted(graph)]
     lines += [f'  "{node}" -> "{to}";' for node in sorted(graph) for to in sorted(graph[node])]
     return "\n".join(["digraph raingauge {", "  node [shape=box];", *lines, "}"])
 
 
 def reach(graph, node):
-    """All that `node` includes, directly or around."""
+    """All that `node` includes, directly or indirectly."""
     seen, todo = set(), [node]
     while todo:
         new = set(graph.get(todo.pop(), ())) - seen
@@ -56,13 +56,13 @@ def reach(graph, node):
 
 
 def reduced(graph):
-    """The includes that no others already lead along."""
+    """A graph without the includes that others already imply."""
     return {node: [to for to in targets if not any(to in reach(graph, other) for other in targets if other != to)]
             for node, targets in graph.items()}
 
 
 def heights(graph):
-    """How many floors stand below each room."""
+    """The number of floors below each room."""
     found = {}
 
     def height(room):
@@ -83,14 +83,14 @@ def rows(graph):
 
 
 def width(room):
-    """Of a room's box."""
+    """The width of a room's box."""
     return len(room) * LETTER + 2 * PAD
 
 
 def places(graph):
-    """Where each room's box stands, (left, top) by room, and the size of the whole.
+    """The place of each room's box, (left, top) by room, and the size of the whole.
 
-    Floors of a column are set off in turn, so that lines pass between boxes.
+    Floors of a column are shifted in turn, so that lines pass between boxes.
     """
     columns, found, left = rows(graph), {}, GAP
     top_floor = max(height for column in columns for height in column)
@@ -115,7 +115,7 @@ def curve(start, end):
 
 
 def curves(graph, box):
-    """The lines of a graph; those that leave or reach a box stand side by side."""
+    """The lines of a graph; those that leave or reach a box are side by side."""
     pairs = [(room, to) for room in graph for to in graph[room]]
     lines = []
     for room, to in pairs:
@@ -128,7 +128,7 @@ def curves(graph, box):
 
 
 def svg(order):
-    """The rooms, floor by floor, and what each includes, but for what follows from other lines or goes upwards."""
+    """The rooms, floor by floor, with the includes of each, without those that other lines imply or that go upwards."""
     upwards = {(order.room[path], order.room[target]) for path, target, _ in order.upwards()}
     graph = {room: {to for to in targets if (room, to) not in upwards} for room, targets in room_graph(order).items()}
     graph = reduced(graph)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Whether the sources are in their own format (.clang-format): names each file that `make format` would change.
+"""Checks that the sources have their own format (.clang-format): names each file that `make format` would change.
 
-Versions of clang-format differ, so that one counts; another, or none, skips the test.
+Versions of clang-format differ, so only one counts; another, or none, skips the test.
 """
 import concurrent.futures
 import os

@@ -17,7 +17,7 @@ import os
 import re
 import sys
 
-sys.dont_write_bytecode = True  # the sources' folder stays as it is
+sys.dont_write_bytecode = True  # the sources' folder stays unchanged
 
 import draw
 from order import Order
@@ -28,7 +28,7 @@ HERE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 
 def circle_lines(used):
-    """A line for each circle: its units or folders, and what shows that each of them uses others."""
+    """A line for each circle: its units or folders, and the names or headers that show how they use each other."""
     def ties(node, group):
         return f"{node} uses " + ", ".join(f"{to} ({used[node][to]})" for to in used[node] if to in group)
 
@@ -42,7 +42,7 @@ def unrooted(tree):
 
 
 def absent(tree):
-    """What lists of files in the builds' descriptions name and is not there: a build that is seldom made would rot."""
+    """Files that the builds' descriptions list but that do not exist: a build that is seldom made would rot."""
     lines = []
     for path in ["meson.build"] + files(tree.root, re.compile(r"^meson\.build$")):
         folder = os.path.dirname(path)
@@ -55,7 +55,7 @@ def absent(tree):
 
 
 def wrong(tree, order):
-    """All that the structure must not be, a line each."""
+    """All faults of the structure, a line each."""
     lines = circle_lines(tree.uses()) + circle_lines(draw.folder_graph(tree))
     lines += [f"{path} includes {target}: {why}" for path, target, why in order.upwards()]
     lines += [f"{path} uses {name}: only {folder} may" for path, name, folder in order.torn()]

@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
-"""Finds names of files and folders that are not there, in pages and comments: names.py [ROOT].
+"""Finds names of missing files and folders in pages and comments: names.py [ROOT].
 
-Prints one line each, and exits 1 if there are any. What is looked at:
+Prints one line each, and exits 1 if there are any. It checks:
 
     pages      links; paths with a folder; between backquotes also folders and bare names, such as `rain_space.h`
     comments   paths with a folder, and bare names of sources
 
-A path counts from the root. One without its first folders, and a bare name, must fit one file alone, or one below a
-folder that the same section of the page names; in a comment, one beside it or one that the file includes. `*`, `[ch]`
-and words in capitals stand for anything there is. Names below `build`, of system headers, of a user's files and web
-addresses are none of ours.
+A path counts from the root. One without its first folders, and a bare name, must fit one file alone, or one below a folder that
+the same section of the page names; in a comment, one beside it or one that the file includes. `*`, `[ch]` and words in capitals
+stand for any text. Names below `build`, of system headers, of a user's files and web addresses are not checked.
 """
 import fnmatch
 import os
@@ -45,7 +44,7 @@ def find_files(root):
 
 
 class Names:
-    """The files of a tree, and what names them."""
+    """The files of a tree, and the pages and comments that name them."""
 
     def __init__(self, root):
         self.root = root
@@ -64,13 +63,13 @@ class Names:
             return file.read()
 
     def fits(self, name):
-        """The files, or the folders for a name that ends in a slash, that a name fits from their ends."""
+        """The files whose paths end in this name; for a name that ends in a slash, the folders."""
         pattern = re.sub(r"(?<![A-Za-z])[A-Z][A-Z_]*(?![a-z])", "*", name.rstrip("/"))
         among = self.folders if name.endswith("/") else self.files
         return [path for path in among if fnmatch.fnmatchcase("/" + path, "*/" + pattern)]
 
     def is_there(self, name, near):
-        """Whether a name means something: one thing, or one of the files or below the folders that are near."""
+        """Whether a name is unambiguous, or fits a nearby file or one below a nearby folder."""
         if name.startswith(("build", "/")) or name in self.system:
             return True
         found = self.fits(name)
@@ -81,13 +80,13 @@ class Names:
         return any((path + "/").startswith(place + "/") for path in found for place in near)
 
     def near(self, text):
-        """The folders that a text names, by themselves or as those of a file."""
+        """The folders that a text names, directly or by a file in them."""
         words = [word for pair in (PATH.findall(text), QUOTED.findall(text)) for word in pair]
         places = {place for word in words for place in (word.rstrip("/"), os.path.dirname(word))}
         return places & self.folders - {""}
 
     def stale_in_page(self, path):
-        """Names in a page that mean nothing."""
+        """Names in a page that fit nothing."""
         wrong = []
         for section in re.split(r"^#+ ", self.read(path), flags=re.M):
             section = re.sub(r"https?://\S+|#include .*", " ", section)
@@ -101,7 +100,7 @@ class Names:
         return wrong
 
     def stale_in_comments(self, path):
-        """Names in a source's comments that mean nothing."""
+        """Names in a source's comments that fit nothing."""
         is_c = re.search(r"\.(c|h|cpp|cl|glsl|vert|frag)(\.in)?$", path)
         form = COMMENTS["c" if is_c else "py" if path.endswith(".py") else "#"]
         text = "\n".join(form.findall(self.read(path)))
@@ -110,7 +109,7 @@ class Names:
         return [name for name in set(PATH.findall(text)) | set(BARE.findall(text)) if not self.is_there(name, near)]
 
     def stale(self):
-        """(file, name) of all names that mean nothing."""
+        """(file, name) of all names that fit nothing."""
         wrong = []
         for path in sorted(self.files):
             if path.endswith(".md") and not path.startswith("results/"):

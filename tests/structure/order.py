@@ -1,7 +1,7 @@
-"""Which way includes go: the rooms of raingauge from top to bottom, and what some of them may not touch.
+"""The direction of includes: the rooms of raingauge from top to bottom, and the rooms that some of them may not use.
 
-A room is a folder with what lies below it, unless that is a room of its own. T stands for any technique: a folder of
-core/techniques that is not listed. B stands for any backend: a folder of backends.
+A room is a folder with all below it, except rooms of their own. T stands for any technique: a folder of core/techniques that is
+not listed. B stands for any backend: a folder of backends.
 """
 import os
 import re
@@ -38,7 +38,7 @@ FLOORS = [
 
 # These rooms may include nothing else, each for a reason.
 FENCES = {
-    # An oracle proves kernels, so it shares nothing with them, and uses nothing else but assertions.
+    # An oracle proves kernels, so it shares nothing with them, and uses only assertions.
     "tests/oracle": "tests/tools",
     "tests/kernels": "kernels/T kernels/scenery kernels/dialect",
     # A technique knows its own kernels, and never another technique.
@@ -50,7 +50,7 @@ FENCES = {
     # A backend runs any kernel, so it knows none.
     "backends/B": "backends core/base kernels/dialect",
     "core/base": "",
-    # A verdict follows from numbers, whoever measured them.
+    # A verdict follows from numbers alone, whoever measured them.
     "harness/judge": "core/base kernels/dialect",
 }
 
@@ -64,7 +64,7 @@ SEAMS = {
 
 
 class Order:
-    """The rooms of a tree: where each of its files lives, and which includes go against FLOORS and FENCES."""
+    """The rooms of a tree: the room of each file, and the includes that violate FLOORS or FENCES."""
 
     def __init__(self, tree):
         self.tree = tree
@@ -90,7 +90,7 @@ class Order:
 
     @staticmethod
     def name(path):
-        """What T or B stands for in a path."""
+        """The technique or backend of a path, for which T or B stands."""
         return path.split("/")[2 if path.startswith("core/") else 1]
 
     def why_not(self, path, target):
@@ -115,13 +115,13 @@ class Order:
         return [row for row in wrong if row[2]]
 
     def torn(self):
-        """(file, name, folder) of each name that a file of the harness uses past the folder that it belongs to."""
+        """(file, name, folder) of each name that a file of the harness uses although it belongs to another folder."""
         return [(path, name, folder) for folder, names in SEAMS.items() for path in sorted(self.tree.known)
                 if path.startswith("harness/") and not path.startswith(folder + "/")
                 for name in names.split() if re.search(rf"\b{name}\b", self.tree.text[path])]
 
     def stale(self):
-        """What FLOORS and FENCES name that is not there, and files that no room of FLOORS holds."""
+        """Missing folders that FLOORS and FENCES name, and files in no room of FLOORS."""
         used = {(self.room[path], self.room[target]) for path, _, target in self.tree.includes if target}
         wrong = [f"{path}: in no room of FLOORS" for path, room in sorted(self.room.items()) if not room]
         wrong += [f"FLOORS: {room}: no such room" for room in self.floor if room not in self.room.values()]

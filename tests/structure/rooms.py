@@ -1,4 +1,4 @@
-"""How many rooms a folder has: the units and folders in it."""
+"""The number of rooms in a folder: its units and folders."""
 import os
 import re
 
@@ -6,12 +6,12 @@ LIMIT = 12
 
 
 def unit(name):
-    """A header, its source and the struct of its parameters are one unit; so are a template and what is made of it."""
+    """A header, its source and the struct of its parameters are one unit, and so are a template and its products."""
     return re.sub(r"_params$|_tmpl$", "", name.split(".")[0])
 
 
 def rooms(tree):
-    """Of each folder: its files, and the units and folders in it. Build lists are no rooms."""
+    """For each folder: its files, and the units and folders in it. Build lists are no rooms."""
     files, inside = {}, {}
     for path in tree.known | tree.scripts:
         folder, name = os.path.split(path)

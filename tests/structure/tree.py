@@ -1,10 +1,10 @@
-"""What the sources of raingauge include, define and use, read from their text.
+"""Reads from their text what the sources of raingauge include, define and use.
 
-A unit is a header and the source of the same name beside it (`core/scene/camera.h` and `camera.c`), or either alone. Unit
-A uses unit B if A includes B's header, or names a function or an object that B defines for others: an umbrella header
-such as `backends/gl/gl.h` declares the functions of many sources, so that includes alone would hide who needs whom.
-Definitions are found by their form, which clang-format keeps: they begin at the first column, and a function's brace
-stands alone. That needs no build, so that any commit can be measured.
+A unit is a header and the source of the same name beside it (`core/scene/camera.h` and `camera.c`), or either alone. Unit A uses
+unit B if A includes B's header, or names a function or an object that B defines for others. Includes alone would hide that: an
+umbrella header such as `backends/gl/gl.h` declares the functions of many sources. Definitions are found by their form, which
+clang-format keeps: they begin at the first column, and a function's brace stands alone. This needs no build, so that any commit
+can be measured.
 """
 import os
 import re
@@ -60,12 +60,12 @@ class Tree:
             self.headers[path] = {target for _, _, target in named if target}
 
     def find(self, path, name):
-        """The file that an include of `path` names: from the root, made by the build, or (unrooted) beside `path`."""
+        """The file that an include of `path` names: from the root, made by the build, or (unrooted) next to `path`."""
         beside = os.path.normpath(os.path.join(os.path.dirname(path), name))
         return next((p for p in (name, name + ".in", beside) if p in self.known), None)
 
     def definitions(self):
-        """The unit of each name that a source defines for others; of names in several programs of the tests, none."""
+        """The unit of each name that a source defines for others; a name that several programs of the tests define has none."""
         owner = {}
         for path, text in self.text.items():
             if C_SOURCE.search(path):
@@ -74,14 +74,14 @@ class Tree:
         return {name: units.pop() for name, units in owner.items() if len(units) == 1}
 
     def node_of(self, path, owner):
-        """The unit that a file belongs to. A header that declares what other sources define is one by itself."""
+        """The unit of a file. A header that declares other sources' definitions is a unit by itself."""
         unit = unit_of(path)
         if not HEADER.search(path):
             return unit
         return unit if {owner[word] for word in self.words[path] & owner.keys()} <= {unit} else path
 
     def visible(self, path):
-        """The words of all headers that a file includes, and theirs: what it names of others stands among them."""
+        """The words of all headers that a file includes, directly or indirectly: names of other units that it uses are among them."""
         seen, words, todo = set(), set(), [path]
         while todo:
             headers = self.headers[todo.pop()] - seen
@@ -92,7 +92,7 @@ class Tree:
         return words
 
     def uses(self):
-        """The units that each unit uses, and for each of them the word or the header that shows it."""
+        """The units that each unit uses, each with the word or the header that shows it."""
         owner = self.definitions()
         node = {path: self.node_of(path, owner) for path in self.text}
         used = {unit: {} for unit in node.values()}
@@ -106,7 +106,7 @@ class Tree:
         return {unit: {to: why for to, why in targets.items() if to != unit} for unit, targets in used.items()}
 
     def pasted(self, path, owner):
-        """What a list makes by pasting: `extern const struct rg_command rg_command_##name` stands for every command."""
+        """The names that a list makes by pasting: `extern const struct rg_command rg_command_##name` stands for every command."""
         named = set()
         for kind, prefix in PASTED.findall(self.text[path]):
             made = re.compile(rf"^{kind} ({prefix}\w+)", re.M)
@@ -115,7 +115,7 @@ class Tree:
 
 
 def circles(used):
-    """Groups of units that use each other, directly or around: the strong components, found as Tarjan does."""
+    """Groups of units that use each other, directly or indirectly: the strongly connected components, by Tarjan's algorithm."""
     index, low, stack, found = {}, {}, [], []
 
     def visit(unit):

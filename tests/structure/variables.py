@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Holds docs/environment.md against the sources: variables.py [ROOT].
+"""Compares docs/environment.md with the sources: variables.py [ROOT].
 
-Each variable that the product reads or that a passport holds is on the page; of those that drivers read the passport holds all that the
-page names, and of the others those that the page says. Prints one line for each that differs, and exits 1 if there are any.
+The page has each variable that the product reads or a passport holds. The passport holds all variables of drivers on the page,
+and those others of which the page says so. Prints one line for each difference, and exits 1 if there are any.
 """
 import os
 import re

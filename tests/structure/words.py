@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Finds structs in buffers whose words `kernels/build/describe.h` does not tell, or tells wrongly."""
+"""Finds structs in buffers whose words are missing or wrong in `kernels/build/describe.h`."""
 import glob
 import os
 import re

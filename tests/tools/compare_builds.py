@@ -207,7 +207,7 @@ OTHERS = (
     Case("absent original database", (RAIN + "--set atlas=cave -o a.png",), 2, {"XDG_CACHE_HOME": "/proc/none"}),
 )
 
-# refused input, with one line and exit status 2
+# refused input: one line and exit status 2
 REFUSALS = (
     "", "nonsense", "list", "list nonsense", "list params nonsense", "list devices twice", "render", "render flow flow",
     TINY + "--device nonsense -o a.png", TINY + "--device cpu:nonsense -o a.png", TINY + "--device cpu,gl -o a.png",

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 // Both sides are evaluated once and compared as long doubles, which hold every integer and double
-// exactly. A NaN fails, but where it differs.
+// exactly. With a NaN, only assert_differs passes.
 #define assert_below(a, b)    RG_EXPECT(a, "<", b)
 #define assert_at_most(a, b)  RG_EXPECT(a, "<=", b)
 #define assert_above(a, b)    RG_EXPECT(a, ">", b)

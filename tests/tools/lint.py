@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Faults that tools find by reading the sources of core, harness and backends: lint.py BUILD TOOL...
+"""Faults in the sources of core, harness and backends that tools find by reading: lint.py BUILD TOOL...
 
-TOOL: cppcheck (12 s of CPU time; cppcheck.txt lists what it is wrong about), gcc (its analyzer; 65 s) or clang-tidy (.clang-tidy says
-what it looks for; 5 min). Other versions take other things for faults: where a tool is missing or another than Debian 12's, nothing is
-looked at, and the exit status is 77.
+TOOL: cppcheck (12 s of CPU time; cppcheck.txt lists its false warnings), gcc (its analyzer; 65 s) or clang-tidy (.clang-tidy
+lists its checks; 5 min). Other versions warn differently: if a tool is missing or not Debian 12's, nothing is checked, and the
+exit status is 77.
 """
 import concurrent.futures
 import json
@@ -26,7 +26,7 @@ CPPCHECK = ["--enable=warning,performance,portability", "--inline-suppr", "--std
 
 
 def sources(build):
-    """How each C source of the rooms is compiled, without what names outputs and levels of optimisation."""
+    """The compile command of each C source of the rooms, without outputs and levels of optimisation."""
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
         entries = json.load(file)
     commands = {}

@@ -18,7 +18,7 @@ def duration(seconds):
 
 
 class Progress:
-    """How far a command is. Steps of a first tenth tell too little of the time left."""
+    """How far a command is. Before a tenth of the steps, the time left is not known well enough."""
 
     def __init__(self):
         self.begin, self.quarter, self.on_terminal = time.monotonic(), 0, sys.stdout.isatty()

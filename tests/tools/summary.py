@@ -24,8 +24,8 @@ def read(path):
 
 
 def said(test):
-    """A test's messages about failures, in the format of TAP or cmocka, or else its last lines: they are all that the
-    end of a log shows of it."""
+    """A test's messages about failures, in the format of TAP or cmocka, or else its last lines. The end of a log shows no more of
+    it."""
     output = test.get("stdout", "") + test.get("stderr", "")
     failures = re.findall(r"^(?:not ok.*\n(?:#.*\n)*|\[ +(?:ERROR|LINE|FAILED) +\].*\n)", output, re.M)
     lines = ("".join(failures) or output).splitlines()

@@ -1,4 +1,4 @@
-"""baseline, and gate --baseline: what cells did is kept, and devices are held against it later."""
+"""baseline, and gate --baseline: a baseline keeps what cells did, and later runs are compared with it."""
 import ctypes
 import ctypes.util
 import json
@@ -26,12 +26,12 @@ CHANGE, YARDSTICK_CHANGE, BUSY = 1e6, 1e3, 1e2
 
 
 def is_about(change, ratio):
-    """Whether it is what the change makes of it, however busy the machine was then and is now."""
+    """Whether a ratio shows the change, however busy the machine was then and is now."""
     return change / BUSY < ratio < change * BUSY
 
 
 def checksum(document):
-    """As harness/record/disk/seal.c makes it: XXH3 of the compact text with sorted names and numbers of nine digits."""
+    """The checksum by harness/record/disk/seal.c: XXH3 of the compact text with sorted names and numbers of nine digits."""
     jansson = ctypes.CDLL(ctypes.util.find_library("jansson"))
     jansson.json_loads.restype = ctypes.c_void_p
     jansson.json_dumps.restype = ctypes.c_void_p
@@ -45,7 +45,7 @@ def checksum(document):
 
 
 def change(path, edit, to=None):
-    """Changes a baseline, and its checksum with it."""
+    """Changes a baseline, and its checksum accordingly."""
     with open(path) as file:
         document = json.load(file)
     del document["checksum"]
@@ -65,13 +65,13 @@ def make(runner, files, *more, device="cpu", name="baseline.json"):
 
 
 def gate(runner, files, path, *more, env={}):
-    """A gate of what is the same every time, unless `more` has a budget."""
+    """A gate without times, so that it gives the same every time, unless `more` has a budget or a margin."""
     args = list(more) if "--budget" in more or "--margin" in more else ["--pictures"] + list(more)
     return runner.run(["gate", "--baseline", path, "--cells", files.cells, "--json"] + args, env)
 
 
 def check_same(runner):
-    """a device does what its baseline has, which is of the documented form, and its keys are printed"""
+    """a device agrees with its baseline, which has the documented form, and its keys are printed"""
     problems = []
     with Files() as files:
         path, printed = make(runner, files, *QUICK)
@@ -103,7 +103,7 @@ def check_same(runner):
 
 
 def check_timed(runner):
-    """times under the same key are decided on; what takes a million times as long as it did is found, and what did so before too"""
+    """times under the same key get verdicts; a million times slower is found, whether cells or the baseline are"""
     with Files(TORUS) as files:
         path, _ = make(runner, files, *QUICK)
         cases = {}
@@ -130,7 +130,7 @@ def check_timed(runner):
 
 
 def check_changes(runner):
-    """a digest, a counter or a count of work that is another is found and named; an ending as in the baseline is not hidden"""
+    """a changed digest, counter or count of work is found and named; an ending as in the baseline is not hidden"""
     problems = []
 
     def state(row):
@@ -168,7 +168,7 @@ def check_changes(runner):
 
 
 def check_miscompiled(runner):
-    """a kernel with another constant is found by its picture, which cpu:reference draws anew, kept beside it, and blamed on its stage"""
+    """a kernel with another constant is found by its picture, blamed on its stage, and cpu:reference's picture is kept beside it"""
     with Files() as files:
         path, _ = make(runner, files, "--pictures", device="gl,cpu")
         kernels = files.path("kernels")
@@ -196,7 +196,7 @@ def check_miscompiled(runner):
         problems.append("expected: exit status %d, %s" % (expected.returncode, expected.stdout))
     if only.returncode or set(endings(json.loads(only.stdout))) != {"raster/torus.cpu", "flow/pane.cpu"}:
         problems.append("--device cpu: %s" % only.stdout)
-    # A baseline made with a driver that draws wrongly does not make its pictures right.
+    # A baseline by a driver that draws wrongly does not make its pictures right.
     if wrong.returncode != 1 or "flow/pane.gl: fail: the picture differs" not in wrong.stdout:
         problems.append("wrong: exit status %d, %s" % (wrong.returncode, wrong.stdout))
     if again.returncode != 1 or endings(json.loads(again.stdout))["flow/pane.gl"] != "differs":
@@ -205,7 +205,7 @@ def check_miscompiled(runner):
 
 
 def wrong_advice(slower, least, most, details):
-    """What is wrong with how much longer a frame takes, by itself and by the yardsticks, which say what the machine has of it."""
+    """Problems of advice: a frame's ratio by itself, and by the yardsticks, which show how much of it is the machine's."""
     lines = re.findall(r"^(\w+) takes ([\d.]+) times as long: ([\d.]+) by it$", details, re.M)
     problems = [] if [name for name, _, _ in lines] == ["chain", "vector", "copy", "fork_join"] else ["yardsticks: %s" % details]
     for name, machine, by_it in ((name, float(machine), float(by_it)) for name, machine, by_it in lines):
@@ -217,7 +217,7 @@ def wrong_advice(slower, least, most, details):
 
 
 def check_advice(runner):
-    """under another key times are advice by the yardsticks, and fail nothing"""
+    """under another key, times become advice by the yardsticks, and fail nothing"""
     problems = []
 
     def other(document):
@@ -252,7 +252,7 @@ def refuse(runner, args, says):
 
 
 def check_refused(runner):
-    """a baseline that is missing, damaged, foreign or another version's is an error, for the gate and for updates"""
+    """a baseline that is missing, damaged, foreign or of another version is an error, for the gate and for updates"""
     problems = []
     with Files() as files:
         path, _ = make(runner, files, "--pictures")
@@ -297,7 +297,7 @@ def check_refused(runner):
 
 
 def check_update(runner):
-    """an update says what changes, a line a cell, and writes only when it is told to, whole"""
+    """an update lists its changes, a line a cell, and writes the whole file only on request"""
     problems = []
     with Files() as files:
         path, _ = make(runner, files, "--pictures")
@@ -342,7 +342,7 @@ def check_update(runner):
 
 
 def check_fallen(runner):
-    """an update in which a driver falls while its device is opened leaves the file as it was"""
+    """an update leaves the file unchanged if a driver crashes while its device is opened"""
     with Files() as files, tempfile.TemporaryDirectory() as folder:
         path, _ = make(runner, files, "--pictures", device="cpu,vulkan")
         with open(path) as file:
@@ -357,7 +357,7 @@ def check_fallen(runner):
 
 
 def check_meanwhile(runner):
-    """what another writes while a baseline is made stays, for nobody was shown what would change of it"""
+    """a file that another process writes while a baseline is made stays, since nobody was shown those changes"""
     problems = []
     with Files(TORUS) as files:
         path, _ = make(runner, files, "--pictures")
@@ -375,7 +375,7 @@ def check_meanwhile(runner):
 
 
 def check_forms(runner):
-    """the forms for CI are of a baseline's gate too: JUnit, Bencher's, googletest's, GitHub's"""
+    """a baseline's gate has all forms for CI: JUnit, Bencher's, googletest's, GitHub's"""
     problems = []
     with Files() as files:
         path, _ = make(runner, files, *QUICK)
@@ -397,7 +397,7 @@ def check_forms(runner):
 
 
 def check_absent(runner):
-    """a device that is no longer there differs, and one whose driver falls fails its own cells"""
+    """a device that is missing differs, and one whose driver crashes fails its own cells"""
     with Files(TORUS) as files:
         path, _ = make(runner, files, "--pictures", device="cpu,vulkan")
         absent = gate(runner, files, path, env={"VK_DRIVER_FILES": "/nonexistent"})
@@ -415,7 +415,7 @@ def check_absent(runner):
 
 
 def check_long(runner):
-    """a baseline that asks for many frames makes no gate longer than its budget, which is refused where that leaves nothing to decide by"""
+    """a baseline with many frames makes no gate longer than its budget; a budget too short to decide anything is refused"""
     def lengthen(document):
         for row in document["baseline"][-1:]:
             row["frames"], row["timings"] = 1000, 9  # 27000 frames a launch
@@ -436,7 +436,7 @@ def check_long(runner):
 
 
 def check_untimed(runner):
-    """a gate that is to compare times is refused by a baseline without them, and nothing is compared"""
+    """a gate of times refuses a baseline without them, and compares nothing"""
     with Files(TORUS) as files:
         path, _ = make(runner, files, "--pictures")
         result = runner.run(["gate", "--baseline", path, "--cells", files.cells, "--budget", "1s"])
@@ -446,7 +446,7 @@ def check_untimed(runner):
 
 
 def check_spared(runner):
-    """no report of a gate replaces a file that it reads, by whatever name, and what is there stays"""
+    """no report of a gate replaces a file that the gate reads, by whatever name"""
     problems = []
     with Files(TORUS) as files:
         path, _ = make(runner, files, "--pictures")
@@ -468,7 +468,7 @@ def check_spared(runner):
 
 
 def check_kept(runner):
-    """what the built-in cells draw, leave and count on cpu, gl and vulkan is what the repository's baseline has of them"""
+    """built-in cells on cpu, gl and vulkan have the pictures, states and counters of the repository's baseline"""
     result = runner.run(["gate", "--baseline", KEPT, "--pictures", "--json"])
     report = json.loads(result.stdout)
     found = {case["name"]: case for case in report["gated"]}
@@ -481,7 +481,7 @@ def check_kept(runner):
 
 
 def check_short_names(runner):
-    """what a baseline's short name stands for is said by the command line, and without that nothing runs"""
+    """the command line must say which device a baseline's short name means; otherwise nothing runs"""
     problems = []
     with Files(TORUS) as files:
         path, _ = make(runner, files, "--pictures", device="g=cpu@OMP_NUM_THREADS=1")

@@ -1,4 +1,4 @@
-"""bisect: the first of several drivers that is bad, alone and inside git bisect run; its verdicts, what it refuses."""
+"""bisect: finds the first bad one of several drivers, alone and inside git bisect run; its verdicts, and its refusals."""
 import json
 import os
 import re
@@ -28,7 +28,7 @@ def manifest(library):
 
 
 def write_build(folder, name, library):
-    """A driver's manifest with a copy of its library beside it: two builds are two files, or a gate refuses them."""
+    """A driver's manifest with a copy of its library beside it: a gate refuses two builds in one file."""
     copy = os.path.join(folder, os.path.dirname(name), "driver.so")
     os.makedirs(os.path.dirname(copy), exist_ok=True)
     shutil.copy(library, copy)
@@ -36,7 +36,7 @@ def write_build(folder, name, library):
 
 
 def shell(runner, folder, script):
-    """A script of docs/ci, which docs/ci.md quotes, in a folder where raingauge is found by its name."""
+    """A script of docs/ci, which docs/ci.md quotes, in a folder where raingauge is found by name."""
     with open(os.path.join(EXAMPLES, script)) as file, open(EXAMPLES + ".md") as page:
         if "\n```\n%s```\n" % file.read() not in page.read():
             raise ValueError("docs/ci.md does not quote " + script)
@@ -45,13 +45,13 @@ def shell(runner, folder, script):
 
 
 def bisect(runner, line, more=(), good="1", bad="9", names="123456789"):
-    """A bisect of words with --json: its exit status, its report, what it said."""
+    """Bisects words with --json: its exit status, its report, its messages."""
     ran = runner.run(["bisect", "--good", good, "--bad", bad, "--run", line, "--json", *more, *names])
     return ran.returncode, json.loads(ran.stdout) if ran.stdout else None, ran.stderr
 
 
 def check_builds(runner):
-    """of five builds the first that crashes is found, and one without a driver is skipped, as docs/ci.md shows it"""
+    """the first of five builds that crashes is found, and one without a driver is skipped, as docs/ci.md shows"""
     with tempfile.TemporaryDirectory() as folder:
         write(folder, "cells.txt", TORUS)
         for build, library in (("1", runner.misbehaver), ("2", runner.misbehaver), ("3", None), ("4", runner.crasher), ("5", runner.crasher)):
@@ -74,7 +74,7 @@ def check_builds(runner):
 
 
 def check_git(runner):
-    """git bisect run finds the commit whose driver crashes, past commits that do not build, as docs/ci.md shows it"""
+    """git bisect run finds the commit whose driver crashes, past commits that do not build, as docs/ci.md shows"""
     with tempfile.TemporaryDirectory() as folder:
         def git(*args):
             return subprocess.run(["git", "-c", "user.name=n", "-c", "user.email=e", *args], cwd=folder, capture_output=True, text=True,
@@ -97,7 +97,7 @@ def check_git(runner):
 
 
 def check_git_stops(runner):
-    """where git bisects, what is misspelt ends its search, and is bad usage elsewhere"""
+    """a misspelt word ends git's search, and is bad usage elsewhere"""
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         def git(*args):
@@ -119,7 +119,7 @@ def check_git_stops(runner):
 
 
 def check_statuses(runner):
-    """inside git bisect run each exit status of a command becomes git's, and what is inconclusive is tried with twice the time"""
+    """inside git bisect run each exit status of a command becomes git's, and an inconclusive one is tried with twice the time"""
     problems = []
     rows = [("exit 0", 0), ("exit 1", 1), ("exit 3", 125), ("exit 4", 125), ("exit 77", 125), ("exit 125", 125), ("kill -SEGV $$", 125),
             ("exit 134", 125), ("exit 2", 128), ("exit 127", 128), ("exit 5", 128), ("exit 128", 128), ("no-such-command", 128), ("exit 130", 128)]
@@ -137,7 +137,7 @@ def check_statuses(runner):
 
 
 def check_lists(runner):
-    """a list is halved between its ends, which are judged first, and each way to end has its status"""
+    """a list is halved between its ends, which are judged first; each way to end has its status"""
     problems = []
     for line, ends, status, end, first_bad, judged in (
             ("test $RG_CANDIDATE -lt 6", ("1", "9"), 0, "found", ["6"], "19576"), ("test $RG_CANDIDATE -gt 4", ("9", "1"), 0, "found", ["4"], "91534"),
@@ -154,7 +154,7 @@ def check_lists(runner):
 
 
 def check_names(runner):
-    """the command gets a candidate of any characters as it is, by a variable, and JSON has it as it is"""
+    """a command gets a candidate of any characters unchanged, by a variable, and so does JSON"""
     problems = []
     for name in HOSTILE:
         for line in ("test \"$RG_CANDIDATE\" = good", "# it's\ntest \"$RG_CANDIDATE\" = \"$RG_GOOD\" <<EOF\n'\nEOF\n", "sh -c 'test \"$RG_CANDIDATE\" = good'"):
@@ -170,7 +170,7 @@ def check_names(runner):
 
 
 def check_interrupted(runner):
-    """a bisect that is interrupted ends its command, and says between which two it goes on; nothing is kept"""
+    """an interrupted bisect ends its command, and names the two candidates between which it would go on; nothing is kept"""
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         env = {"XDG_STATE_HOME": folder}
@@ -190,7 +190,7 @@ def check_interrupted(runner):
 
 
 def check_unprinted(runner):
-    """what a bisect came to and cannot print is raingauge's own want, as a full disk is, and no verdict"""
+    """a result that cannot be printed is raingauge's own failure, like a full disk, and no verdict"""
     problems = []
     for more in ([], ["--json"]):
         with open("/dev/full", "w") as full:
@@ -201,7 +201,7 @@ def check_unprinted(runner):
 
 
 def check_refused(runner):
-    """what cannot be a bisect is refused in one line"""
+    """an impossible bisect is refused in one line"""
     problems = []
     for args, says in ((["--good", "a", "--bad", "b"], "--run names the command"), (["--run", "true", "--good", "a"], "--bad is missing"),
                        (["--run", "true", "a", "b"], "--good is missing"),

@@ -1,4 +1,4 @@
-"""gate in CI: the examples of docs/ci as they are, run by stand-ins of their services, and what runners of googletest ask for."""
+"""gate in CI: the examples of docs/ci unchanged, run by stand-ins for their services, and the requests of googletest's runners."""
 import json
 import os
 import shutil
@@ -21,7 +21,7 @@ TIMES, PAGE = FOLDER + "/launches.csv", FOLDER + "/page.html"
 
 
 def undecided(service, runner, folder):
-    """Runs a job whose budget and margin decide nothing, until the launches that earlier ones kept make up a first look."""
+    """Runs a job whose budget and margin decide nothing, until the launches kept by earlier jobs suffice for a first look."""
     for _ in range(20):
         if os.path.exists(os.path.join(folder, "summary.md")):
             os.remove(os.path.join(folder, "summary.md"))
@@ -51,7 +51,7 @@ def ends_in_xml(path):
 
 
 def check_gitlab(runner):
-    """docs/ci/gitlab-ci.yml: what is not decided is a warning, a crash fails, and the report that it names is JUnit's"""
+    """docs/ci/gitlab-ci.yml: an open verdict is a warning, a crash fails, and the named report is JUnit's"""
     problems = []
     for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES, PAGE]), (runner.crasher, "failed", ["error"], [PAGE]),
                                     ("/nonexistent", "failed", ["error"], [PAGE])):  # a device that --require misses
@@ -81,7 +81,7 @@ def check_github(runner):
 
 
 def check_deqp_runner(runner):
-    """docs/ci/deqp-runner.sh: each case that is listed has one result, and a baseline of failures holds"""
+    """docs/ci/deqp-runner.sh: each listed case has one result, and a baseline of failures holds"""
     problems = []
     for new, word in ((runner.misbehaver, "Pass"), (runner.crasher, "Fail"), ("/nonexistent", "Missing")):
         with tempfile.TemporaryDirectory() as folder:
@@ -98,7 +98,7 @@ def check_deqp_runner(runner):
 
 
 def check_meson(runner):
-    """docs/ci/meson.build: meson takes a gate for a googletest, with its cases in its own report"""
+    """docs/ci/meson.build: meson takes a gate for a googletest, and its report has the gate's cases"""
     problems = []
     for new, status, ends in ((runner.misbehaver, 0, 2 * ["pass"]), (runner.crasher, 1, 2 * ["error"]), ("/nonexistent", 1, ["error"])):
         with tempfile.TemporaryDirectory() as folder:
@@ -115,7 +115,7 @@ def check_meson(runner):
 
 
 def check_pictures(runner):
-    """pictures that differ are written beside the JUnit report, which names them, and nothing is where none differ"""
+    """pictures that differ are written beside the JUnit report, which names them; without differences nothing is written"""
     problems = []
     with Files() as files:
         kernels = files.path("kernels")
@@ -148,7 +148,7 @@ def check_pictures(runner):
 
 
 def check_gtest_flags(runner):
-    """what runners of googletest pass is taken, also with a value, and what cannot be done is refused"""
+    """the flags of googletest's runners are accepted, also with a value, and impossible requests are refused"""
     problems = []
     flags = ("--gtest_color=no --gtest_print_time=0 --gtest_brief=1 --gtest_shuffle --gtest_random_seed=7 --gtest_repeat=1 --gtest_fail_fast=false "
              "--gtest_also_run_disabled_tests --gtest_catch_exceptions=0 --gtest_break_on_failure=0 --gtest_throw_on_failure=1 "
@@ -187,7 +187,7 @@ def check_gtest_flags(runner):
 
 
 def check_shards(runner):
-    """shards of googletest have each case once; one that is left without any compares nothing"""
+    """shards of googletest have each case once; an empty shard compares nothing"""
     problems = []
     with Files(QUICK + THIRD) as files:
         args = ["gate", "cpu", "cpu", "--cells", files.cells, "--pictures"]

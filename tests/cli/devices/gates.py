@@ -1,4 +1,4 @@
-"""gate: one device held against another; what is worse is told in every form, and ends with a status of its own."""
+"""gate: compares one device with another, reports what is worse in every form, and ends with its own status."""
 import json
 import os
 import re
@@ -46,7 +46,7 @@ def endings(report):
 
 
 def check_same(runner):
-    """a device agrees with itself, and the built-in cells run on it"""
+    """a device agrees with itself, and all built-in cells run on it"""
     result = runner.run("gate cpu cpu --pictures --json".split())
     report = json.loads(result.stdout)
     problems = forms.problems("gate", report)
@@ -57,7 +57,7 @@ def check_same(runner):
 
 
 def check_slower(runner):
-    """what takes several times as long is found, in every form"""
+    """a cell that takes several times as long is found, in every form"""
     problems = []
     with Files(TORUS) as files:
         junit, bmf = files.path("junit.xml"), files.path("bmf.json")
@@ -82,7 +82,7 @@ def check_slower(runner):
 
 
 def check_quarantined(runner):
-    """what is in quarantine is measured, and a regression is told, though it fails nothing"""
+    """a cell in quarantine is measured, and its regression is reported but fails nothing"""
     with Files(TORUS) as files:
         known = files.path("known.txt", "flake *\n  reason it comes and goes\n  since 2026-01-01\n  until " + LATER + "\n")
         result = runner.run(["gate", "cpu", "cpu@RG_PROGRAM=%s;%s" % (runner.slower, EXTRA), "--cells", files.cells, "--expectations", known, "--json"])
@@ -92,7 +92,7 @@ def check_quarantined(runner):
 
 
 def check_expired(runner):
-    """what has expired fails, also where it is faster or left open; a device that is not there leaves it as it is"""
+    """an expired expectation fails, even if its cell is faster or open; a device that is missing leaves it unchanged"""
     problems = []
     with Files(TORUS) as files:
         slower = "cpu@RG_PROGRAM=%s;%s" % (runner.slower, EXTRA)
@@ -113,7 +113,7 @@ def check_expired(runner):
 
 
 def check_without_ids(runner):
-    """libraries that have no build id are told apart by their code"""
+    """libraries without a build id are told apart by their code"""
     problems = []
     with Files(TORUS) as files:
         for name, value in (("one", 1), ("two", 2), ("again", 1)):
@@ -128,7 +128,7 @@ def check_without_ids(runner):
 
 
 def check_builds(runner):
-    """another build is held against this one on each device that is named, and what it does more is found"""
+    """another build is compared with this one on each named device, and its extra work is found"""
     problems = []
     with Files(TORUS) as files:
         args = ["gate", "--against", runner.slower, "--cells", files.cells, "--json"]
@@ -146,7 +146,7 @@ def check_builds(runner):
 
 
 def check_fallen(runner):
-    """a driver that falls while devices are listed fails a gate of builds, and every other device is held against its own"""
+    """a driver that crashes while devices are listed fails a gate of builds, and every other device is compared with its own"""
     with Files(TORUS) as files:
         result = runner.run(["gate", "--against", runner.slower, "--pictures", "--cells", files.cells, "--json"],
                             env=runner.crashing_vulkan(files.folder.name))
@@ -157,14 +157,14 @@ def check_fallen(runner):
 
 
 def needed_s(result):
-    """How many seconds a first look takes, by a gate that was refused because its budget has no room for it; 0: it was not."""
+    """Seconds until a first look, from a gate that was refused because its budget is too short for one; 0: it was not refused."""
     said = re.fullmatch(r"raingauge: --budget: the first look, after (?:16|8) launches, comes about (\d+) s after the start, so that nothing is "
                         r"decided within ([\d.]+) s; give (\d+)s or more, or gate fewer cells\n", result.stderr)
     return float(said[1]) if result.returncode == 2 and said and float(said[1]) >= float(said[2]) and said[1] == said[3] else 0
 
 
 def check_budget(runner):
-    """a budget without room for a first look is refused, and says how much it takes; what pictures show is told all the same"""
+    """a budget too short for a first look is refused, and the line names the time needed; pictures are judged all the same"""
     problems = []
     with Files() as files:
         budget = 0.001
@@ -185,7 +185,7 @@ def check_budget(runner):
 
 
 def check_open(runner):
-    """what is not decided when the time is over is inconclusive, with a status of its own; a gate that was refused before goes on"""
+    """a verdict that is open when the time is over is inconclusive, with its own status; a gate that was refused before goes on"""
     with Files(TORUS) as files:
         args = ["gate", "cpu", "cpu", "--cells", files.cells, "--margin", "0.001", "-o", files.path("out"), "--budget"]
         budget = needed_s(runner.run(args + ["0.001s"])) / 3
@@ -198,7 +198,7 @@ def check_open(runner):
 
 
 def check_shared(runner):
-    """devices of two builds share the budget: one that takes more leaves less to the next, which is left open then"""
+    """devices of two builds share the budget: a slow device leaves less time to the next, which stays open"""
     with Files(TORUS) as files:
         slow = files.path("slow.sh", "#!/bin/sh\nsleep $RG_SLOW_S\nexec %s \"$@\"\n" % runner.raingauge)
         os.chmod(slow, 0o700)
@@ -213,7 +213,7 @@ def check_shared(runner):
 
 
 def check_crash(runner):
-    """a driver that falls ends its own cells; where that is expected it is no failure, and no pass either, for nothing was compared"""
+    """a driver that crashes ends its own cells; if that is expected it is no failure, but no pass either, since nothing was compared"""
     problems = []
     with Files() as files:
         driver = files.path("driver.json")
@@ -231,7 +231,7 @@ def check_crash(runner):
 
 
 def check_unused(runner):
-    """what is expected of a device or a driver that a gate does not have is told in a line; the patterns of the pages hold"""
+    """an expectation of a device or driver that a gate lacks is reported in a line; the patterns of the pages hold"""
     problems = []
     root = os.path.dirname(TESTS)
     with Files(TORUS) as files:
@@ -252,12 +252,12 @@ def check_unused(runner):
 
 
 def check_sides(runner):
-    """what is expected of B is not met by a failure of A, whether the two are compared or timed, and no file blames B for it"""
+    """a failure of A does not meet an expectation about B, whether the two are compared or timed, and no file blames B for it"""
     problems = []
     with Files(TORUS) as files:
         known = files.path("known.txt", "fail *\n  device vulkan*\n  outcome crash\n  reason it falls\n  since 2026-11-01\n  until " + LATER + "\n")
         fails, empty = files.path("fails.txt", "raster/torus,Crash\n"), files.path("empty.txt", "")
-        # Two launches compare; the device's driver crashes after a given number of them.
+        # Two launches compare pictures; the device's driver crashes after a given number of them.
         count = files.path("count")
         env = misbehaving.shim(runner, files.folder.name, "vulkan", "vkQueueSubmit", "abort", 0)
         other = files.path("other.sh", "#!/bin/sh\necho >> %s\ntest $(wc -l < %s) -gt ${RG_TEST_GOOD} && export RG_MISBEHAVE=%s\nexec %s \"$@\"\n" % (
@@ -275,7 +275,7 @@ def check_sides(runner):
 
 
 def check_ours(runner):
-    """what raingauge cannot do for want of a file, of memory or of rain is no failure of a driver that could be expected, also against a baseline"""
+    """a want of a file, of memory or of rain is no failure of a driver that could be expected, also against a baseline"""
     problems = []
     bad = "a/file raster 64x48 1 scene=mesh model=%s\nb/dry shower 64x36 1 geometry=off opacity=0\nc/large raster 1024x1024 1 billboards=10\n"
     with Files() as files:
@@ -296,7 +296,7 @@ def check_ours(runner):
 
 
 def check_falling(runner):
-    """a side that cannot be started any more fails the gate, whatever was measured by then, and is no failure of a driver that could be expected"""
+    """a side that cannot be started any more fails the gate, whatever was measured by then, and is no failure that could be expected"""
     problems = []
     expected = "fail raster/*\n  outcome error\n  reason it stops\n  since 2026-01-01\n  until " + LATER + "\n"
     with Files(TORUS) as files:
@@ -318,7 +318,7 @@ WAYS = (("vulkan", "vkCreateComputePipelines", "hang", 1), ("gl", "glDispatchCom
 
 
 def check_ways(runner):
-    """in whatever else way B's driver misbehaves, its cells end so, in one line"""
+    """B's cells end as its driver misbehaves, in each other way too, in one line"""
     problems = []
     for case in WAYS:
         with Files(TORUS) as files:
@@ -333,7 +333,7 @@ def check_ways(runner):
 
 
 def check_miscompiled(runner):
-    """a kernel in which one constant is another is found before anything is timed, and blamed on its stage"""
+    """a kernel with another constant is found before anything is timed, and blamed on its stage"""
     with Files() as files:
         kernels = files.path("kernels")
         os.mkdir(kernels)
@@ -356,7 +356,7 @@ def check_miscompiled(runner):
 
 
 def check_cached(runner):
-    """code that a cache has from a run of more cells is that which is compiled anew, though Mesa has numbered its programs otherwise"""
+    """code from a cache of more cells is the same as newly compiled code, though Mesa numbered its programs otherwise"""
     with Files("flow/pane flow 64x48 2 view=pane resolution_px=64\n" + TORUS) as files:
         env = {"XDG_CACHE_HOME": files.path("cache")}
         alone = files.path("alone.txt", TORUS)
@@ -368,7 +368,7 @@ def check_cached(runner):
 
 
 def check_cost(runner):
-    """where pictures differ the tier is told that would hold, and a command that says the same, and which mutants live then; against a baseline too"""
+    """if pictures differ, the tier that would hold is named, with a command that says so and the mutants it accepts; with a baseline, too"""
     problems = []
     with Files("flow/box flow 96x96 3 environment_px=64 resolution_px=96\n") as files:
         kernels, path = files.path("it's of $HOME"), files.path("baseline.json")
@@ -393,7 +393,7 @@ def check_cost(runner):
 
 
 def check_gtest(runner):
-    """googletest's protocol: names are listed, a filter runs some of them, and each has a result"""
+    """googletest's protocol: names are listed, a filter selects some, and each has a result"""
     with Files() as files:
         args = ["gate", "cpu", "cpu", "--cells", files.cells, "--pictures"]
         listed = runner.run(args + ["--gtest_list_tests"])
@@ -407,7 +407,7 @@ def check_gtest(runner):
 
 
 def check_required(runner):
-    """a device that is missing skips its cells, and fails the gate where --require names it: each such is an error of every report"""
+    """a device that is missing skips its cells; named by --require, it fails the gate, with an error a cell in every report"""
     problems = []
     with Files(TORUS) as files:
         path, env = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
@@ -440,7 +440,7 @@ def check_required(runner):
 
 
 def check_missing(runner):
-    """a device of a baseline that ran and is not there any more fails its cells, with a report, unless --device leaves it out, whatever is expected of its pictures"""
+    """a missing device that ran for the baseline fails its cells, with a report, whatever is expected, unless --device leaves it out"""
     problems = []
     with Files(TORUS) as files:
         path, env = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
@@ -458,7 +458,7 @@ def check_missing(runner):
 
 
 def check_no_rain(runner):
-    """a cell whose picture is the same without rain compares nothing, against a device and against a baseline"""
+    """a cell whose picture is the same without rain compares nothing, with a device and with a baseline"""
     problems = []
     with Files("dry shower 64x36 1 geometry=off opacity=0\n") as files:
         for args in (["cpu", "cpu"], ["cpu", "gl"]):
@@ -470,7 +470,7 @@ def check_no_rain(runner):
 
 
 def check_beside(runner):
-    """another build in the current folder is named by its file's name alone"""
+    """another build in the current folder is found by its file name alone"""
     with Files(TORUS) as files:
         os.symlink(runner.slower, files.path("rg"))
         result = subprocess.run([runner.raingauge, "gate", "--against", "rg", "--device", "cpu", "--pictures", "--cells", files.cells],
@@ -479,7 +479,7 @@ def check_beside(runner):
 
 
 def check_unwritten(runner):
-    """a report that cannot be written ends the gate as what it prints does, so that no bisect takes a full disk for a regression"""
+    """a report that cannot be written ends the gate like unprinted output, so that no bisect takes a full disk for a regression"""
     problems = []
     with Files(TORUS) as files:
         junit = files.path("junit.xml", "before")
@@ -495,7 +495,7 @@ def check_unwritten(runner):
 
 
 def check_apart(runner):
-    """two reports, GitHub's summary among them, have a file each, whether it is there yet and however it is named; nor is the summary a file that is read"""
+    """two reports, GitHub's summary included, need a file each, by whatever name; nor may the summary be a file that the gate reads"""
     problems = []
     with Files(TORUS) as files:
         a, other = files.path("a"), os.path.join(files.folder.name, "..", os.path.basename(files.folder.name), "a")
@@ -540,7 +540,7 @@ def check_refused(runner):
 
 
 def check_room(runner):
-    """pictures that do not fit into the memory that is left are not compared, and the other cells are"""
+    """pictures that do not fit into the remaining memory are not compared, but the other cells are"""
     with Files("large raster 1024x1024 1 billboards=10\nsmall raster 64x48 2 scene=mesh model=torus faces=200\n") as files:
         result = runner.run(["gate", "cpu", "cpu", "--pictures", "--memory", "95M", "--json", "--cells", files.cells])
     report = json.loads(result.stdout)

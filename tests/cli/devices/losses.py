@@ -1,4 +1,4 @@
-"""What is lost when a run that measures is killed, or another begins beside it: nothing that was measured before."""
+"""A run that is killed while it measures, or meets a second one, loses nothing that was measured before."""
 import fcntl
 import itertools
 import json
@@ -12,7 +12,7 @@ import time
 
 import misbehaving
 
-# After the first table its whole result is in its journal while the second is measured.
+# After the first table, its whole result is in its journal while the second is measured.
 FIRST, SECOND, ROWS = "stuppacher-2", "chin-grid", 2
 TABLES = "table %s %s --quick --device cpu --work paper --rows 1-%d -o " % (FIRST, SECOND, ROWS)
 JOURNAL = FIRST + "-quick.journal"
@@ -20,7 +20,7 @@ LIMIT_S = 60  # for work that takes a second
 
 
 def wait_for(condition):
-    """Whether it holds within the limit."""
+    """Whether a condition holds within the limit."""
     end = time.monotonic() + LIMIT_S
     while not condition() and time.monotonic() < end:
         time.sleep(0.01)
@@ -34,7 +34,7 @@ def workers_of(pid):
 
 
 def runs(pid):
-    """Whether there is such a process that has not ended."""
+    """Whether a process exists that has not ended."""
     try:
         with open("/proc/%d/stat" % pid) as file:
             return file.read().rsplit(")", 1)[1].split()[0] not in "ZX"
@@ -43,7 +43,7 @@ def runs(pid):
 
 
 def rows_of(path):
-    """Rows and what was measured of it, as text, of a result or journal, which has no checksums of cells."""
+    """Rows and their measurements, as text, of a result or journal, without the cells' checksums."""
     with open(path) as file:
         report = json.load(file)
     cells = {}
@@ -54,7 +54,7 @@ def rows_of(path):
 
 
 def begin(runner, out):
-    """A run that has the first table in its journal, and its workers."""
+    """A run with the first table in its journal, and its workers."""
     process = runner.start((TABLES + out).split())
     path = os.path.join(out, JOURNAL)
     wait_for(lambda: os.path.exists(path) or process.poll() is not None)
@@ -62,7 +62,7 @@ def begin(runner, out):
 
 
 def goes_on(runner, out, held):
-    """What is wrong with a run after one that left the rows `held`."""
+    """Problems of a run that follows one that left the rows `held`."""
     result = runner.run((TABLES + out).split())
     said = re.fullmatch(r"raingauge: %s: (\d) of %d rows are those of a run that was interrupted, .*\n" % (FIRST, ROWS), result.stderr)
     if result.returncode or not said or int(said.group(1)) != len(held):
@@ -77,7 +77,7 @@ def goes_on(runner, out, held):
 
 
 def killed(runner, kills_worker):
-    """What is wrong after SIGKILL of the harness, and of the worker of cpu before it."""
+    """Problems after SIGKILL of the harness, and before it perhaps of cpu's worker."""
     with tempfile.TemporaryDirectory() as out:
         process, workers = begin(runner, out)
         if not workers:
@@ -91,17 +91,17 @@ def killed(runner, kills_worker):
 
 
 def check_harness_killed(runner):
-    """a harness that is killed loses no row that was whole, leaves no worker, and the same command goes on"""
+    """a harness that is killed loses no whole row and leaves no worker, and the same command goes on"""
     return killed(runner, False)
 
 
 def check_both_killed(runner):
-    """nor is a row lost where both are killed"""
+    """no row is lost if both are killed"""
     return killed(runner, True)
 
 
 def check_fallen(runner):
-    """a driver that falls while it is opened has no journal of another choice of devices begun anew"""
+    """a driver that crashes while it is opened does not make the command begin anew the journal of another choice of devices"""
     with tempfile.TemporaryDirectory() as out, tempfile.TemporaryDirectory() as folder:
         process, _ = begin(runner, out)
         process.kill()
@@ -142,7 +142,7 @@ def check_second(runner):
 
 
 def check_held(runner):
-    """where another holds the folder of the user's state, a run reads and keeps no rows, and says so; it reads them where none does"""
+    """if another run holds the folder of the user's state, a run reads and keeps no rows, and says so; otherwise it reads them"""
     problems = []
     with tempfile.TemporaryDirectory() as state:
         os.mkdir(state + "/raingauge")
@@ -161,7 +161,7 @@ def check_held(runner):
 
 
 def lost_midway(runner, lose, restore):
-    """What is wrong where results can no longer be written once the first table is, and the command is given again later."""
+    """Problems if results can no longer be written after the first table, and the command is given again later."""
     with tempfile.TemporaryDirectory() as out:
         process = runner.start((TABLES + out).split(), obeys_modes=True)
         path, last = (os.path.join(out, name) for name in (JOURNAL, FIRST + ".tex"))
@@ -184,13 +184,13 @@ def lost_midway(runner, lose, restore):
 
 
 def check_full(runner):
-    """where the disk fills in mid-run, the journal stays as it was, a line says so, and the same command goes on"""
+    """if the disk fills in mid-run, the journal stays unchanged, a line says so, and the same command goes on"""
     return lost_midway(runner, lambda process, out: resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (2000, 2000)),
                        lambda out: None)
 
 
 def check_read_only_midway(runner):
-    """nor is anything lost where the folder turns read-only in mid-run"""
+    """nothing is lost if the folder becomes read-only in mid-run"""
     return lost_midway(runner, lambda process, out: os.chmod(out, 0o500), lambda out: os.chmod(out, 0o700))
 
 
@@ -198,7 +198,7 @@ ROW = "table %s --rows 1-1 --work paper --device cpu " % FIRST
 
 
 def check_unprinted(runner):
-    """what was measured and cannot be printed is kept, the last table too, and the same command goes on with it"""
+    """results that cannot be printed are kept, the last table's too, and the same command goes on with them"""
     problems = []
     told = (r"raingauge: standard output: cannot be written; .*\n"
             r"raingauge: once all can be written, the same command goes on with what was measured\n")
@@ -219,7 +219,7 @@ def check_unprinted(runner):
 
 
 def check_sweep_unprinted(runner):
-    """a sweep that cannot be printed goes on with its rows, unless they are of other axes or it is to be fresh"""
+    """a sweep that could not be printed goes on with its rows, unless its axes differ or it has --fresh"""
     problems = []
     sweep = "sweep flow --axis resolution_px=%s --set environment=sky --set environment_px=16 --size 32x32 --device cpu --quick --wide"
     resumed = "2 of 2 rows are those of a run that was interrupted"
@@ -239,7 +239,7 @@ def check_sweep_unprinted(runner):
 
 
 def check_unread(runner):
-    """the files of a table are there though nobody reads what it prints, which ends it"""
+    """a table's files are complete though nobody reads its output, which ends it"""
     with tempfile.TemporaryDirectory() as out:
         ours, its = os.pipe()
         os.close(ours)
@@ -262,7 +262,7 @@ def check_read_only(runner):
 
 
 def check_earlier(runner):
-    """a clock that is set back changes nothing: what was measured at a later time is taken up, and what lasts is measured"""
+    """a clock that is set back changes nothing: later measurements are taken up, and durations are right"""
     with tempfile.TemporaryDirectory() as out:
         process, workers = begin(runner, out)
         if not workers:
@@ -319,7 +319,7 @@ def check_signals(runner):
 
 
 def check_signal_at_hang(runner):
-    """SIGINT ends a command whose driver does not come back, long before --timeout"""
+    """SIGINT ends a command whose driver hangs, long before --timeout"""
     problems = []
     for command, said in (("diff flow --size 64x64 --frame 1", ""), ("table raster-1 --rows 2-2 --quick -o {}/tables", AWAY)):
         with tempfile.TemporaryDirectory() as out:
@@ -338,7 +338,7 @@ def check_signal_at_hang(runner):
 
 
 def check_nothing_measured(runner):
-    """a table of which no cell can be measured replaces none that was"""
+    """a table without a measured cell replaces no measured one"""
     command = ["table", "raster-1", "--rows", "2-2", "--quick", "--device", "cpu", "-o"]
     with tempfile.TemporaryDirectory() as out:
         first = runner.run(command + [out])

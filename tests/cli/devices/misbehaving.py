@@ -1,4 +1,4 @@
-"""Drivers that misbehave: a command keeps what every other device gives, says in one line what became of one, and ends."""
+"""Drivers that misbehave: a command keeps the results of every other device, says in one line what happened to one, and ends."""
 import concurrent.futures
 import json
 import os
@@ -33,7 +33,7 @@ ALONE = dict(HOW, swell=("crash", r"it took more than 2048 MiB of memory and was
 
 
 def shim(runner, folder, device, function, how, calls):
-    """Variables with which a function of a device's driver misbehaves after so many calls."""
+    """Variables with which a function of a device's driver misbehaves after this many calls."""
     env = {"RG_MISBEHAVE": "%s:%s:%d" % (function, how, calls)}
     if device != "vulkan":
         return dict(env, LD_PRELOAD=runner.misbehaver)
@@ -88,32 +88,32 @@ LISTING = [
 
 
 def bounds(how):
-    """Options; only who hangs is given up soon, for a busy machine may make others wait."""
+    """Options. Only a hang has a short timeout, since a busy machine may delay the others."""
     return ["--memory", "1GiB", "--timeout", "10" if how == "hang" else "100"]
 
 
 def one_of_each_way(turn):
-    """A case of each way, of another API each, beginning with another for each turn."""
+    """A case of each way, each on another API, beginning with another API each turn."""
     apis = ("vulkan", "gl", "opencl")
     return [case for way, how in enumerate(HOW) for case in CASES if case[2] == how and case[0] == apis[(turn + way) % 3]]
 
 
 def side_by_side(check, *lists):
-    """The problems of all, in order. Most cases of hanging wait, so that some go on at once."""
+    """The problems of all checks, in order. Most hanging cases wait, so several run at once."""
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
         return [problem for problems in pool.map(check, *lists) for problem in problems]
 
 
 def outcomes_of(command, report, device):
-    """What the command's JSON says became of what it asked of a device."""
+    """The outcomes that the command's JSON reports of a device."""
     rows, name = {"doctor": ("devices", "name"), "table": ("cells", "device"), "sweep": ("cells", "device"), "verify": ("checks", "device"),
                   "diff": ("failures", "device")}[command]
     return {row["status"] for row in report[rows] if row[name] == device}
 
 
 def outcomes_wanted(command, case):
-    """Those that it must say: doctor has a row of each device that was listed, tables have cells of those that opened, and the others
-    tell of each API that was asked for."""
+    """The outcomes that it must report. doctor has a row for each listed device, tables have cells of those that opened, and the
+    other commands report each requested API."""
     without = {function for _, function, _, _ in LISTING} if command in ("doctor", "table", "sweep") else set()
     if command in ("table", "sweep"):
         without |= {"vkGetPhysicalDeviceProperties2", "vkCreateDevice"}
@@ -121,7 +121,7 @@ def outcomes_wanted(command, case):
 
 
 def problems_of(runner, command, case):
-    """What is wrong with how a command ends while a device misbehaves."""
+    """Problems of a command that ends while a device misbehaves."""
     device, function, how, calls = case
     with tempfile.TemporaryDirectory() as folder:
         env = dict(shim(runner, folder, *case), XDG_STATE_HOME=folder)
@@ -150,7 +150,7 @@ def problems_of(runner, command, case):
 
 
 def check_comparisons(runner):
-    """diff keeps the pairs of every other device, in whatever way one of any API misbehaves"""
+    """diff keeps the pairs of every other device, in whatever way a device of any API misbehaves"""
     return side_by_side(lambda case: problems_of(runner, "diff", case), CASES)
 
 
@@ -158,20 +158,20 @@ SLOW = ("doctor", "table", "verify")
 
 
 def check_commands(runner):
-    """so do doctor, table and verify, in two ways each, and sweep in all"""
+    """doctor, table and verify do the same, in two ways each, and sweep in all"""
     asked = [(command, case) for turn, command in enumerate(SLOW) for case in one_of_each_way(turn)[2 * turn:2 * turn + 2]]
     asked += [("sweep", case) for case in one_of_each_way(0)]
     return side_by_side(lambda pair: problems_of(runner, *pair), asked)
 
 
 def check_all_ways(runner):
-    """doctor, table and verify keep the results of every other device, in whatever way one of any API misbehaves"""
+    """doctor, table and verify keep the results of every other device, in whatever way a device of any API misbehaves"""
     asked = [(command, case) for command in SLOW for case in CASES]
     return side_by_side(lambda pair: problems_of(runner, *pair), asked)
 
 
 def problems_alone(runner, case):
-    """What is wrong with how render ends on the one device that misbehaves."""
+    """Problems of render on the one device that misbehaves."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
         args = ("render flow --frame 2 --device %s -o %s %s" % (case[0], path, SMALL)).split()
@@ -183,12 +183,12 @@ def problems_alone(runner, case):
 
 
 def check_alone(runner):
-    """render of a device that falls fails, with one line, and writes nothing"""
+    """render on a device that crashes fails, with one line, and writes nothing"""
     return side_by_side(lambda case: problems_alone(runner, case), one_of_each_way(1))
 
 
 def problems_listed(runner, case):
-    """What is wrong with a list of the devices while a backend misbehaves."""
+    """Problems of a list of devices while a backend misbehaves."""
     with tempfile.TemporaryDirectory() as folder:
         result = runner.run(["list", "devices", "--json"] + bounds(case[2]), shim(runner, folder, *case))
     names = {device["name"] for device in json.loads(result.stdout)["devices"]}
@@ -199,12 +199,12 @@ def problems_listed(runner, case):
 
 
 def check_listed(runner):
-    """list devices names what is left, and says of a backend that falls that it crashed"""
+    """list devices names the rest, and says of a backend that crashes that it crashed"""
     return side_by_side(lambda case: problems_listed(runner, case), LISTING)
 
 
 def check_required(runner):
-    """--require fails a command where a device is missing that it names, and changes nothing where it is there"""
+    """--require fails a command if a device that it names is missing, and otherwise changes nothing"""
     problems = []
     for named, required, status in (("all", "cpu,gl", 0), ("all", "vulkan", 1), ("all", "opencl", 0),
                                     ("cpu,vulkan", "vulkan", 1), ("vulkan,cpu", "cpu", 77), ("cpu,gl", "vulkan", 1),
@@ -218,7 +218,7 @@ def check_required(runner):
 
 
 def check_ignored_ends(runner):
-    """whoever starts raingauge may ignore the ends of children: how a driver ended is told all the same"""
+    """raingauge reports how a driver ended, even if its parent made it ignore the ends of children"""
     with tempfile.TemporaryDirectory() as folder:
         args = ["sh", "-c", "trap '' CHLD; exec \"$@\"", "sh", runner.raingauge] + COMMANDS["diff"].split()
         env = shim(runner, folder, "vulkan", "vkQueueSubmit", "abort", 0)
@@ -229,7 +229,7 @@ def check_ignored_ends(runner):
 
 
 def problems_closing(runner, command):
-    """What is wrong with how a command ends whose device crashes once all is done and it is closed."""
+    """Problems of a command whose device crashes when it is closed, after all work is done."""
     with tempfile.TemporaryDirectory() as folder:
         cells, made = (os.path.join(folder, name) for name in ("cells.txt", "made.png"))
         with open(cells, "w") as file:
@@ -243,7 +243,7 @@ def problems_closing(runner, command):
 
 
 def check_closing(runner):
-    """a driver that crashes while its device is closed fails a command, and takes nothing of what was done"""
+    """a driver that crashes while its device is closed fails a command, but no result is lost"""
     commands = [COMMANDS[name] + " --device cpu,vulkan" for name in ("diff", "table")] + [
         "render raster --frame 1 --size 32x32 --device vulkan --json -o {made}",
         "sweep raster --axis billboards=20000 --quick --json --size 32x32 --device cpu,vulkan",
@@ -253,7 +253,7 @@ def check_closing(runner):
 
 
 def check_gone(runner):
-    """a device that is listed and gone once it is opened is an error of its own, and every other is examined and compared"""
+    """a device that is listed but gone when it is opened is an error of its own, and every other is examined and compared"""
     def problems_gone(command):
         with tempfile.TemporaryDirectory() as folder:
             env = shim(runner, folder, "vulkan", "none", "none", 0)
@@ -272,7 +272,7 @@ def check_gone(runner):
 
 
 def check_named(runner):
-    """a driver that crashes while a device that was named is opened ends the command before anything is done"""
+    """a driver that crashes while a named device is opened ends the command before any work"""
     def problems_named(command):
         with tempfile.TemporaryDirectory() as folder:
             env = shim(runner, folder, "vulkan", "vkCreateDevice", "fault", 0)
@@ -283,7 +283,7 @@ def check_named(runner):
 
 
 def check_environments(runner):
-    """two settings and two drivers of one API stand side by side, told apart by their names"""
+    """two settings and two drivers of one API run side by side, told apart by their names"""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "other.json")
         shim(runner, folder, "vulkan", "none", "none", 0)
@@ -299,7 +299,7 @@ def check_environments(runner):
 
 
 def check_caches(runner):
-    """code that a driver kept for one width of vectors is not run for another"""
+    """code that a driver kept for one width of vectors never runs for another"""
     kept = []
     with tempfile.TemporaryDirectory() as folder:
         for device in ("gl@LP_NATIVE_VECTOR_WIDTH=128", "vulkan@LP_NATIVE_VECTOR_WIDTH=256", "gl"):

@@ -1,4 +1,4 @@
-"""The driver that was named is the driver that runs: a second Mesa in a folder, named well and in eight wrong ways."""
+"""The named driver is the driver that runs: a second Mesa in a folder, named rightly and in eight wrong ways."""
 import glob
 import hashlib
 import json
@@ -16,7 +16,7 @@ VULKAN, GL, OPENCL = "vulkan", "gl", "opencl"
 
 
 def patched(path, old, new):
-    """Makes bytes of a file others, as many."""
+    """Replaces bytes of a file by as many others."""
     with open(path, "rb") as file:
         content = file.read()
     if old not in content or len(old) != len(new):
@@ -26,8 +26,8 @@ def patched(path, old, new):
 
 
 class Tree:
-    """A folder as Debian's packages of drivers unpack, with the system's libraries under other build ids, and manifests
-    that name them as the packages of newer drivers do: without a path."""
+    """A folder like an unpacked Debian package of drivers, with the system's libraries under other build ids. Its manifests name
+    libraries without a path, as packages of newer drivers do."""
 
     def __init__(self, root, drivers, same_build=False):
         self.root, self.drivers, self.files = root, drivers, {}
@@ -68,7 +68,7 @@ class Tree:
         self.files[api] = to
 
     def egl_of_system(self):
-        """EGL's library for libglvnd, beside the folder of the drivers that it loads."""
+        """EGL's library for libglvnd, next to the folder of the drivers that it loads."""
         return os.path.realpath(os.path.join(os.path.dirname(os.path.dirname(self.drivers[GL]["path"])), "libEGL_mesa.so.0"))
 
     def with_driver(self, api):
@@ -76,7 +76,7 @@ class Tree:
 
 
 def of_system(runner):
-    """The libraries of the system's drivers, by API: as raingauge tells them."""
+    """The libraries of the system's drivers, by API, as raingauge reports them."""
     names = [device["name"] for device in json.loads(runner.run(["list", "devices", "--json"]).stdout)["devices"]]
     asked = [api for api in (VULKAN, GL, OPENCL) if api in names]
     report = json.loads(runner.run(["diff"] + SMALL + ["--json", "--device", ",".join(["cpu"] + asked)]).stdout)
@@ -85,7 +85,7 @@ def of_system(runner):
 
 
 def with_tree(check):
-    """Runs a check with a tree of the drivers that are here."""
+    """Runs a check with a tree of this machine's drivers."""
     def run(runner):
         with tempfile.TemporaryDirectory() as tmp:
             drivers = of_system(runner)
@@ -95,7 +95,7 @@ def with_tree(check):
 
 
 def wrong_names(tree, drivers):
-    """(name, API, status, what the line says) of the eight wrong namings."""
+    """(name, API, status, pattern of the line) of the eight wrong namings."""
     absent = os.path.join(tree.root, "absent.json")
     if VULKAN in drivers:
         broken = os.path.join(tree.folder("broken"), "libvulkan_lvp.so")
@@ -119,7 +119,7 @@ def wrong_names(tree, drivers):
 
 @with_tree
 def check_wrong_names(runner, tree, drivers):
-    """a driver that is named in one of eight wrong ways is no pass of gate and diff, and one line has the mend"""
+    """a driver named in one of eight wrong ways is no pass of gate and diff, and one line has the remedy"""
     problems = []
     with Files(TORUS) as files:
         for name, status, said in wrong_names(tree, drivers):
@@ -134,7 +134,7 @@ def check_wrong_names(runner, tree, drivers):
 
 @with_tree
 def check_alone(runner, tree, drivers):
-    """a manifest whose library comes from another tree is refused where the device stands alone, too"""
+    """a manifest whose library comes from another tree is refused for a single device, too"""
     problems = []
     names = [row[0] for row in wrong_names(tree, drivers) if row[1] == 2 and "LD_LIBRARY" not in row[0]]
     for name in names:
@@ -147,14 +147,14 @@ def check_alone(runner, tree, drivers):
 
 
 def above(text, build):
-    """Whether a build id stands above all that was found."""
+    """Whether a build id stands above all findings."""
     head = re.split("(?m)^(?:pass|pair|ok|\\|) ", text)[0]
     return "build id " + build in head
 
 
 @with_tree
 def check_prefix(runner, tree, drivers):
-    """DRIVER=PREFIX runs the driver in that folder, under a short name; both drivers stand above, in text and in JSON"""
+    """DRIVER=PREFIX runs the driver in that folder, under a short name; both drivers are named first, in text and in JSON"""
     problems = []
     with Files(TORUS) as files:
         for api, driver in drivers.items():
@@ -182,7 +182,7 @@ def check_prefix(runner, tree, drivers):
 
 @with_tree
 def check_told(runner, tree, drivers):
-    """verify and a sweep of two sides tell both drivers above what they found, and a record has the name to open it again"""
+    """verify and a sweep of two sides name both drivers before their findings, and a record has the name to open the device again"""
     problems = []
     if VULKAN not in drivers:
         return problems
@@ -206,7 +206,7 @@ def check_told(runner, tree, drivers):
 
 
 def check_one_build(runner):
-    """one build in two files is a warning, and other settings of one driver are nothing to warn of"""
+    """one build in two files is a warning, and other settings of one driver are not"""
     problems = []
     drivers = {api: driver for api, driver in of_system(runner).items() if api == VULKAN}
     with tempfile.TemporaryDirectory() as tmp, Files(TORUS) as files:
@@ -223,7 +223,7 @@ def check_one_build(runner):
 
 @with_tree
 def check_refused(runner, tree, drivers):
-    """a folder without a driver, or with one that cannot run here, and names that cannot be are refused in one line"""
+    """a folder without a driver, or with one that cannot run here, and impossible names are refused in one line"""
     problems = []
     rows = [("vulkan@DRIVER=%s/nothing" % tree.root, 2, "is no folder"),
             ("vulkan@DRIVER=%s" % tree.folder("empty"), 77, "has no driver of vulkan"),
@@ -256,12 +256,12 @@ def patch_at(path, at, content):
 
 
 def code_in(folder):
-    """Files of code that lie below a folder."""
+    """Files of code below a folder."""
     return [path for path in glob.glob(os.path.join(folder, "**"), recursive=True) if os.path.isfile(path) and os.path.getsize(path)]
 
 
 def check_caches(runner):
-    """a device with settings of its own, and each side of a gate, leave the user's caches alone; a plain device does not"""
+    """a device with its own settings, and each side of a gate, leave the user's caches alone; a plain device uses them"""
     problems = []
     drivers = of_system(runner)
     for api in drivers:
@@ -287,7 +287,7 @@ def check_caches(runner):
 
 
 def check_kept_apart(runner):
-    """code that Mesa compiled under LP_PERF=no_tex is never run without it, nor the other way round, in one user's cache"""
+    """in one user's cache, code that Mesa compiled under LP_PERF=no_tex never runs without it, and the reverse"""
     problems = []
     if VULKAN not in of_system(runner):
         return problems
@@ -313,7 +313,7 @@ def check_kept_apart(runner):
 
 
 def check_bounded(runner):
-    """folders of sides that were used longest ago go, once there are more than 32"""
+    """beyond 32 folders of sides, the least recently used ones are removed"""
     problems = []
     for api in list(of_system(runner))[:1]:
         with tempfile.TemporaryDirectory() as tmp:

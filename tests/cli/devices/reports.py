@@ -1,4 +1,4 @@
-"""gate's reports by the command itself: names of devices with any characters, and results that meet expectations or do not."""
+"""gate's reports by the command itself: device names of any characters, and results that meet expectations or do not."""
 import json
 import os
 import re
@@ -13,7 +13,7 @@ from gates import QUICK, TORUS, Files
 from runner import LATER
 from wrong import RIGHT, TURNED
 
-# Values of a variable that no driver reads, with characters that reports cannot hold and have to replace.
+# Values of a variable that no driver reads, with characters that reports have to replace.
 HOSTILE = ["'quotes\" and ` <failure message=\"x\">&amp;</failure> ]]> <![CDATA[", "[[ATTACHMENT|/etc/passwd]] \x1b[31m\x07\x7f a\nb\tc\rd",
            "100% : , %0A ::error title=x::y ##[error]x | a | **b** |", "[  FAILED  ] x -*?: Ü 漢 \U0001f327 two  blanks ", "x" * 200]
 
@@ -69,7 +69,7 @@ def check_name(runner, value):
 
 
 def check_names(runner):
-    """a device's name of any characters comes back from every form; one that is too long is refused in a line"""
+    """a device's name of any characters is read back from every form; one that is too long is refused in a line"""
     problems = [problem for value in HOSTILE for problem in check_name(runner, value)]
     ran = runner.run(["gate", "cpu", "cpu@NOTE=" + 10000 * "x"])
     if ran.returncode != 2 or ran.stdout or ran.stderr.count("\n") != 1:
@@ -90,7 +90,7 @@ def expectation(line, until=LATE, outcome="fail"):
 
 
 def gate(runner, folder, more):
-    """A gate of kernels that are right and wrong: its exit status, each case's ending and message, what it prints."""
+    """A gate of right and wrong kernels: its exit status, each case's ending and message, its output."""
     args = [runner.raingauge, "gate", "gl", "gl@RG_KERNEL_DIR=kernels", "--cells", "cells.txt", "--pictures"] + more
     ran = subprocess.run(args, cwd=folder, env=runner.variables({}), capture_output=True, text=True, timeout=240, check=False)
     endings = {cell: ending for ending, cell in re.findall(r"^(\S.*?)  +(\w+/\w+)\.gl@", ran.stdout, re.M)}
@@ -134,7 +134,7 @@ def check_expectations(runner):
 
 
 def check_unseen(runner):
-    """--update leaves expected what was expected of devices that are not there, or were not asked for; it is refused for a part of the cells"""
+    """--update keeps expectations of devices that are missing or not asked for, and is refused for a part of the cells"""
     problems = []
     with Files(TORUS) as files:
         path, gone = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
@@ -156,7 +156,7 @@ def check_unseen(runner):
 
 
 def check_updates(runner):
-    """the first file gets what is new, in every form of report; one that changes meanwhile, or cannot be written, stays; a part of the cells is refused"""
+    """--update adds new failures to the first file, in every form of report; a file that changes meanwhile, or cannot be written, stays"""
     problems = []
     args = ["gate", "cpu", "cpu@RG_CPU_LEVEL=reference", "--pictures", "--update"]
     with Files(TORUS) as files:
@@ -188,7 +188,7 @@ def check_updates(runner):
             ran, first, second = differing("", ["--fails", fails, "--expectations", link] + form)
             if ran.returncode != 1 or not re.match("fail flow/pane\n  device +gl@.*\n  driver.*\n  outcome +fail\n", first) or second or not os.path.islink(link):
                 problems.append("%s: exit status %d, %s%s%s%s" % (form, ran.returncode, first, second, ran.stdout, ran.stderr))
-        # Another process writes into the file whenever B starts.
+        # Another process writes to the file whenever B starts.
         other = files.path("other.sh", "#!/bin/sh\necho '# mine' >> %s\nexec %s \"$@\"\n" % (own, runner.raingauge))
         os.chmod(other, 0o700)
         ran, first, _ = differing("RG_PROGRAM=%s;" % other, ["--expectations", own])
@@ -198,7 +198,7 @@ def check_updates(runner):
 
 
 def check_own(runner):
-    """results/expectations.txt can be read, and the example in its head is one, of a cell that is not run here"""
+    """results/expectations.txt can be read, and so can the example in its head, which is about a cell that is not run here"""
     with open(KNOWN) as file:
         own = file.read()
     example = "".join(line[4:] for line in own.splitlines(True) if line.startswith("#   "))

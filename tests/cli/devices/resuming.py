@@ -1,4 +1,4 @@
-"""A gate keeps what each launch told in its folder: one that is killed goes on, and nothing wrong is gone on with."""
+"""A gate keeps each launch in its folder: one that is killed goes on, but not with wrong launches."""
 import csv
 import fcntl
 import json
@@ -10,7 +10,7 @@ from losses import wait_for
 
 
 def kept_launches(folder):
-    """What a gate has kept, as text, by case and launch; none: nothing."""
+    """The launches that a gate has kept, as text, by case and launch; none: empty."""
     try:
         with open(os.path.join(folder, "gate.journal")) as file:
             rows = json.load(file)["rows"]
@@ -25,7 +25,7 @@ def told_launches(folder):
 
 
 def left_by_a_kill(runner, files, folder, sides=("cpu", "cpu")):
-    """Kills a gate once it has kept some launches, which are returned."""
+    """Kills a gate after it has kept some launches, and returns these."""
     process = runner.start(["gate", *sides, "--cells", files.cells, "-o", folder, *AT_ONCE])
     wait_for(lambda: len(kept_launches(folder)) >= 4 or process.poll() is not None)
     process.kill()
@@ -34,7 +34,7 @@ def left_by_a_kill(runner, files, folder, sides=("cpu", "cpu")):
 
 
 def check_killed(runner):
-    """a gate that is killed goes on with all launches but the one that was under way"""
+    """a gate that is killed goes on with all launches except the one in progress"""
     with Files() as files:
         folder = files.path("out")
         left = left_by_a_kill(runner, files, folder)
@@ -52,7 +52,7 @@ def check_killed(runner):
 
 
 def check_kept(runner):
-    """what another gate kept, or what was damaged, is no part of this one; a full disk takes nothing away; one gate holds a folder"""
+    """a gate takes neither another gate's launches nor damaged ones; a full disk loses nothing; one gate holds a folder"""
     problems = []
     with Files() as files:
         folder = files.path("out")
@@ -90,7 +90,7 @@ def check_kept(runner):
 
 
 def check_built_anew(runner):
-    """times of a build that has the same path and is another one now are not gone on with"""
+    """a gate does not go on with times of a build that has changed under the same path"""
     problems = []
     with Files() as files:
         folder, path, other = files.path("out"), files.path("out/gate.journal"), files.path("other")
@@ -113,7 +113,7 @@ def check_built_anew(runner):
 
 
 def check_baseline(runner):
-    """a gate against a baseline that is killed goes on too, and not against another baseline"""
+    """a gate with a baseline that was killed goes on too, but not with another baseline"""
     problems = []
     with Files() as files:
         folder, was, path = files.path("out"), files.path("baseline.json"), files.path("out/gate.journal")

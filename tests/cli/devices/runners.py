@@ -1,4 +1,4 @@
-"""Programs that run gates in CI, as far as they can be had: what GitLab's and GitHub's runners and deqp-runner do with docs/ci."""
+"""Programs that run gates in CI, as far as they are available: how GitLab's and GitHub's runners and deqp-runner treat docs/ci."""
 import csv
 import glob
 import os
@@ -12,7 +12,7 @@ EXAMPLES = os.path.join(TESTS, os.pardir, "docs", "ci")
 
 
 def environment(runner, folder, variables):
-    """Where raingauge, and what stands in for a runner's programs, are found by their names."""
+    """An environment in which raingauge, and stand-ins for a runner's programs, are found by name."""
     path = ":".join((os.path.join(folder, "bin"), os.path.dirname(runner.raingauge), os.environ["PATH"]))
     return runner.variables({"PATH": path, "HOME": folder, "CI": "true", **variables})
 
@@ -40,7 +40,7 @@ def gitlab(runner, folder, **variables):
 
 
 def github(runner, folder, **variables):
-    """Runs the steps of github.yml that are commands: the status, the log, the summary, and what the upload would find."""
+    """Runs the command steps of github.yml: the status, the log, the summary, and the files for the upload."""
     job = read("github.yml")["jobs"]["gate"]
     summary = os.path.join(folder, "summary.md")
     env = environment(runner, folder, {**job["env"], "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": summary, **variables})
@@ -74,7 +74,7 @@ WORDS = {"OK": "Pass", "FAILED": "Fail", "SKIPPED": "Skip"}
 
 
 def listed(text):
-    """The tests of a list, where a line with a point is a suite."""
+    """The tests of a list; a line with a point is a suite."""
     suite, found = None, []
     for line in text.splitlines():
         is_suite, test = re.search(r"(\S*\.)", line), re.search(r"\s+(\S+)", line)
@@ -88,12 +88,12 @@ def listed(text):
 
 
 def results(text):
-    """(test, status) of what a process printed; one that began and did not end has crashed."""
+    """(test, status) from a process's output; a test that began and did not end has crashed."""
     running, found = None, []
     for line in text.splitlines():
         begins, ends = re.search(r"\[\sRUN\s*\]\s(.*)", line), re.search(r"\[\s*(\S*)\s*\]\s(\S*)", line)
         if running and ends:
-            found.append((running, WORDS[ends[1]]))  # deqp-runner stops at a word that it does not know
+            found.append((running, WORDS[ends[1]]))  # deqp-runner stops at an unknown word
             running = None
         elif not running and begins:
             running = begins[1]
@@ -101,7 +101,7 @@ def results(text):
 
 
 def gtest_runner(args, env, folder, group=2):
-    """`gtest-runner run ARGS`: each test has one result, which is held against the baseline. The exit status and what is new."""
+    """`gtest-runner run ARGS`: compares each test's one result with the baseline. Returns the exit status and the new results."""
     options, rest = args[:args.index("--")], args[args.index("--") + 1:]
     taken = dict(zip(options[0::2], options[1::2]))
     command = [taken["--bin"]] + rest
@@ -124,7 +124,7 @@ def gtest_runner(args, env, folder, group=2):
 
 
 def deqp_runner(runner, folder, **variables):
-    """Runs deqp-runner.sh, whose program is a stand-in that hands its arguments over."""
+    """Runs deqp-runner.sh with a stand-in for its program that passes its arguments on."""
     stand_in = os.path.join(folder, "bin", "gtest-runner")
     os.makedirs(os.path.dirname(stand_in), exist_ok=True)
     with open(stand_in, "w") as file:

@@ -9,26 +9,26 @@ import tempfile
 
 import misbehaving
 
-MOST_LINES = 190  # of the program that runs a kernel alone
+MOST_LINES = 190  # of the program that runs one kernel
 MOST_BYTES = 4096  # bytes in slots that one item needs
 SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
 STAGE, RIGHT, WRONG = "flow_normals", "44ffe000", "44ff0000"  # 2047 and 2040
 
 
 def miscompiling(runner, folder, stage=STAGE, right=RIGHT, wrong=WRONG):
-    """The device vulkan with a driver that has another constant in one shader."""
+    """The device vulkan with a driver that changes a constant of one shader."""
     env = misbehaving.shim(runner, folder, "vulkan", "none", "none", 0)
     size = os.path.getsize(os.path.join(runner.kernels, stage + ".spv"))
     return "vulkan@VK_DRIVER_FILES=%s;RG_MISCOMPILE=%d:%s:%s" % (env["VK_DRIVER_FILES"], size, right, wrong)
 
 
 def variables(device):
-    """What a device's name sets in its driver's environment."""
+    """The variables that a device's name sets for its driver."""
     return dict(pair.split("=", 1) for pair in device.split("@", 1)[1].split(";"))
 
 
 def check_blamed(runner):
-    """diff blames the stage whose shader a driver has miscompiled, and no other, and says what would not notice it"""
+    """diff blames only the stage whose shader a driver miscompiled, and says which tier would not notice"""
     with tempfile.TemporaryDirectory() as folder:
         device = miscompiling(runner, folder)
         args = ["diff", "flow", "--frame", "3", "--mutants", "--device", "cpu," + device]
@@ -43,7 +43,7 @@ def check_blamed(runner):
 
 
 def check_shrunk(runner):
-    """shrink makes a case below 40 lines of it, smaller in every size, which each device replays"""
+    """shrink makes a case below 40 lines, smaller in every size, which each device replays"""
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         device, path = miscompiling(runner, folder), os.path.join(folder, "case.txt")
@@ -100,7 +100,7 @@ def read(folder, name):
 
 
 def whole(folder, name, under):
-    """What a slot holds by the parts of a file, over what it held before."""
+    """A slot's contents: the parts of a file over the contents before."""
     held, parts = bytearray(under), read(folder, name)
     while parts:
         at, size = struct.unpack_from("=II", parts)
@@ -111,7 +111,7 @@ def whole(folder, name, under):
 
 
 def folder_problems(runner, folder):
-    """What is wrong with the files of a kernel's folder, which a program has not touched yet."""
+    """Problems of the files of a kernel's folder, before any program has changed them."""
     problems, slots = [], slots_of(folder)
     named = {name for slot in slots.values() for name in slot[2:] if name != "-"}
     there = set(os.listdir(folder))
@@ -133,7 +133,7 @@ def folder_problems(runner, folder):
 
 
 def check_alone(runner):
-    """a kernel's folder, wherever it is copied, is built and run with Vulkan alone, and tells the two drivers apart"""
+    """a kernel's folder, copied anywhere, can be built and run with Vulkan alone, and tells the two drivers apart"""
     problems = []
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere:
         device, path = miscompiling(runner, folder), os.path.join(folder, "a 'case'\n\x1b[2J;$(false).txt")
@@ -193,7 +193,7 @@ QUADS += "f 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\n"
 
 
 def check_files(runner):
-    """a mesh of one's own is made smaller, goes with the case, and is replayed from there; of a draw it is the kernel that packs it"""
+    """a user's mesh is made smaller, goes with the case, and is replayed from there; for a draw the case is its packing kernel"""
     problems = []
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere:
         device = miscompiling(runner, folder, "raster_mesh_emit", "43800000", "43810000")  # 256 and 258
@@ -230,7 +230,7 @@ def check_files(runner):
 
 
 def check_nothing_to_shrink(runner):
-    """shrink of two devices that agree fails, of what has no room is refused, and neither writes anything"""
+    """shrink of two devices that agree fails, shrink without enough memory is refused, and neither writes anything"""
     problems = []
     for options, status, says in ((SMALL, 1, "leaves in every asset"), (SMALL + " --memory 1M", 2, "of --memory are left")):
         with tempfile.TemporaryDirectory() as folder:

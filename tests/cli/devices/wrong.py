@@ -1,4 +1,4 @@
-"""A driver that draws wrongly, for its kernel is another, is found by each command."""
+"""A driver that draws wrongly, because its kernel differs, is found by each command."""
 import json
 import re
 import tempfile
@@ -11,7 +11,7 @@ RIGHT, TURNED, NO_GLSL = "(-slope_x * scale)", "(slope_x * scale)", "(nonsense *
 
 
 def with_normals(wrong):
-    """Runs a check with kernels that are wrong on gl; a machine without gl has nothing to show."""
+    """Runs a check with kernels that are wrong on gl; without gl the check has nothing to find."""
     def decorate(check):
         def run(runner):
             devices = json.loads(runner.run(["list", "devices", "--json"]).stdout)["devices"]
@@ -41,7 +41,7 @@ def check_broken_table(runner, kernels):
 
 
 def check_crashing_driver(runner):
-    """a driver that crashes when it is asked for devices fails list, diff, table and verify, and harms no other device"""
+    """a driver that crashes when devices are listed fails list, diff, table and verify, and harms no other device"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         env = dict(NO_DRIVERS, **runner.crashing_vulkan(tmp))
@@ -107,7 +107,7 @@ def check_wrong_verify(runner, kernels):
 
 @with_wrong_normals
 def check_wrong_stage(runner, kernels):
-    """verify --stages names the stage that is wrong, the asset, the word, and by how much"""
+    """verify --stages names the wrong stage, the asset, the word, and the difference"""
     report, status, problems = run_json(runner, "verify flow --stages --device cpu,gl " + SMALL, kernels)
     checks = {device: [c for c in report["checks"] if c["device"] == device] for device in ("cpu", "gl")}
     if status != 1 or not checks["cpu"] or any(check["status"] != "ok" for check in checks["cpu"]):

@@ -1,10 +1,10 @@
 // A driver that cannot compile or run one kernel, for each API.
 //
-// RG_KERNEL=FILE names the kernel by its code: SPIR-V, GLSL or OpenCL C. RG_FAILS=WHEN:HOW has the
-// driver fail as it is compiled (compile), as it is first run (run), or, as drivers do that compile
-// it in a thread of their own, once somebody waits for what ran (wait); abort, fault, exit, hang,
-// or report an error. All else goes to the real driver. For Vulkan this library is a driver of its
-// own in front of lavapipe; for OpenGL and OpenCL it is loaded before others (LD_PRELOAD).
+// RG_KERNEL=FILE names the kernel by its code: SPIR-V, GLSL or OpenCL C. RG_FAILS=WHEN:HOW says
+// when the driver fails and how. WHEN is compile, run (its first run), or wait: somebody waits for
+// the run, as with drivers that compile in a thread of their own. HOW is abort, fault, exit, hang,
+// or report an error. All other calls go to the real driver. For Vulkan this library is a driver in
+// front of lavapipe; for OpenGL and OpenCL it is loaded before others (LD_PRELOAD).
 #define _GNU_SOURCE // for hooks.h, memmem
 #include <pthread.h>
 #include <stdbool.h>
@@ -48,7 +48,7 @@ static void *end(void *how)
     return how;
 }
 
-// Whether it is to report an error now; it does not come back where it ends otherwise.
+// Whether to report an error now; does not return if the process ends or hangs.
 static bool fails(const char *when)
 {
     static char how[16];
@@ -65,8 +65,8 @@ static bool fails(const char *when)
     return true;
 }
 
-// Of the kernel: what the API calls it, 0 until it is known. Whether it was run, and nobody has
-// waited since.
+// The kernel's handles in the API, 0 until they are known; whether it is bound, and whether it has
+// run without a wait since.
 static uint64_t modules, pipelines, programs;
 static bool is_bound, is_pending;
 
@@ -83,7 +83,7 @@ static bool waits(void)
     return was_pending && fails("wait");
 }
 
-// --- Vulkan and OpenGL: functions that are asked for by name ---
+// --- Vulkan and OpenGL: functions that are looked up by name ---
 
 static PFN_vkCreateShaderModule real_vkCreateShaderModule;
 static PFN_vkCreateComputePipelines real_vkCreateComputePipelines;
@@ -108,7 +108,7 @@ static VkResult hooked_vkCreateShaderModule(VkDevice d, const VkShaderModuleCrea
     if (result == VK_SUCCESS && is_kernel(info->pCode, info->codeSize))
         modules = (uint64_t)*m;
     else if (result == VK_SUCCESS && modules == (uint64_t)*m)
-        modules = 0; // its number is used again
+        modules = 0; // its number was reused
     return result;
 }
 

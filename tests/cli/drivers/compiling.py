@@ -34,11 +34,11 @@ def failing(runner, folder, api, way, kernel=KERNEL):
 
 
 def problems_named(runner, case):
-    """What is wrong with how render ends."""
+    """Problems of how render ends."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
         args = ["render", "flow", "--frame", "1", "--device", failing(runner, folder, *case), "-o", path]
-        args += ["--timeout", "8" if "hang" in case[1] else "100"]  # the others get more time, for a busy machine
+        args += ["--timeout", "8" if "hang" in case[1] else "100"]  # the others get more time, since a busy machine may be slow
         result = runner.run(args + SMALL)
         lines = result.stderr.splitlines()
         says = WAYS[case[1]].replace("KERNEL", KERNEL)
@@ -47,12 +47,12 @@ def problems_named(runner, case):
 
 
 def check_named(runner):
-    """the line tells the kernel at which a driver falls, as it is compiled, run, or waited for"""
+    """the line names the kernel at which a driver fails, when it is compiled, run, or waited for"""
     return side_by_side(lambda case: problems_named(runner, case), CASES)
 
 
 def problems_shrunk(runner, case, seconds=3):
-    """What is wrong with the case that is made of a failure, within so many seconds; where these are many, it is the least."""
+    """Problems of the case that shrink makes of a failure within this many seconds; with many seconds it must be the least case."""
     api, way, kind = case
     with tempfile.TemporaryDirectory() as folder:
         device, path = failing(runner, folder, api, way), os.path.join(folder, "case.txt")
@@ -75,17 +75,17 @@ def problems_shrunk(runner, case, seconds=3):
 
 
 def check_shrunk(runner):
-    """what a driver fails at is shrunk to a case, which fails there again and passes elsewhere, and to one run of the kernel"""
+    """a driver's failure is shrunk to a case, which fails there again and passes elsewhere, and to one run of the kernel"""
     return side_by_side(lambda case: problems_shrunk(runner, case), SHRUNK)
 
 
 def check_least(runner):
-    """and to the least settings, frames and pixels, where there is time"""
+    """with enough time, a failure is shrunk to the least settings, frames and pixels"""
     return side_by_side(lambda case: problems_shrunk(runner, case, 600), SHRUNK)
 
 
 def check_other(runner):
-    """a truth that fails is no difference, nor is a driver that is absent"""
+    """a truth that fails is no difference, and neither is an absent driver"""
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         device, path = failing(runner, folder, "opencl", "compile:abort"), os.path.join(folder, "case.txt")

@@ -1,6 +1,6 @@
-// A clock that is set back again and again, for LD_PRELOAD: each EARLIER_EVERY-th time that a
-// process asks for the time of day, it is EARLIER_BY_S seconds less from then on. The clock that
-// counts from the machine's start goes on, as it does where a person or a server sets the time.
+// A clock that is set back again and again, for LD_PRELOAD: every EARLIER_EVERY-th question for the
+// time of day sets it back by EARLIER_BY_S seconds. The clock since the machine's start goes on, as
+// it does when a person or a server sets the time.
 #include <dlfcn.h>
 #include <stdatomic.h>
 #include <stdlib.h>

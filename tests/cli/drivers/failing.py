@@ -1,4 +1,4 @@
-"""Drivers that are there and cannot be used: each fails, with the reason, and is never called absent; and what is absent is not a failure."""
+"""Drivers that are installed but unusable: each fails, with the reason, and is never called absent; an absent driver is no failure."""
 import concurrent.futures
 import json
 import os
@@ -20,7 +20,7 @@ COMMANDS = {
     "table": "table stuppacher-2 --work paper --rows 1-1 --quick --device {api}",
     "gate": "gate cpu {api} --pictures --cells {tmp}/cells.txt",
     "baseline": "baseline --pictures --cells {tmp}/cells.txt --device {api} -o {tmp}/baseline.json",
-    # Inside git's bisect 1 is bad, and 125 skips.
+    # In git's bisect, 1 is bad and 125 skips.
     "bisect": "bisect --run '{raingauge} render raster %s --device {api} -o {tmp}/b.png'" % SMALL,
 }
 LIBRARIES = "/usr/lib/x86_64-linux-gnu/"
@@ -131,12 +131,12 @@ BESIDE = [
 
 
 def keeps_code(command, said):
-    """Whether the driver's code lies in a folder of the command's own, as that of each side of a gate, so that its cache does not matter."""
+    """Whether the driver's code is in the command's own folder, as for each side of a gate, so that the cache does not matter."""
     return command == "gate" and "write to its cache" in said
 
 
 def problems_of(runner, command, case, status):
-    """What is wrong with how a command ends that asks for one device."""
+    """Problems of how a command ends that asks for one device."""
     api, variables, said = case
     with tempfile.TemporaryDirectory() as folder:
         write_drivers(folder)
@@ -152,7 +152,7 @@ def problems_of(runner, command, case, status):
 
 
 def check_pairs(runner, asked):
-    """Two at once, since each waits for its workers."""
+    """Runs two at once, since each waits for its workers."""
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return [problem for problems in pool.map(lambda one: problems_of(runner, *one), asked) for problem in problems]
 
@@ -162,18 +162,18 @@ def every(commands):
 
 
 def check_ways(runner):
-    """a driver that is there and cannot be loaded, opened or found fails, with the reason; what is absent is unsupported; one beside a good one is a warning"""
+    """a driver that cannot be loaded, opened or found fails, with the reason, or warns beside a good one; an absent one is unsupported"""
     return check_pairs(runner, every(["render"]))
 
 
 def check_commands(runner):
-    """so it is with each command, for one way of each API"""
+    """the same holds for each command, in one way for each API"""
     ways = [(FAILING[0], 1), (FAILING[24], 1), (FAILING[-1], 1), (ABSENT[0], 77)]
     return check_pairs(runner, [(command, case, status) for case, status in ways for command in COMMANDS])
 
 
 def fault_problems(runner, case, ending):
-    """What is wrong with how a gate tells one device, or a record of doctor's."""
+    """Problems of how a gate reports one device, or how a record of doctor's does."""
     api, variables, said = case
     with tempfile.TemporaryDirectory() as folder:
         write_drivers(folder)
@@ -189,14 +189,14 @@ def fault_problems(runner, case, ending):
 
 
 def check_faults(runner):
-    """a gate and records tell all of these as the fault of the set-up, of which nothing is expected; what is absent is nobody's"""
+    """a gate and records report all of these as a fault of the set-up, which cannot be expected; an absent driver is nobody's fault"""
     asked = [(case, "set-up") for case in FAILING] + [(case, "unsupported") for case in ABSENT]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return [problem for problems in pool.map(lambda one: fault_problems(runner, *one), asked) for problem in problems]
 
 
 def check_all(runner):
-    """so it is with each command, for each way"""
+    """the same holds for each command, in each way"""
     return check_pairs(runner, every(COMMANDS))
 
 

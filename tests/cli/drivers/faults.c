@@ -1,12 +1,5 @@
-// A driver of which any one function fails: loaded before others (LD_PRELOAD), this library stands
-// before every function of Vulkan, OpenCL, EGL and OpenGL that the program calls.
-//
-// RG_FAULT=FUNCTION:HOW:CALLS names the function, how it fails, and how many calls go well before.
-// HOW is abort, fault, exit, hang or swell (ways.h), error, or lost. With error the function
-// returns its API's code for that memory is short, and does nothing; one of OpenGL or EGL returns
-// 0, and glGetError or eglGetError has the code. With lost the device is gone from that call on, so
-// that every function fails that can say so. A function of Vulkan that returns nothing has no
-// error. RG_REACHED=FILE gets the name of each function that is called, a line for each process.
+// A driver of which any function fails. This library is loaded before others (LD_PRELOAD) and
+// intercepts every function of Vulkan, OpenCL, EGL and OpenGL that the program calls.
 #define _GNU_SOURCE // RTLD_NEXT, dlvsym
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -21,10 +14,10 @@
 
 enum kind { VK_CODE, VK_VALUE, VK_NOTHING, CL_CODE, CL_HANDLE, CL_VALUE, EGL_VALUE, GL_VALUE };
 
-// --- what stands before each function ---
+// --- interception of each function ---
 
-// The program is linked with functions of Vulkan and OpenCL by their names. Those of EGL and OpenGL
-// are asked for, and must not stand before what a driver calls itself.
+// The program is linked with functions of Vulkan and OpenCL by name. It looks up those of EGL and
+// OpenGL; the driver's own calls of these must not be intercepted.
 #define NAMED(name)           ".globl " #name "\n.type " #name ", @function\n" #name ":\n"
 #define LABEL_VK_CODE         NAMED
 #define LABEL_VK_VALUE        NAMED
@@ -34,14 +27,15 @@ enum kind { VK_CODE, VK_VALUE, VK_NOTHING, CL_CODE, CL_HANDLE, CL_VALUE, EGL_VAL
 #define LABEL_CL_VALUE        NAMED
 #define LABEL_EGL_VALUE(name) ""
 #define LABEL_GL_VALUE(name)  ""
-// A piece of code of each function's, which says which one it is.
+// Each function has a piece of code that loads its number.
 #define FUNCTION(number, name, kind, parameters)                                                   \
     __asm__(".text\n" LABEL_##kind(name) "faulty_" #name ":\n"                                     \
                                          "endbr64\nmov $" #number ", %r11d\njmp faulty_any\n");
 #include FUNCTIONS
 #undef FUNCTION
 
-// Saves what parameters lie in, and asks `choose` for where to go on; or returns what it says.
+// Saves the parameters' registers and asks `choose` for the function to go on with; without one,
+// returns its result.
 __asm__(".text\nfaulty_any:\n"
         "push %rbp\nmov %rsp, %rbp\nsub $176, %rsp\n"
         "mov %rdi, 0(%rsp)\nmov %rsi, 8(%rsp)\nmov %rdx, 16(%rsp)\n"
@@ -87,8 +81,8 @@ static void *real_dlsym(void *handle, const char *name)
 
 // --- how it fails ---
 
-static bool is_lost;                  // the device is, from now on
-static uint32_t pending, egl_pending; // that glGetError and eglGetError have; 0: nothing
+static bool is_lost;                  // the device is lost, from now on
+static uint32_t pending, egl_pending; // the codes for glGetError and eglGetError; 0: none
 
 static void note_reached(const struct function *function)
 {
@@ -102,7 +96,7 @@ static void note_reached(const struct function *function)
         close(file);
 }
 
-// Whether a function is one that tells of a lost device, beside the one that lost it.
+// Whether a function reports a lost device, besides the one that lost it.
 static bool tells_of_loss(const struct function *function)
 {
     static const char *const parts[] = {"vkQueue",   "Wait",     "vkGetQueryPoolResults",
@@ -115,10 +109,10 @@ static bool tells_of_loss(const struct function *function)
 
 struct choice {
     void *to;        // the function to go on with; NULL: none
-    uint64_t result; // that is returned then
+    uint64_t result; // the result if there is none
 };
 
-// What a function returns that fails.
+// The result of a function that fails.
 static struct choice refuse(const struct function *function, void *const *parameters, bool lost)
 {
     enum {
@@ -153,7 +147,7 @@ static struct choice refuse(const struct function *function, void *const *parame
     return (struct choice){NULL, 0};
 }
 
-// Of glGetError and eglGetError: the code that waits, or the driver's own.
+// For glGetError and eglGetError: the pending code, or the driver's own.
 static struct choice tell(const struct function *function, uint32_t *code)
 {
     const struct choice told = {NULL, *code};
@@ -164,7 +158,7 @@ static struct choice tell(const struct function *function, uint32_t *code)
     return told;
 }
 
-// Where a call goes on: called by faulty_any, with what lay in the six registers of parameters.
+// Chooses how a call goes on; faulty_any calls it with the six registers of parameters.
 struct choice choose(uint32_t number, void *const *parameters)
     __attribute__((used, visibility("hidden")));
 struct choice choose(uint32_t number, void *const *parameters)
@@ -197,7 +191,7 @@ struct choice choose(uint32_t number, void *const *parameters)
     return (struct choice){function->real, 0};
 }
 
-// --- functions that are asked for by name: libepoxy does so ---
+// --- functions that are looked up by name, as libepoxy does ---
 
 static void *before(const char *name, void *real)
 {

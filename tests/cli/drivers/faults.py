@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""A table of faults: each function of a driver that a command reaches fails in each way, and no command ends as if all were well.
+"""A table of faults: each function of a driver that a command reaches fails in each way, and no command may end with success.
 
     faults.py RAINGAUGE FAULTS_LIBRARY FUNCTIONS [--sample N] [--seed N] [--api A] [--command C] [--how H] [--function PATTERN] [--at-once N]
 
-A fault is a function, a way (faults.c) and a command that asks for one device. Which functions a command reaches is found by running it well,
-so that a function that is never called is in no count. Left out are pairs that mean nothing: the error of a Vulkan function that returns
-nothing, and in `list`, which opens no device, its loss; and an error or a loss of functions that only give something back (vkDestroy...,
-vkFree..., glDelete..., clRelease..., eglDestroyContext, eglTerminate), after which a command asks nothing more of the device. Prints what
-ended with 0, in another way than with status 1, or with more than a few lines; which faults doctor does not find that another command finds;
-and the counts.
+A fault is a function, a way (faults.c) and a command that asks for one device. A run without a fault shows which functions a
+command reaches, so that no other function is counted. Meaningless pairs are left out: the error of a Vulkan function that returns
+nothing, and in `list`, which opens no device, its loss; and an error or a loss in functions that only release something
+(vkDestroy..., vkFree..., glDelete..., clRelease..., eglDestroyContext, eglTerminate), after which a command asks nothing more of
+the device. Prints the commands that ended with 0, in another way than with status 1, or with more than a few lines; the faults
+that another command finds and doctor does not; and the counts.
 """
 import argparse
 import concurrent.futures
@@ -54,7 +54,7 @@ class Faults:
         self.kinds = dict(rows)
 
     def run(self, command, api, **more):
-        """A command of a device under the library; its status, and what it said."""
+        """Runs a command on a device under the library; its status and its messages."""
         env = {name: value for name, value in os.environ.items() if not CHANGES.match(name)}
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "cells.txt"), "w") as file:
@@ -67,7 +67,7 @@ class Faults:
         return result.returncode, result.stderr.splitlines()
 
     def reached(self, command, api):
-        """The functions of an API that a command calls where all goes well."""
+        """The functions of an API that a command calls without a fault."""
         with tempfile.NamedTemporaryFile("r") as file:
             status, lines = self.run(command, api, RG_REACHED=file.name)
             if status:
@@ -79,7 +79,7 @@ class Faults:
         return not (how in ("error", "lost") and GIVES_BACK.match(function)) and not (how in silent and self.kinds[function] == "VK_NOTHING")
 
     def all(self, pairs, at_once):
-        """Every fault that means something, of pairs of an API and a command."""
+        """Every meaningful fault of pairs of an API and a command."""
         with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
             reached = list(pool.map(lambda pair: self.reached(pair[1], pair[0]), pairs))
         return [Fault(api, function, how, command) for (api, command), functions in zip(pairs, reached)
@@ -90,7 +90,7 @@ class Faults:
 
 
 def try_all(faults, asked, at_once):
-    """How each ends. Those that hang wait, so that more of them go on at once."""
+    """The end of each fault. Hanging ones wait, so that more of them run at once."""
     ends, problems = {}, []
     with concurrent.futures.ThreadPoolExecutor(at_once) as pool, concurrent.futures.ThreadPoolExecutor(3 * at_once) as waiting:
         started = {(waiting if fault.how == "hang" else pool).submit(faults.end, fault): fault for fault in asked}
@@ -106,7 +106,7 @@ def try_all(faults, asked, at_once):
 
 
 def missed_by_doctor(ends):
-    """Faults (a function and a way) that another command finds and doctor does not, and how many it was asked about."""
+    """Faults (a function and a way) that another command finds and doctor does not, and the number that doctor was asked about."""
     found = {(fault.function, fault.how) for fault, status in ends.items() if status and fault.command != "doctor"}
     found_there = {(fault.function, fault.how) for fault, status in ends.items() if status and fault.command == "doctor"}
     return sorted(found - found_there), len(found)

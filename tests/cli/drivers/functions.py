@@ -3,8 +3,8 @@
 
     functions.py OUTPUT COMPILER...
 
-A row is FUNCTION(number, name, kind, parameters), where kind says what comes back: an API's own codes, a handle beside which a code is written,
-another value, or nothing.
+A row is FUNCTION(number, name, kind, parameters). The kind is that of the result: an API's own codes, a handle next to a written
+code, another value, or nothing.
 """
 import re
 import subprocess

@@ -1,7 +1,7 @@
-// What the drivers of tests share that stand before the real ones: functions that are asked for by
-// name are hooked, and go on to the real one. A driver for Vulkan stands in front of lavapipe,
-// which the loader finds by a manifest; for EGL, OpenGL and OpenCL it is loaded before others
-// (LD_PRELOAD).
+// The common part of the tests' drivers, which intercept the real ones. Functions that are looked
+// up by name get a hook, which goes on to the real function. A driver for Vulkan is in front of
+// lavapipe, and the loader finds it by a manifest. For EGL, OpenGL and OpenCL it is loaded before
+// others (LD_PRELOAD).
 #ifndef RG_TESTS_CLI_DRIVERS_HOOKS_H
 #define RG_TESTS_CLI_DRIVERS_HOOKS_H
 
@@ -14,7 +14,7 @@
 
 typedef void (*any_function)(void);
 
-// Each has the real function once it was asked for.
+// `real` is known after the function was looked up.
 struct hook {
     const char *name;
     any_function hooked, *real;
@@ -23,7 +23,8 @@ struct hook {
 #define HOOK(function) {#function, (any_function)hooked_##function, (any_function *)(void *)&real_##function}
 // clang-format on
 
-// What a name gets instead of the real function. Each driver says so, by hook_among its hooks.
+// The function that a name gets instead of the real one. Each driver defines it, by hook_among over
+// its hooks.
 static any_function hook_of(const char *name, any_function real);
 
 static any_function hook_among(const struct hook *hooks, size_t count, const char *name,

@@ -1,4 +1,4 @@
-// A library that leaves a file behind as soon as it is loaded: where MARK_HERE says.
+// A library that makes a file as soon as it is loaded, at the place in MARK_HERE.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <unistd.h>

@@ -1,11 +1,11 @@
 // A driver that misbehaves, for each API: one function of it aborts, faults, ends the process,
 // hangs, takes memory without end, or reports that the device is lost or has no room for work.
 //
-// RG_MISBEHAVE=FUNCTION:HOW:CALLS names which function does so, how (a way of ways.h, lost or
-// none), and how many calls go well before. All else goes to the real driver. For Vulkan this
-// library is a driver of its own in front of lavapipe, which the loader finds by a manifest
-// (VK_DRIVER_FILES), and may change a constant of a shader; for EGL, OpenGL and OpenCL it is loaded
-// before others (LD_PRELOAD). faults.c has any function fail, and none of a driver's own.
+// RG_MISBEHAVE=FUNCTION:HOW:CALLS names the function, the way (one of ways.h, lost or none), and
+// the number of good calls before. All other calls go to the real driver. For Vulkan this library
+// is a driver in front of lavapipe, which the loader finds by a manifest (VK_DRIVER_FILES). It may
+// also change a constant of a shader. For EGL, OpenGL and OpenCL it is loaded before others
+// (LD_PRELOAD). faults.c makes any function fail, but is no driver of its own.
 #define _GNU_SOURCE // for hooks.h
 #include <stdbool.h>
 #include <stdint.h>
@@ -24,8 +24,7 @@
 
 // --- misbehaving ---
 
-// Whether this call is to report that the device is lost; it does not come back where it ends
-// otherwise.
+// Whether this call has to report a lost device; does not return if the process ends or hangs.
 static bool misbehaves(const char *function)
 {
     static int calls;
@@ -39,8 +38,8 @@ static bool misbehaves(const char *function)
     return true;
 }
 
-// Whether RG_VANISH=FILE:PROCESSES has the driver tell of no device: those who asked it before are
-// the bytes of the file, one a process.
+// Whether RG_VANISH=FILE:PROCESSES makes the driver list no device: that many processes have asked
+// before. The file has a byte for each.
 static bool has_vanished(void)
 {
     static int is_gone = -1;
@@ -58,7 +57,7 @@ static bool has_vanished(void)
     return is_gone > 0;
 }
 
-// --- functions that are asked for by name ---
+// --- functions that are looked up by name ---
 
 static PFN_vkEnumeratePhysicalDevices real_vkEnumeratePhysicalDevices;
 static PFN_vkGetPhysicalDeviceProperties2 real_vkGetPhysicalDeviceProperties2;
@@ -117,7 +116,7 @@ static VkResult hooked_vkCreateComputePipelines(VkDevice d, VkPipelineCache c, u
                : real_vkCreateComputePipelines(d, c, n, infos, a, p);
 }
 
-// Lost, or with "none" made such that it does not blend.
+// Reports a lost device, or with "none" makes a pipeline that does not blend.
 static VkResult hooked_vkCreateGraphicsPipelines(VkDevice d, VkPipelineCache c, uint32_t n,
                                                  const VkGraphicsPipelineCreateInfo *infos,
                                                  const VkAllocationCallbacks *a, VkPipeline *p)
@@ -147,8 +146,8 @@ static VkResult hooked_vkWaitForFences(VkDevice d, uint32_t n, const VkFence *f,
                                          : real_vkWaitForFences(d, n, f, all, ns);
 }
 
-// RG_MISCOMPILE=BYTES:WORD:VALUE, the last two in hexadecimal: in the shader that has so many
-// bytes, constants of four bytes with the one value get the other.
+// RG_MISCOMPILE=BYTES:WORD:VALUE, the last two in hexadecimal: in the shader of this many bytes,
+// four-byte constants equal to WORD become VALUE.
 static VkResult hooked_vkCreateShaderModule(VkDevice d, const VkShaderModuleCreateInfo *info,
                                             const VkAllocationCallbacks *a, VkShaderModule *m)
 {

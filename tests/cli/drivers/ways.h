@@ -1,4 +1,4 @@
-// Ways in which a driver ends whoever calls it, by name: abort, fault, exit, hang, swell.
+// Ways in which a driver ends its caller, by name: abort, fault, exit, hang, swell.
 #ifndef RG_TESTS_CLI_DRIVERS_WAYS_H
 #define RG_TESTS_CLI_DRIVERS_WAYS_H
 
@@ -25,7 +25,7 @@ static inline void fault(void)
     *nowhere = 1;
 }
 
-// RG_HANGS=FILE has a file made when it hangs.
+// RG_HANGS=FILE makes it create a file when it hangs.
 static inline void hang(void)
 {
     const char *path = getenv("RG_HANGS");
@@ -36,7 +36,7 @@ static inline void hang(void)
         pause();
 }
 
-// Comes back from a way that is none of these.
+// Ends the process in this way; returns if the way is none of these.
 static inline void end_as(const char *how)
 {
     if (!strcmp(how, "abort"))

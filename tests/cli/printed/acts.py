@@ -1,7 +1,8 @@
-"""What files from elsewhere may have raingauge do: the rows of docs/reliability.md, "What a file may do", each with hostile files.
+"""Acts of raingauge that foreign files may cause: the rows of docs/reliability.md, "What a file may do", each with hostile files.
 
-They name a program, a library, a folder of kernels, a FIFO, files outside of theirs, and characters that steer a terminal, in all places that
-take a text. The program and the library leave a mark where they run. What each command changed on the disk is looked at afterwards.
+In every place that takes a text, these files name a program, a library, a folder of kernels, a FIFO, files outside of their
+folder, or characters that control a terminal. The program and the library leave a mark when they run. After each command the
+changes on the disk are checked.
 """
 import json
 import os
@@ -27,7 +28,7 @@ PANE = ["render", "drops", "--device", "cpu", "--frame", "1", "--size", "16x16",
 
 
 class Place:
-    """A folder with what hostile files name, and a home of its own. `names`: devices that would run something."""
+    """A folder with the targets of hostile files, and its own home. `names`: devices that would run something."""
 
     def __init__(self, runner):
         self.folder = tempfile.TemporaryDirectory()
@@ -59,7 +60,7 @@ class Place:
         return path
 
     def files(self):
-        """All that lies here but in the home and in `out`: what it is, its size and when it was changed."""
+        """All files here except in the home and in `out`: their type, size and time of change."""
         found = {}
         for folder, folders, names in os.walk(self.folder.name):
             folders[:] = [name for name in folders if os.path.join(folder, name) not in (self.path("home"), self.path("out"))]
@@ -272,7 +273,7 @@ def make_check(kind):
 
 
 def check_marks(runner):
-    """what the command line names runs and leaves its mark, so that one that a file names would be seen"""
+    """a program that the command line names runs and leaves its mark, so that one that a file names would be seen"""
     place, problems = Place(runner), []
     with place.folder:
         for name in place.names[:4]:
@@ -285,7 +286,7 @@ def check_marks(runner):
 
 
 def check_named(runner):
-    """a device with variables of a baseline runs where the command line names it, and none is needed for others"""
+    """a device with a baseline's variables runs if the command line names it; others need no name"""
     place, problems = Place(runner), []
     with place.folder:
         cells, kept, name = place.file("in/cells.txt", CELL), place.path("in/baseline.json"), "cpu@OMP_NUM_THREADS=1"
@@ -303,7 +304,7 @@ def check_named(runner):
 
 
 def check_rows(_):
-    """each row of the page has hostile files here, and each of these a row"""
+    """each row of the page has hostile files here, and the reverse"""
     rows = rows_of_page()
     return [] if sorted(rows) == sorted(HOSTILE) else ["the page has %s, and here are %s" % (rows, list(HOSTILE))]
 

@@ -1,4 +1,4 @@
-"""What atlas makes, keeps, writes and compares: streaks, and textures of techniques."""
+"""atlas makes, keeps, writes and compares streaks, and textures of techniques."""
 import csv
 import os
 import re
@@ -51,10 +51,10 @@ def write_codes(path, width, rows):
 
 
 def check_compared(runner):
-    """atlas --compare lays pictures of the database beside ours: those of chance are like none, one of an even sky is like its own"""
+    """atlas --compare compares the database's pictures with ours: random ones are unlike any, one of an even sky is like its own"""
     with tempfile.TemporaryDirectory() as tmp:
         os.mkdir(tmp + "/cam")
-        for k in range(4):  # random pixels, from a generator of their own
+        for k in range(4):  # random pixels, from a separate generator
             codes = [[(7919 * (row * 8 + column + 1) * (k + 3) ** 2) % 65521 for column in range(8)] for row in range(262)]
             write_codes("%s/cam/cv0_v10_h%d_osc%d.png" % (tmp, 20 * k + 10, k), 8, codes)
         chord = [max(1 - ((column - 3.5) / 2.97) ** 2, 0) ** 0.5 for column in range(8)]
@@ -73,7 +73,7 @@ def check_compared(runner):
 
 
 def check_textures(runner):
-    """atlas cartoon lists what it generates, and with -o writes each level of it, looks of it, and a sheet"""
+    """atlas cartoon lists its textures, and with -o writes each level, their looks, and a sheet"""
     with tempfile.TemporaryDirectory() as out:
         told, status, problems = run_json(runner, "atlas cartoon -o " + out, form="textures")
         wanted = ["drop-" + weight for weight in ("light", "middle", "heavy")]
@@ -95,7 +95,7 @@ def check_textures(runner):
 
 
 def check_atlas_not_kept(runner):
-    """atlas that cannot be kept is made all the same, with a warning"""
+    """an atlas that cannot be kept is made all the same, with a warning"""
     result = runner.run(["atlas", "--quick"], NO_CACHE)
     kept = runner.run(["atlas", "--quick"])
     problems = []

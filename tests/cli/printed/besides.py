@@ -1,4 +1,4 @@
-"""What picture files hold besides the texels that are compared: nothing of it is passed over."""
+"""The contents of picture files besides their texels: none is ignored."""
 import json
 import os
 import struct
@@ -41,7 +41,7 @@ def named(name, times, value=w.light):
 
 
 def whole(more):
-    """Whole numbers that a float holds, and one more."""
+    """Whole numbers that a float holds, plus `more`."""
     return w.Part(w.colours(w.UINT, lambda x, y, c: 2 ** 24 + 2 * x + more))
 
 
@@ -66,7 +66,7 @@ def aspect(ratio):
 
 
 def turned(orientation, samples=3):
-    """A TIFF's codes so that they are shown as `code` has them when turned by `orientation`."""
+    """A TIFF whose codes are those of `code` after a turn by `orientation`."""
     across, down = orientation in (2, 3), orientation in (3, 4)
     return w.tiff(("B", w.codes(samples, lambda x, y, c: w.code(w.WIDE - 1 - x if across else x, w.HIGH - 1 - y if down else y, c)),
                    {274: (3, [orientation])}))
@@ -80,7 +80,7 @@ def doubles(more):
     return w.tiff(("d", [n / 256 + more for n in w.codes()], {}))
 
 
-LONG = w.codes(times=16843009)  # the same quotients by the largest code
+LONG = w.codes(times=16843009)  # the same shares of the largest code
 
 # Label, endings, two files, status, and the expected difference other than texels, if any.
 PAIRS = [
@@ -187,7 +187,7 @@ PAIRS = [
                                                for n in (0, 1)), 1, "channel channel3"),
 ]
 
-# Loading OpenImageIO takes a third of a second, so these are tried at every change, the others by `make thorough`.
+# Loading OpenImageIO takes a third of a second, so only these are tried at every change; `make thorough` tries the others.
 QUICK = {"a channel of depth", "whole numbers beside it", "whole numbers between floats", "the second part", "a cropped window with depth",
          "texels outside the display window", "the display window's origin", "exposures that multiply to one", "an exposure",
          "by columns from below", "the same codes of 16 bits", "the last bits of doubles", "doubles that are floats", "the second page",
@@ -205,7 +205,7 @@ REFUSED = [
     ("a chunk that is damaged", "png", w.png(before=[gama(100000)]).replace(b"gAMA\0\1\x86\xa0", b"gAMA\0\1\x86\xa1"), "CRC error"),
 ]
 
-# Label, ending, file, and the warning: both files have something that is not applied.
+# Label, ending, file, and the warning: both files have something that raingauge does not apply.
 WARNED = [
     ("a profile", "png", w.png(before=[profile(b"one")]), "ICC profile"),
     ("a curve of television", "png", w.png(before=[(b"cICP", b"\x09\x10\0\1")]), "colours (cICP)"),
@@ -242,17 +242,17 @@ def judge(runner, pairs, orders):
 
 
 def check_pairs(runner):
-    """files that show the same are equal, and nothing that they hold besides is passed over"""
+    """files that look the same are equal, and no other content of them is ignored"""
     return judge(runner, [pair for pair in PAIRS if pair[1] == "png png" or pair[0] in QUICK], 1)
 
 
 def check_all_pairs(runner):
-    """the same of more kinds, and whichever file comes first"""
+    """the same for more kinds, and in both orders of files"""
     return judge(runner, PAIRS, 2)
 
 
 def check_refused(runner):
-    """what is not read of a file is refused by its name"""
+    """contents that raingauge does not read are refused by name"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         for label, ending, content, words in REFUSED:
@@ -264,7 +264,7 @@ def check_refused(runner):
 
 
 def check_warned(runner):
-    """what both files have, and nobody applies, is one warning; of one file that is read it is a warning, too"""
+    """contents of both files that raingauge does not apply are one warning; those of a single file are a warning, too"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         for label, ending, content, words in WARNED:

@@ -1,4 +1,4 @@
-"""Disk, memory, time and threads: what is said of them beforehand, and what is refused."""
+"""Disk, memory, time and threads: announcements beforehand, and refusals."""
 import json
 import os
 import re
@@ -9,7 +9,7 @@ import tempfile
 from cases import RENDER
 from runner import NO_DRIVERS
 
-# Commands that would take hours on a disk of 64 KiB, and have to be refused before they begin.
+# Commands that would take hours on a disk of 64 KiB, and must be refused before they begin.
 TOO_LARGE = [
     ("render raster --frame 10000000 --size 1024x1024 -o a.png", "a.png: the disk has 64 KiB left, and at least 102 KiB"),
     ("render raster --frame 10000000 --size 512x512 -o a.exr", "a.exr: the disk has 64 KiB left, and at least 77 KiB"),
@@ -24,7 +24,7 @@ TOO_LARGE = [
 
 
 def check_full_disk(runner):
-    """what cannot fit on the disk is refused before the work"""
+    """results that cannot fit on the disk are refused before the work"""
     problems = []
     for args, error in TOO_LARGE:
         script = "mount -t tmpfs -o size=64k tmpfs /mnt && cd /mnt && \"$0\" %s; status=$?; ls; exit $status" % args
@@ -46,8 +46,8 @@ SAID = ["raster --size 2048x2048", "cartoon --size 2048x1024", "flow --size 512x
 BESIDE_BYTES, FACTOR = 40e6, 1.25
 
 
-# Starts a command and prints its peak memory. The kernel also counts what a process had before it executed the command,
-# which is its parent's memory: little, because this parent imports nothing.
+# Starts a command and prints its peak memory. The kernel also counts the memory before the command was executed, which is its
+# parent's: little, since this parent imports nothing.
 STARTER = """import os, sys
 child = os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, 1, "/dev/null", os.O_WRONLY, 0)])
 _, status, usage = os.wait4(child, 0)
@@ -55,7 +55,7 @@ print(usage.ru_maxrss * 1024, os.waitstatus_to_exitcode(status))"""
 
 
 def resident_bytes(runner, args):
-    """The most memory that a process of a command had, its status and what it printed to stderr."""
+    """The peak memory of a process of a command, its status, and its stderr."""
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run([sys.executable, "-ISc", STARTER, runner.raingauge] + args + ["-o", os.path.join(folder, "a.exr")],
                               env=runner.variables({}), stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", timeout=600)
@@ -64,7 +64,7 @@ def resident_bytes(runner, args):
 
 
 def check_memory(runner):
-    """processes take what is said that they need, and what is refused takes little"""
+    """processes take the announced memory, and refused ones take little"""
     problems = []
     for args in SAID:
         width, height = map(int, re.search(r"--size (\d+)x(\d+)", args).groups())
@@ -73,7 +73,7 @@ def check_memory(runner):
         taken, status, log = resident_bytes(runner, args)
         small, refused, line = resident_bytes(runner, args + ["--memory", "%fM" % (picture / 2**20 + 1)])
         number, unit = re.search(r"needs ([\d.]+) ([MG])iB, and 1.0 MiB of --memory are left", line).groups()
-        sent = width * height * 16  # the picture while it is sent to raingauge; its worker holds it twice
+        sent = width * height * 16  # the picture on its way to raingauge; its worker holds it twice
         said = max(float(number) * {"M": 2**20, "G": 2**30}[unit] + sent, picture)
         if status or log or refused != 2 or not 0.7 * said < taken < FACTOR * said + BESIDE_BYTES:
             problems.append("%s: said %.0f, taken %.0f, status %d: %s" % (args, said, taken, status, log))
@@ -83,7 +83,7 @@ def check_memory(runner):
 
 
 def check_long(runner):
-    """what lasts long says how long, in a line, and with every tenth what is left; what does not says nothing"""
+    """a long task announces its time in a line, and with every tenth the time left; a short one prints nothing"""
     problems = []
     for args, line in ((RENDER.replace("--frame 1", "--frame 400"), "flow, 400 frames"),
                        (RENDER.replace("--frame 1", "--frames 0-300") + "-o {}/a%03d.png", "flow, frames 0-300")):
@@ -101,7 +101,7 @@ def check_long(runner):
 
 
 def check_threads(runner):
-    """threads are at most four a processor, and what is wrong with their number is said once"""
+    """threads are at most four a processor, and a wrong number is reported once"""
     problems = []
     processors = os.sysconf("SC_NPROCESSORS_ONLN")
     most = "raingauge: warning: OMP_NUM_THREADS=%s: more than 4 threads on each of " + \

@@ -1,4 +1,4 @@
-"""What render and diff print of pictures, and every command where its output cannot be written."""
+"""render's and diff's output about pictures, and every command whose output cannot be written."""
 import json
 import math
 import os
@@ -14,7 +14,7 @@ from machine import lacking, run_json
 
 
 def check_render_json(runner):
-    """render --json says what it drew, with every parameter's value"""
+    """render --json describes its picture, with every parameter's value"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         record, status, problems = run_json(runner, RENDER + "-o %s/a.png" % tmp)
@@ -32,7 +32,7 @@ FOREIGN = os.fsdecode(b"cpu@N=\xff\x1b[2J")  # not UTF-8, and a sequence that cl
 
 
 def check_foreign(runner):
-    """a device's name that is no UTF-8 has question marks in every machine form, and steers no terminal"""
+    """a device's name that is not UTF-8 has question marks in every machine form, and controls no terminal"""
     problems, marked = [], "cpu@N=?\x1b[2J"
     with tempfile.TemporaryDirectory() as tmp:
         for args, named in ((RENDER + "-o %s/a.png" % tmp, lambda told: [told["device"], told["passport"]["devices"][0]["name"]]),
@@ -75,7 +75,7 @@ def check_diff_json(runner):
 
 
 def write_tiff(path, texels):
-    """A row of grey floats: the header, the row, and the fields that say what it is."""
+    """A row of grey floats: the header, the row, and its fields."""
     row = struct.pack("<%df" % len(texels), *texels)
     fields = [(256, len(texels)), (257, 1), (258, 32), (259, 1), (262, 1), (273, 8), (277, 1), (278, 1), (279, len(row)), (339, 3)]
     with open(path, "wb") as file:
@@ -106,7 +106,7 @@ def check_diff_not_finite(runner):
 
 
 def check_full_stdout(runner):
-    """results that do not fit on standard output are an error, and nothing else is written to where it was closed"""
+    """results that do not fit on standard output are an error, and a closed standard output gets nothing else"""
     problems = []
     for args in ("list techniques", DIFF + "--json"):
         closed = subprocess.run(["sh", "-c", '"$0" "$@" >&-', runner.raingauge, *args.split()], env=runner.variables({}), capture_output=True,

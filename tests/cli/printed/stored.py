@@ -1,4 +1,4 @@
-"""Tables that were interrupted, are measured anew, or are printed again from what is stored."""
+"""Tables that were interrupted, are measured anew, or are printed again from stored records."""
 import json
 import os
 import re
@@ -13,7 +13,7 @@ TWO_TABLES = "table stuppacher-2 raster-1 --rows 1-1 --device cpu "
 
 
 def check_claims_alone(runner):
-    """measured tables leave nothing before their claims, which JSON alone has as one document, and an empty line between two tables"""
+    """measured tables print nothing before their claims, which JSON has as one document, and an empty line between two tables"""
     document, status, problems = run_json(runner, TWO_TABLES + "--claims", form="claims")
     about = [table["table"] for table in document["tables"]], {claim["table"] for claim in document["claims"]}
     if status or about != (["stuppacher-2"], {"stuppacher-2"}):
@@ -25,7 +25,7 @@ def check_claims_alone(runner):
 
 
 def check_launches(runner):
-    """claims takes launches until its budget is over, says that the same command goes on, and it does; what is there is judged, and held beside a table"""
+    """claims takes launches for its budget, then says that the same command goes on, and it does; stored launches are judged, beside a table too"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         args = ("claims chin-timing --device cpu --budget 1s --json -o " + tmp).split()
@@ -41,12 +41,12 @@ def check_launches(runner):
             problems += ["launches: %s" % launches for _ in range([launch[0] for launch in launches] != list(range(1, len(launches) + 1)))]
         if not 0 <= counts[0] <= counts[1] or os.listdir(tmp) != ["chin-timing-quick.journal"]:
             problems.append("%s launches, %s" % (counts, os.listdir(tmp)))
-        # As if 24 launches had been taken of a machine that is fast enough.
+        # As if 24 launches had been taken on a machine that is fast enough.
         with open(tmp + "/chin-timing-quick.journal", encoding="utf-8") as file:
             record = forms.unsealed(json.load(file))
         for cell in record["cells"]:
             cell["measured"]["launches"] = [[i + 1, 10 + 0.01 * (i * 7 % 12), 0, 0, 1] for i in range(24)]
-        del record["checksum"]  # a journal has one as a whole
+        del record["checksum"]  # a journal has one for the whole file
         os.remove(tmp + "/chin-timing-quick.journal")
         with open(tmp + "/chin-timing.json", "w", encoding="utf-8") as file:
             json.dump(record, file)
@@ -62,7 +62,7 @@ def check_launches(runner):
 
 
 def interrupt(runner, args, env):
-    """Runs two tables and interrupts the second; what was printed, the exit status, the messages."""
+    """Runs two tables and interrupts the second; the output, the exit status, the messages."""
     process = runner.start(args.split(), env)
     lines = []
     for line in process.stdout:
@@ -75,7 +75,7 @@ def interrupt(runner, args, env):
 
 
 def check_interrupted(runner):
-    """a table that is interrupted says so, and the same command goes on with what is missing"""
+    """an interrupted table says so, and the same command goes on with the missing rows"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp, tempfile.TemporaryDirectory() as state:
         env = {"XDG_STATE_HOME": state}
@@ -103,7 +103,7 @@ def check_interrupted(runner):
 
 
 def replaces_stored(runner, out, tmp):
-    """What is wrong with a part of what is stored, written where it is stored, by any of the folder's names."""
+    """Problems of storing a part of a stored table in the same place, by any of the folder's names."""
     problems = []
     os.symlink(out, tmp + "/link")
     os.symlink(out + "/raster-1.json", tmp + "/link.json")
@@ -118,7 +118,7 @@ def replaces_stored(runner, out, tmp):
 
 
 def check_stored(runner):
-    """table --from prints what was measured as it was printed then, in every format, and opens no device"""
+    """table --from prints stored measurements as they were printed then, in every format, and opens no device"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         out = tmp + "/out"
@@ -156,7 +156,7 @@ def check_stored(runner):
 
 
 def check_fresh(runner):
-    """table --fresh takes nothing from an interrupted run; nor does a run of other devices"""
+    """table --fresh takes nothing from an interrupted run, and neither does a run on other devices"""
     problems = []
     with tempfile.TemporaryDirectory() as state:
         env = {"XDG_STATE_HOME": state}

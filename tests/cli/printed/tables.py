@@ -1,4 +1,4 @@
-"""What table and sweep print, of one table or several: each form well-formed, cells counted and told apart."""
+"""The output of table and sweep, for one table or several: each form is well-formed, and cells are counted and told apart."""
 import csv
 import io
 import json
@@ -18,7 +18,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.a
 
 
 def check_table_json(runner):
-    """table --json holds the passport, and for each cell what was published, measured and counted"""
+    """table --json has the passport, and for each cell the published, measured and counted values"""
     report, status, problems = run_json(runner, TABLE)
     problems += lacking("table", report, {"format": int, "table": str, "passport": dict, "cells": list})
     if (report["format"], report["table"], status, len(report["cells"])) != (1, "stuppacher-2", 0, 1):
@@ -38,7 +38,7 @@ def check_table_json(runner):
 
 
 def check_tallies(runner):
-    """table --json tells the exact work of a frame, the same on two devices but for what cpu:reference alone can count"""
+    """table --json has the exact work of a frame, the same on two devices except for counts that only cpu:reference has"""
     report, _, problems = run_json(runner, TABLE.replace("--device cpu", "--device cpu:reference,cpu"))
     reference, cpu = (cell["tally"] for cell in report["cells"])
     alone = {name for name in reference if cpu[name] != reference[name]}
@@ -50,7 +50,7 @@ def check_tallies(runner):
 
 
 def check_growth(runner):
-    """a table of no paper tells what counters grow by in a frame, and the exponent of its time along the rows"""
+    """a table of no paper has the counters' growth in a frame, and the exponent of its time along the rows"""
     report, status, problems = run_json(runner, "table chin-drops --rows 1-2 --device cpu")
     cells, shape = report["cells"], report["shapes"][0]
     if status or len(report["shapes"]) != 1 or shape["verdict"] != "growth" or shape["published_slope"] is not None:
@@ -65,7 +65,7 @@ def check_growth(runner):
 
 
 def check_changed(runner):
-    """table --set, --variant, --work and --rows hold together, the record tells of them, and nothing changed is held against print"""
+    """table --set, --variant, --work and --rows work together, the record names them, and no changed cell is compared with print"""
     with tempfile.TemporaryDirectory() as tmp:
         args = "table stuppacher-2 --rows 1-2 --work reading --variant full --device cpu --set drops=7 --set rain_drops_s=0"
         report, status, problems = run_json(runner, args + " -o " + tmp, form="table")
@@ -87,7 +87,7 @@ def check_changed(runner):
 
 
 def check_budget(runner):
-    """table within a budget that is enough for all measures all, in turns, and leaves nothing out; its record is read like others"""
+    """table with a budget for everything measures everything, in turns, and leaves nothing out; its record is read like others"""
     with tempfile.TemporaryDirectory() as tmp:
         run = runner.run(["table", "creus-5.2", "--device", "cpu,cpu:reference", "--budget", "9h", "--json", "-o", tmp])
         again = runner.run(["table", "--from", tmp, "--json"]).stdout
@@ -104,7 +104,7 @@ def check_budget(runner):
 
 
 def check_busy(runner):
-    """table tells of a busy machine before it measures, and marks cells of which others took more than 5 %"""
+    """table reports a busy machine before it measures, and marks cells of which others took more than 5 %"""
     problems = []
     loops = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(2 * os.cpu_count())]
     try:
@@ -149,7 +149,7 @@ def check_no_rain(runner):
 
 
 def check_brief(runner):
-    """table prints one line a row, in colours on a terminal alone, and --wide one line a cell with all columns"""
+    """table prints one line a row, in colours only on a terminal, and --wide one line a cell with all columns"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         runner.run((TABLE.replace("--work paper ", "") + "-o " + tmp).split())
@@ -180,7 +180,7 @@ SWEEP = ("sweep flow --axis resolution_px=32,64..96 --axis panes=mirror,glass --
 
 
 def check_sweep(runner):
-    """a dry run of sweep plans; else it measures each combination on each device, as a table that is printed, written and read like others"""
+    """a dry run of sweep plans; otherwise it measures each combination on each device, as a table to print, write and read like others"""
     problems = []
     plan = r"plan: 6 rows on cpu, cpu:reference, 12 cells; about [\d.]+ s \(cpu [\d.]+ s, cpu:reference [\d.]+ s\), about \d+ MB with .*\n"
     dry = runner.run((SWEEP + "--dry-run").split())
@@ -217,7 +217,7 @@ def check_sweep(runner):
 
 
 def check_forms(runner):
-    """what list prints, and a table of textures, are as the schema has them, whose fields are all documented"""
+    """list's output, and a table of textures, fit the schema, all of whose fields are documented"""
     problems = ["docs/records.schema.json does not describe, or docs/records.md not name, %s" % name for name in forms.undocumented()]
     for args in ("list techniques", "list tables", "list figures", "list devices", "list params raster", "table creus-5.2 --rows 1-1 --device cpu"):
         problems += [line for line in run_json(runner, args)[2] if not line.startswith("stderr: ")]
@@ -231,7 +231,7 @@ def check_forms(runner):
 
 
 def check_tables_in_a_row(runner):
-    """table with several names prints each, apart"""
+    """table with several names prints each one separately"""
     problems = []
     text = runner.run((TABLE + "stuppacher-2").split()).stdout
     if not re.fullmatch(r"## stuppacher-2\n\n.*\n\n## stuppacher-2\n\n.*", text, re.S):
@@ -289,7 +289,7 @@ def check_md(text):
 
 
 def check_compile(runner):
-    """what tables draw with is compiled and kept, once, and nothing is measured; a driver that falls is told of"""
+    """the programs that tables draw with are compiled and kept, once, and nothing is measured; a driver that crashes is reported"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         def kept():

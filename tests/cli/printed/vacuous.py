@@ -1,4 +1,4 @@
-"""Commands that compare or measure, of which nothing is left to do: none of them ends with status 0, and each says why."""
+"""Commands that compare or measure, but have nothing left to do: none ends with status 0, and each says why."""
 import concurrent.futures
 import itertools
 import json
@@ -23,7 +23,7 @@ SEED, SAMPLE = 43, 60
 
 
 class Inputs:
-    """What the commands read: cells, expectations, pictures without rain, results that hold nothing, drivers that fall."""
+    """The commands' inputs: cells, expectations, pictures without rain, empty results, drivers that crash."""
 
     def __init__(self, runner, folder):
         self.runner, self.folder = runner, folder
@@ -58,7 +58,7 @@ class Inputs:
         return self.path(name)
 
     def fall(self, device, function, how, calls):
-        """The name of a device whose driver falls."""
+        """The name of a device whose driver crashes."""
         room = self.path("%s-%s" % (function, how))
         os.mkdir(room)
         env = misbehaving.shim(self.runner, room, device, function, how, calls)
@@ -69,7 +69,7 @@ class Inputs:
 
 
 def of_gates(i):
-    """Gates of two sides, of two builds and against a baseline, of which filters, skips and shards leave nothing."""
+    """Gates of two sides, of two builds and with a baseline, of which filters, skips and shards leave nothing."""
     kinds = (["cpu", "cpu"], ["--against", i.runner.raingauge, "--device", "cpu"], ["--baseline", i.baseline])
     nothing = [(["--gtest_filter=" + pattern], {}) for pattern in ("nosuch", "-*", "*-*torus*", "raster/rain")]
     nothing += [(i.known[name], {}) for name in ("skip", "skips")]
@@ -80,7 +80,7 @@ def of_gates(i):
 
 
 def of_falls(i):
-    """Gates of drivers that fall in opening or drawing, which is expected; and of cells without rain."""
+    """Gates of drivers that crash in opening or drawing, as expected; and of cells without rain."""
     for device, known, required, form in itertools.product((i.falling, i.drawing), ("flake", "flakes", "fail", "fails"), ([], ["--require", "vulkan"]),
                                                            ([], ["--json"])):
         yield ["gate", "cpu", device, "--pictures", "--cells", i.cells] + i.known[known] + required + form, {}
@@ -105,7 +105,7 @@ def of_pictures(i):
 
 
 def of_checks(i):
-    """verify without a device to compare, and shrink, doctor and bisect without anything to find."""
+    """verify without a device to compare, and shrink, doctor and bisect with nothing to find."""
     for technique, frame, form in itertools.product(("cartoon", "drops", "flow", "raster", "shower"), ("0", "1"), ([], ["--json"])):
         yield ["verify", technique, "--stages", "--frame", frame, "--size", "32x32", "--device", "cpu:reference"] + form, {}
     for device in ("vulkan", "gl", "opencl"):
@@ -120,7 +120,7 @@ def of_checks(i):
 
 
 def of_tables(i):
-    """Tables of which nothing was stored, chosen, drawn or compiled."""
+    """Tables without anything stored, chosen, drawn or compiled."""
     kept = os.path.join(ROOT, "results", "tables")
     forms = ([], ["--json"], ["--format", "csv"], ["--claims"])
     for table, form in itertools.product(TABLES, forms):
@@ -157,7 +157,7 @@ def problems_of(runner, inputs, line):
 
 
 def problems_of_all(runner, count):
-    """Those of a seeded sample, or of all."""
+    """The problems of a seeded sample of commands, or of all."""
     with tempfile.TemporaryDirectory() as folder:
         inputs = Inputs(runner, folder)
         lines = lines_of(inputs)
@@ -169,17 +169,17 @@ def problems_of_all(runner, count):
 
 
 def check_sample(runner):
-    """of commands that are left with nothing to compare or to measure none ends with status 0, and each says why"""
+    """no command that has nothing left to compare or measure ends with status 0, and each says why"""
     return problems_of_all(runner, SAMPLE)
 
 
 def check_all(runner):
-    """of all 200 and more such command lines none ends with status 0"""
+    """none of all 200 and more such command lines ends with status 0"""
     return problems_of_all(runner, 0)
 
 
 def check_something(runner):
-    """the same commands pass where something is left, and say how much"""
+    """the same commands pass if something is left, and say how much"""
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         i = Inputs(runner, folder)
@@ -194,7 +194,7 @@ def check_something(runner):
 
 
 def check_frame(runner):
-    """a frame without rain is told with one that has some, where one is found"""
+    """a frame without rain is reported with one that has rain, if one is found"""
     problems = []
     for args, says in (("diff drops --frame 0 --size 64x48 --device cpu,cpu:reference", "diff drops: no rain at frame 0, so that nothing is compared; take --frame 60\n"),
                        ("diff shower --frame 60 --size 64x36 --device cpu,cpu:reference " + SETS["shower"],

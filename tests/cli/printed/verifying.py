@@ -1,4 +1,4 @@
-"""What verify prints, whose mutants have a scene of their own."""
+"""verify's output; its mutants have their own scene."""
 import re
 
 from machine import lacking, run_json
@@ -18,7 +18,7 @@ def check_verify_json(runner):
 
 
 def check_verify_dry(runner):
-    """verify ends with 4 by an image without rain, which proves nothing, and tells no other check amiss"""
+    """verify ends with 4 for an image without rain, which proves nothing, and reports no other check wrongly"""
     result = runner.run((VERIFY + "--set share=0").split())
     driver, *lines = result.stdout.splitlines()
     failed = [line for line in lines[:-1] if not line.startswith("ok ")]

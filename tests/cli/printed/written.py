@@ -1,4 +1,4 @@
-"""Small picture files, written byte by byte: PNG, EXR, HDR and TIFF, with what they can hold besides."""
+"""Small picture files, written byte by byte: PNG, EXR, HDR and TIFF, with their contents besides texels."""
 import struct
 import zlib
 
@@ -6,7 +6,7 @@ WIDE, HIGH = 8, 6
 
 
 def code(x, y, c):
-    """A code of a picture that has no symmetry."""
+    """A code of a picture without symmetry."""
     return (x * 29 + y * 41 + c * 67 + x * y * 5) % 256
 
 
@@ -15,7 +15,7 @@ def chunk(name, content):
 
 
 def png(samples=3, depth=8, before=(), after=(), value=code, level=9):
-    """`before` and `after` the rows: (name, content) of chunks. `value`: of x, y and channel."""
+    """`before` and `after` the rows: chunks as (name, content). `value`: a function of x, y and channel."""
     kind = {1: 0, 2: 4, 3: 2, 4: 6}[samples]
     form, times = (">B", 1) if depth == 8 else (">H", 257)
     rows = b"".join(b"\0" + b"".join(struct.pack(form, times * value(x, y, c)) for x in range(WIDE) for c in range(samples))
@@ -26,7 +26,7 @@ def png(samples=3, depth=8, before=(), after=(), value=code, level=9):
 
 
 def apng(seed):
-    """Two frames, of which the second depends on `seed`."""
+    """Two frames; the second depends on `seed`."""
     def control(number):
         return struct.pack(">5IHHBB", number, WIDE, HIGH, 0, 0, 1, 10, 0, 0)
 
@@ -49,7 +49,7 @@ def light(x, y, c):
 
 
 class Part:
-    """Channels are (name, type, value of x and y), windows (left, top, right, bottom), both inclusive."""
+    """Channels are (name, type, function of x and y), windows (left, top, right, bottom), both inclusive."""
 
     def __init__(self, channels, data=(0, 0, WIDE - 1, HIGH - 1), display=None, more=(), name=None, sampling=1, kind=b"scanlineimage"):
         self.channels, self.data, self.display = sorted(channels), data, display or data
@@ -78,7 +78,7 @@ class Part:
 
 
 def exr(*parts):
-    """Without compression, of one part or of several."""
+    """An EXR without compression, of one part or of several."""
     several = len(parts) > 1
     head = struct.pack("<II", 20000630, 2 | (0x1000 if several else 0)) + b"".join(part.header() for part in parts)
     head += b"\0" if several else b""
@@ -91,13 +91,13 @@ def exr(*parts):
 
 
 def colours(kind=HALF, value=light, alpha=None):
-    """Channels R, G and B, and A where `alpha` is a value of x and y."""
+    """Channels R, G and B, and A if `alpha` is a function of x and y."""
     made = [(name, kind, lambda x, y, c=c: value(x, y, c)) for c, name in enumerate("RGB")]
     return made + ([("A", kind, alpha)] if alpha else [])
 
 
 def hdr(resolution="-Y %d +X %d" % (HIGH, WIDE), lines=(), texel=lambda x, y: (x, y), size=(WIDE, HIGH)):
-    """Flat. `texel` says which of the picture's texels stands at a column and a line of the file."""
+    """An uncompressed HDR. `texel`: which of the picture's texels is at a column and a line of the file."""
     head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + "".join(line + "\n" for line in lines) + "\n" + resolution + "\n"
     places = [texel(x, y) for y in range(size[1]) for x in range(size[0])]
     return head.encode() + b"".join(bytes([128 + code(x, y, c) // 2 for c in range(3)] + [129]) for x, y in places)

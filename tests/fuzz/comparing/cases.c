@@ -1,4 +1,4 @@
-// Cases of shrink. What is taken is written and taken again: both must be the same text.
+// Cases of shrink. A case that is taken is written and taken again: both texts must be the same.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@ static char *text_of(const char *path)
     return text;
 }
 
-// Its text, from a file that it is written to.
+// A case's text, from the file to which it was written.
 static char *write_case(const struct rg_case *found)
 {
     const char *path = fuzz_write("written.txt", (const uint8_t *)"", 0);

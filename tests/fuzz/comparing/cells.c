@@ -1,5 +1,5 @@
-// Files of a gate's cells. What is taken can be drawn as it stands: each cell has a name of its
-// own, a technique, settings and a picture.
+// Files of a gate's cells. A file that is taken can be drawn as it is: each cell has its own name,
+// a technique, settings and a picture.
 #include <string.h>
 
 #include "harness/compare/gate/cells/cells.h"

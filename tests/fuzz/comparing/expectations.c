@@ -1,5 +1,5 @@
-// Files of expectations: ours, and Mesa's three. What is taken is asked about some cells, and
-// then mended.
+// Files of expectations: ours, and Mesa's three. A file that is taken is asked about some cells,
+// and then mended.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,7 +41,7 @@ static void search(const struct rg_known *known)
     fuzz_judge_lines(can, 0);
 }
 
-// What is mended can be read.
+// Checks that a mended file can be read.
 static void mend(const struct rg_known *known)
 {
     char *text;

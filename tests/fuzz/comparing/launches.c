@@ -1,5 +1,5 @@
-// Journals of gates. What one keeps is taken whole or not at all, in one line at most, and each
-// launch that is taken can be one. A checksum is mended first.
+// Journals of gates. A journal is taken whole or not at all, in one line at most, and each launch
+// that is taken is possible. A checksum is corrected first.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "harness/record/disk/seal.h"
 #include "tests/fuzz/heard.h"
 
-// What a course is given of a row. Returns the number of launches.
+// Checks the launches of a row that a course gets. Returns their number.
 static int check_row(const struct rg_gate_journal *journal, const char *name)
 {
     int count = 0;

@@ -1,5 +1,5 @@
-// Baselines of gates. What is taken is written and taken again: the two must say the same. A
-// checksum is mended first.
+// Baselines of gates. A baseline that is taken is written and taken again: both must say the same.
+// A checksum is corrected first.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "harness/record/disk/seal.h"
 #include "tests/fuzz/heard.h"
 
-// Whether it is of these cells is said in one line.
+// Checks that one line says so if the baseline is not of these cells.
 static void check_fits(const struct rg_baseline *baseline)
 {
     struct rg_gate_cells cells;

@@ -1,5 +1,5 @@
 // HDR, TIFF and EXR pictures on the whole path: a file, the reader's process in its cage, the check
-// of its reply. Whatever happens to OpenImageIO, there is a picture or one line.
+// of its reply. Whatever happens to OpenImageIO, the result is a picture or one line.
 #include <string.h>
 
 #include "core/base/memory.h"

@@ -1,4 +1,4 @@
-// The text files of the original streak database, as one of a view and as that of all.
+// The text files of the original streak database, each both as one view's and as that of all views.
 #include <math.h>
 
 #include "core/scene/atlas/cave/factors.h"

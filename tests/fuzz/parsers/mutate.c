@@ -1,10 +1,10 @@
-// A fuzzer for targets that are built without libFuzzer: it changes the files of a corpus by
-// chance, seeded, and tries them.
+// A fuzzer for targets built without libFuzzer: it changes the files of a corpus at random, from a
+// seed, and tries them.
 //
 //   fuzz_TARGET [--runs N] [--seconds S] [--seed N] FILE|FOLDER...
 //
-// Each file is tried as it is first. An input that ends the program is kept as TARGET-SEED-RUN in
-// the folder that FUZZ_FOUND names, "." without it; `fuzz_TARGET --runs 0 FILE` tries it again.
+// Each file is first tried unchanged. An input that ends the program is kept as TARGET-SEED-RUN in
+// the folder FUZZ_FOUND, or else in "."; `fuzz_TARGET --runs 0 FILE` tries it again.
 #include <dirent.h>
 #include <signal.h>
 #include <stdio.h>
@@ -26,7 +26,7 @@ struct bytes {
 static struct bytes seeds[MAX_SEEDS];
 static int seed_count;
 
-// What is tried now, for whoever finds it.
+// The current input, for the signal handler that keeps it.
 static uint8_t input[MAX_BYTES];
 static size_t input_size;
 static char input_name[256];
@@ -80,7 +80,7 @@ static void cut_range(void)
     input_size -= cut;
 }
 
-// Puts a piece of a seed in.
+// Inserts a piece of a seed.
 static void insert(const uint8_t *piece, size_t length)
 {
     const size_t at = below(input_size + 1);
@@ -108,7 +108,7 @@ static void overwrite_with_piece(void)
     memcpy(input + at, seed->data + from, length);
 }
 
-// Words that texts and numbers of all formats take badly.
+// Inserts a word that formats often handle badly.
 static void insert_word(void)
 {
     static const char *const words[] = {
@@ -123,7 +123,7 @@ static void insert_word(void)
     insert((const uint8_t *)word, strlen(word));
 }
 
-// A number that is written in digits becomes another.
+// Changes a number that is written in digits.
 static void change_digit(void)
 {
     for (size_t at = below(input_size), i = 0; i < input_size; i++, at = (at + 1) % input_size)
@@ -168,7 +168,7 @@ static void add(const char *path)
     struct stat found;
     struct dirent **entries;
     if (stat(path, &found))
-        return; // a target has files that are kept, files that are made, or both
+        return; // a target has stored files, generated files, or both
     if (!S_ISDIR(found.st_mode)) {
         add_file(path);
         return;
@@ -204,7 +204,7 @@ static void try_input(const char *target, uint64_t seed, long run)
     snprintf(input_name, sizeof(input_name), "%s/%s-%llu-%ld", folder ? folder : ".", target,
              (unsigned long long)seed, run);
     alarm(LONGEST_S);
-    // A copy of just its size, so that a sanitizer sees a read behind its end.
+    // The copy has exactly the input's size, so that a sanitizer sees a read beyond its end.
     uint8_t *copy = malloc(input_size ? input_size : 1);
     if (!copy)
         abort();

@@ -1,5 +1,5 @@
 // Values on the command line: KEY=VALUE of each technique, and those of options of each kind. The
-// first byte chooses which; what is taken as a parameter is written and taken again.
+// first byte chooses one. A parameter that is taken is written and taken again.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,7 +47,7 @@ union value {
     struct rg_words words;
 };
 
-// Whether what was taken is within what the row allows.
+// Whether a value is within the row's bounds.
 static bool is_within(const struct rg_option *row, const union value *value)
 {
     switch (row->kind) {

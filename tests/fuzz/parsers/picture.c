@@ -1,6 +1,6 @@
-// PNG and EXR pictures in this process, and what density maps make of them. A PNG's checksums are
-// mended first, or nothing behind them would be tried. An EXR that is another process's to read is
-// refused, for want of descriptors: caged.c tries those, which take a hundred times as long.
+// PNG and EXR pictures in this process, and the density maps made of them. A PNG's checksums are
+// corrected first; otherwise nothing after them would be tried. An EXR for another process is
+// refused, since it has no descriptors; caged.c tries those, a hundred times slower.
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -32,7 +32,7 @@ static void mend_checksums(uint8_t *bytes, size_t size)
     }
 }
 
-// With descriptors for the file and for what the system says of memory, and none for a process.
+// Reads with descriptors for the file and for the system's memory, but none for a process.
 static bool read_here(const char *path, struct rg_picture *picture)
 {
     const int lowest = dup(STDERR_FILENO);

@@ -1,5 +1,5 @@
-// What the picture reader hands back, however wrong. The first byte is how long the file says that
-// it was, in kibibytes; the rest is the reply.
+// The picture reader's reply, however wrong. The first byte is the file's alleged length in
+// kibibytes; the rest is the reply.
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,8 +8,8 @@
 #include "core/image/reader/reply.h"
 #include "tests/fuzz/heard.h"
 
-// Mostly a reply that says no error and is of a size that its texels fit, with extras in what is
-// left, or nothing else would be tried.
+// Mostly makes a reply without an error, whose size fits its texels, with extras in the rest.
+// Otherwise nothing else would be tried.
 static void mend_header(uint8_t *reply, size_t size)
 {
     struct rg_picture_reply header;
@@ -33,7 +33,7 @@ static void count(void *user, const struct rg_extra *a, const struct rg_extra *b
     *(int *)user += a->name_length + a->value_length + b->value_length;
 }
 
-// What was taken is all of the reply, and no more.
+// Checks that the picture has all of the reply, and no more.
 static void judge(const struct rg_picture *picture, const uint8_t *reply, size_t size)
 {
     struct rg_picture_reply header;

@@ -1,6 +1,6 @@
-// Results and journals. What is taken is written and taken again: the two must say the same, or a
-// record that is kept is not the one that was measured. It is printed in every format. Checksums,
-// of cells and of journals, are mended first.
+// Results and journals. A file that is taken is written and taken again: both must say the same, or
+// a stored record is not the measured one. It is printed in every format. Checksums of cells and of
+// journals are corrected first.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static void check_again(const struct rg_result *result)
     rg_result_free(&again);
 }
 
-// What is printed as JSON is what --from takes.
+// Checks that --from takes the printed JSON.
 static void check_sealed(const char *text)
 {
     char why[RG_WHY_SIZE] = "";
@@ -42,7 +42,8 @@ static void check_sealed(const char *text)
     json_decref(document);
 }
 
-// In every format, without what steers a terminal; JSON is for programs, and keeps DEL.
+// Prints in every format, without characters that control a terminal; JSON is for programs, and
+// keeps DEL.
 static void check_printed(const struct rg_result *result)
 {
     for (int format = RG_RESULT_WIDE; format <= RG_RESULT_TEX; format++) {
@@ -95,7 +96,7 @@ static void read_journal(const char *text, size_t size)
     rg_result_free(&result);
 }
 
-// With the checksums that its cells should have, where it has cells.
+// Reads with correct checksums of the cells, if there are any.
 static void read_sealed(json_t *document)
 {
     char *text = json_is_array(json_object_get(document, "cells")) && rg_cells_seal(document)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the binary seeds of the fuzz targets of parsers: `seeds.py FOLDER`, a folder for each target in it.
+"""Writes the binary seeds of the fuzz targets of parsers: `seeds.py FOLDER`, with a folder in it for each target.
 
-They are made here rather than kept, so that the corpus can be read. Each is as small as its format lets it be.
+They are generated, not stored, so that the corpus can be read. Each is as small as its format allows.
 """
 import struct
 import sys
@@ -81,7 +81,7 @@ def hdr():
 
 
 def tiff(bits=8, samples=3, form=1, tiled=False):
-    """Without compression; `form` 1: whole numbers, 3: floats."""
+    """A TIFF without compression; `form` 1: whole numbers, 3: floats."""
     side = 16
     pixels = side * side if tiled else WIDE * HIGH
     data = bytes((11 * i) % 256 for i in range(pixels * samples * bits // 8))
@@ -105,7 +105,7 @@ def reply(width, height, channels, decoded, how, extras=b"", more=0):
     return b"\x01" + head + bytes(480) + struct.pack("<f", 0.5) * (width * height * channels) + extras
 
 
-# The first byte chooses whose value follows: one of six techniques' settings, or an option of one of seven kinds.
+# The first byte chooses the kind of value: one of six techniques' settings, or an option of one of seven kinds.
 OPTIONS = ["rain=heavy clip_planes=2", "count=100 wind_m_s=2.5", "model=teapot", "width=32", "drops_m2_s=1e3 time=night",
            "lights=3 shadows=on lights_file=a.json", "12", "1.5", "json", "1280x720", "2-4", "cpu,gl", "seed=7"]
 

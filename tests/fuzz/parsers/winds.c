@@ -1,4 +1,4 @@
-// Files of winds, and the wind at some times of them.
+// Files of winds, and the wind at some times.
 #include <math.h>
 
 #include "core/techniques/cartoon/rain/settings.h"

@@ -1,6 +1,5 @@
-// Pictures of the database beside an atlas' own: a folder of pictures that the test writes from an
-// atlas of noise, as they are, as in a mirror, lit from the other side, and with noise of a known
-// strength.
+// Pictures of the database compared with an atlas. The test writes the pictures from an atlas of
+// noise: unchanged, mirrored, lit from the other side, and with noise of a known strength.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,7 +39,7 @@ static double uniform(uint32_t a, uint32_t b)
     return (double)rg_uniform(rg_random(11, a, b, 1).x);
 }
 
-// What a cell of the atlas shows, 0 to 1: noise of its own.
+// A texel of the atlas, 0 to 1: each cell has its own noise.
 static double texel_of(int k, int view, int cell, int i)
 {
     return uniform((uint32_t)(k + 10 * (view + 5 * cell)), (uint32_t)i);
@@ -68,7 +67,7 @@ static int make_atlas(void **state)
     atlas = rg_atlas_allocate(RG_ATLAS_SMALL);
     for (int k = 0; k < RG_ATLAS_OSCILLATIONS; k++)
         for (int view = 0; view < RG_ATLAS_VIEWS; view++)
-            for (int cell = 0; cell <= RG_ATLAS_CELLS; cell++) { // the last is of env
+            for (int cell = 0; cell <= RG_ATLAS_CELLS; cell++) { // the last cell is env
                 const bool env = cell == RG_ATLAS_CELLS;
                 for (int i = 0; i < WIDTH * height_of(view); i++)
                     texels[i] = (float)texel_of(k, view, cell, i);
@@ -109,10 +108,10 @@ static int partner(int k)
     return k == 2 ? 4 : k == 4 ? 2 : k == 6 ? 8 : k == 8 ? 6 : k;
 }
 
-// What is done to our picture before it is written.
+// Changes to the atlas' picture before it is written.
 struct change {
     bool mirrored, other_drop;
-    double noise; // share of noise of its own
+    double noise; // share of the picture that is replaced by other noise
 };
 
 static double changed(const struct change *c, int k, int view, int cell, int i)
@@ -242,7 +241,8 @@ static void noise_lowers_the_correlation(void **state)
     free(comparison.rows);
 }
 
-// Factors that go with ours by a power are as good as equal; chance in them shows.
+// Brightness correlates in logarithms: factors that are five times ours are as good as equal, and
+// random factors are not.
 static void brightness_is_compared(void **state)
 {
     (void)state;
@@ -290,7 +290,7 @@ static void the_widest_of_a_picture_is_taken(void **state)
     in_root(folder, "widths", 0);
     write_all(folder, &(struct change){.noise = 0});
     snprintf(path, sizeof(path), "%s/cv0_v%d_h%d_osc1.png", folder, 20 * LIGHT - 90, 20 * PHI + 10);
-    write_codes(path, 4, rg_atlas_row_height(0, LEVEL + 1), codes); // even: it would be flat
+    write_codes(path, 4, rg_atlas_row_height(0, LEVEL + 1), codes); // it would be flat
     struct rg_cave_comparison comparison = compared(folder);
     assert_int_equal(comparison.count, 30);
     for (int i = 0; i < 30; i++)

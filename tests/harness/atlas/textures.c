@@ -1,5 +1,5 @@
-// What atlas writes of cartoon's textures: the texels of the device's images, bit by bit, and their
-// looks.
+// The files that `atlas` writes of cartoon's textures: the texels of the device's images, bit by
+// bit, and how they look.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -64,7 +64,7 @@ static double display(double linear)
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
 }
 
-// An EXR keeps halves, in which 256 steps are 256 values.
+// An EXR keeps halves, which hold 256 steps as 256 values.
 static void expect_texels(const char *name, int level, const uint32_t *words)
 {
     char ending[32];

@@ -1,5 +1,4 @@
-// A command runs with what its line says, in values of each kind, or the line is refused in one
-// line that says why.
+// A command runs with the values of its line, of each kind, or one line refuses it and says why.
 #include <limits.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -68,7 +67,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_END},
 };
 
-// What the command was last run with, as text.
+// The values that the command last ran with, as text.
 static char seen[1024];
 
 static int see(const void *values, const struct rg_words *arguments)
@@ -168,7 +167,7 @@ static void arguments_stand_anywhere_and_the_last_value_counts(void **state)
                "512x512 0-0 -1--1 2 1 1 -1 0 1 y b 00");
 }
 
-// Whatever else there is on the line before it.
+// Help is printed whatever else stands on the line.
 static void asking_for_help_is_no_error(void **state)
 {
     (void)state;
@@ -227,7 +226,8 @@ static void what_is_wrong_is_refused_in_one_line(void **state)
                                     "--help` prints the usage");
 }
 
-// Included or not, and up to the next heading.
+// An option under such a heading belongs to its number of arguments, included or not, up to the
+// next heading.
 static void what_a_number_of_arguments_leaves_unused_is_refused(void **state)
 {
     (void)state;

@@ -29,7 +29,7 @@ static const struct rg_option *named(const struct rg_option *rows, int count, co
     return NULL;
 }
 
-// What a row excludes are other rows of the same command.
+// A row excludes only other rows of the same command.
 static void check_excluded(const struct rg_option *rows, int count, const struct rg_option *row)
 {
     char words[256], *rest = NULL;
@@ -109,8 +109,8 @@ static void defaults_are_what_a_user_could_write(void **state)
     assert_at_least(defaults, 10);
 }
 
-// Counts how many rows of other commands' tables have a name of this one's. What an option excludes
-// may differ, for it depends on which others a command has.
+// Counts the rows of earlier commands' tables that share this one's name. Excluded options may
+// differ, since they depend on which others a command has.
 static int compare_with_others(int command, const struct rg_option *row)
 {
     struct rg_option rows[RG_MAX_OPTION_ROWS];

@@ -1,4 +1,4 @@
-// Which exit status outcomes and errors become.
+// Which exit status each outcome and error becomes.
 #include <errno.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -82,7 +82,7 @@ static void only_users_make_bad_usage(void **state)
     rg_log_listen(NULL, NULL);
 }
 
-// Each outweighs those behind it, whichever comes first.
+// Each status outweighs those after it in the list, in either order of arguments.
 static void the_worse_of_two_is_kept(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// A file's name has the place of a number, which gets its digits.
+// A file's name has a placeholder, which the digits of a number replace.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-// How long something takes, from its first units.
+// How long a task takes is estimated from its first units.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -41,7 +41,7 @@ static void durations_have_two_digits(void **state)
 
 #define assert_about(ms, due) assert_true((ms) > (due)-1e-6 && (ms) < (due) + 1e-6)
 
-// 100 of 1000 units took 10 s, by those of which 60 came last.
+// 100 of 1000 units took 10 s, and the last 60 of them last_ms.
 static struct rg_progress after(double last_ms)
 {
     return (struct rg_progress){.total = 1000,
@@ -51,7 +51,7 @@ static struct rg_progress after(double last_ms)
                                 .marks = {{40, 500 + 10000 - last_ms}}};
 }
 
-// What is left follows from all units and from the last ones, once a tenth of it is behind.
+// The time left follows from all units and from the last ones, once a tenth of it has passed.
 static void what_is_left_follows_from_what_was_done(void **state)
 {
     (void)state;
@@ -59,26 +59,26 @@ static void what_is_left_follows_from_what_was_done(void **state)
     struct rg_progress p = after(6000);
     assert_about(rg_progress_left_ms(&p, now_ms), 90000);
     assert_about(rg_progress_unit_ms(&p, now_ms), 100);
-    p.total = 1001; // of which less than a tenth is behind
+    p.total = 1001; // less than a tenth is done
     assert_equals(rg_progress_left_ms(&p, now_ms), 0);
     p = after(6000);
-    p.first = (struct rg_progress_mark){20, 500 + 4000}; // which took half as long again
+    p.first = (struct rg_progress_mark){20, 500 + 4000}; // the other 80 took 75 ms each
     p.total = 800;
     p.marks[0] = (struct rg_progress_mark){40, 500 + 5500};
     assert_about(rg_progress_left_ms(&p, now_ms), 700 * 75);
     p = after(6000);
-    p.marks[0].done = 0; // too few are done to be told apart
+    p.marks[0].done = 0; // no mark yet: the last units cannot be told from all
     assert_equals(rg_progress_left_ms(&p, now_ms), 0);
     assert_equals(rg_progress_unit_ms(&(struct rg_progress){.total = 9}, now_ms), 0);
 }
 
-// Where the last units took more than twice as long as all, or less than half, nothing follows: as
-// drivers compile in the first ones, or as later ones are heavier.
+// Nothing is estimated if the last units took more than twice or less than half as long as all.
+// Drivers may compile in the first ones, or later ones may be heavier.
 static void units_that_are_not_alike_tell_nothing(void **state)
 {
     (void)state;
     const double now_ms = 500 + 10000;
-    struct rg_progress p = after(3001); // half as long; 45 s are left, or 90
+    struct rg_progress p = after(3001); // half as long as the average; 45 s are left, or 90 s
     assert_above(rg_progress_left_ms(&p, now_ms), 0);
     p = after(2999);
     assert_equals(rg_progress_left_ms(&p, now_ms), 0);
@@ -108,7 +108,7 @@ static void run(const char *long_s, int units)
     rg_progress_end(&p);
 }
 
-// A word with every tenth of the time at most, where the first says how long all takes.
+// A line comes at most every tenth of the time, and the first says how long all takes.
 static void what_is_long_is_told(void **state)
 {
     (void)state;
@@ -121,7 +121,7 @@ static void what_is_long_is_told(void **state)
     assert_true(!lines || strstr(told, " in all; now: flow") || strstr(told, " left; now: flow"));
     run("1e9", 90);
     assert_int_equal(lines, 0);
-    run("0.001", 5); // not a tenth
+    run("0.001", 5); // less than a tenth
     assert_int_equal(lines, 0);
     rg_progress_told();
     run("0.001", 90);

@@ -1,6 +1,6 @@
-// What the harness adds to a frame: the technique called in a bare loop, against a session on the
-// same instance, and one in a worker. They are taken in turn, so that the machine's drift meets
-// all. It is no test, for nothing is asserted on time (docs/performance.md).
+// Measures what the harness adds to a frame: a bare loop over the technique, a session on the same
+// instance, and a session in a worker. They run in turn, so that the machine's drift affects all
+// three. It is no test: nothing is asserted on time (docs/performance.md).
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +18,8 @@ enum { ROUNDS = 600 };
 enum way { BARE, HERE, WORKER, WAYS };
 
 struct timed {
-    struct rg_session *sessions[WAYS];                     // of BARE that of HERE
-    double told_ms[WAYS][ROUNDS], around_ms[WAYS][ROUNDS]; // a frame, as measured and by our clock
+    struct rg_session *sessions[WAYS];                     // BARE uses HERE's session
+    double told_ms[WAYS][ROUNDS], around_ms[WAYS][ROUNDS]; // a frame, as reported and by our clock
 };
 
 static bool run_bare(struct rg_instance *bare, int frames)
@@ -50,7 +50,7 @@ static double percent_more(const double *more, const double *than)
     return 100 * (rg_median(ratios, ROUNDS).median - 1);
 }
 
-// Each way comes behind each other one equally often: what runs behind itself finds its caches
+// Each way follows each other one equally often: a way that follows itself would find its caches
 // warm.
 static bool compare(struct timed *timed, int frames)
 {
@@ -88,7 +88,7 @@ int main(int argc, char **argv)
     if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
         return rg_serving(argv[2]);
     const char *name = argc > 1 ? argv[1] : "cpu";
-    if (!getenv("GOMP_SPINCOUNT")) { // threads that spin would hold up those of the other process
+    if (!getenv("GOMP_SPINCOUNT")) { // spinning threads would slow the other process
         setenv("GOMP_SPINCOUNT", "0", 1);
         return execv("/proc/self/exe", argv);
     }

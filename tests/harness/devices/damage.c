@@ -1,5 +1,5 @@
-// What a worker sends over which a driver has written is refused in one line, and what is taken can
-// be used.
+// A driver may have overwritten a worker's replies: the harness refuses a damaged reply in one
+// line, and can use whatever it takes.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,7 +22,7 @@
 
 // --- in the worker ---
 
-// What is wrong with what it sends, which the tests say by a variable.
+// The damage to the worker's replies; a test chooses it by RG_TEST_DAMAGE.
 enum damage {
     NOTHING,
     ENDLESS_TEXT,
@@ -85,7 +85,7 @@ static bool open(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
-// Tells more than anybody reads, and fails.
+// Logs more lines than the harness takes, and fails.
 static bool chatter(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
@@ -102,7 +102,7 @@ static bool shut(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
-// Fails and does not say why.
+// Fails without a reason.
 static bool fall_silent(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
@@ -118,7 +118,7 @@ static bool nod(struct rg_message *request, struct rg_message *reply)
 }
 
 enum { WIDTH = 3, HEIGHT = 5, TEXELS = WIDTH * HEIGHT + 1 * 2 };
-enum { ONE_LEVEL_MORE = TEXELS + RG_MAX_LEVELS - 1 }; // than an image has at most
+enum { ONE_LEVEL_MORE = TEXELS + RG_MAX_LEVELS - 1 }; // than an image can have
 
 // An image of halves with two levels.
 static bool contents(struct rg_message *request, struct rg_message *reply)
@@ -143,7 +143,7 @@ static bool contents(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
-// As rg_digests, whose rows have less room for a stage.
+// Like rg_digests, but with one byte more for a stage's name.
 struct long_digest {
     int64_t frame;
     int stages_run;
@@ -214,7 +214,7 @@ static bool count(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
-// So often it goes well.
+// Ends the worker after RG_TEST_TOLD calls.
 static bool tell(struct rg_message *request, struct rg_message *reply)
 {
     static int calls;
@@ -298,7 +298,7 @@ static void a_device_that_cannot_be_is_not_opened(void **state)
     }
 }
 
-// Opens the device as long as it does no harm; the result is that of the taking.
+// Opens the device, which this damage does not prevent; returns whether the contents were taken.
 static bool take_contents(enum damage damage)
 {
     const struct rg_technique *technique = rg_technique_find("raster");
@@ -313,7 +313,7 @@ static bool take_contents(enum damage damage)
     if (ok) {
         const uint16_t behind = 0;
         assert_int_equal(contents.size, 2 * TEXELS);
-        // Whole words of it are compared.
+        // Comparisons read whole words, so the bytes after the contents must be 0.
         assert_memory_equal((char *)contents.bytes + contents.size, &behind, sizeof(behind));
     }
     rg_contents_free(&contents);
@@ -367,7 +367,7 @@ static void what_closed_badly_has_not_closed(void **state)
         assert_int_equal(rg_device_close(device), !unclean);
         unsetenv("RG_TEST_UNCLEAN");
     }
-    assert_int_equal(lines, 0); // it was told before
+    assert_int_equal(lines, 0); // the cause was logged before
 }
 
 static void lines_are_bounded_and_the_error_is_kept(void **state)
@@ -382,7 +382,7 @@ static void lines_are_bounded_and_the_error_is_kept(void **state)
     assert_true(rg_device_close(device));
 }
 
-// A call that fails says why in its reply, whatever an earlier one said.
+// A failing call gives its reason in its reply, even after an earlier call gave one.
 static void a_call_that_fails_says_why(void **state)
 {
     (void)state;
@@ -400,14 +400,14 @@ static void a_call_that_fails_says_why(void **state)
     }
 }
 
-// A worker that ends while it tells of a session leaves no record that is well and counts nothing.
+// If a worker ends while it reports a session, the record fails and counts nothing.
 static void what_is_not_told_ends_a_record(void **state)
 {
     const struct rg_technique *technique = rg_technique_find("raster");
     void *settings = rg_settings_create(technique);
     (void)state;
     set_damage(NOTHING);
-    for (int told = 0; told < 4; told++) { // as it is opened, before and behind what is counted
+    for (int told = 0; told < 4; told++) { // 0: when opened; 1, 2: before and after the count
         struct rg_record record = {0};
         setenv("RG_TEST_TOLD", (const char *const[]){"0", "1", "2", "3"}[told], 1);
         struct rg_device *device = rg_devices_open_one("toy");

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE // MAP_ANONYMOUS, usleep
-// What a worker does to the harness: return a result, or a line that says how it ended.
+// A worker gives the harness a result, or a line that says how it ended.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -84,7 +84,7 @@ static bool swell(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
-// Returns once what was printed is gone, and ends then with a last line.
+// Waits until the printed text has been truncated, then ends with a last line.
 static bool print_much(struct rg_message *request, struct rg_message *reply)
 {
     static char much[2 << 20];
@@ -100,7 +100,7 @@ static bool print_much(struct rg_message *request, struct rg_message *reply)
     _exit(1);
 }
 
-// Its own process holds the channel's descriptors when it ends.
+// A child process still holds the channel's descriptors when the worker ends.
 static bool leave_a_child(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
@@ -166,7 +166,7 @@ static int finish(void **state)
     return 0;
 }
 
-// Asks with a number; the outcome, and what comes back of a number.
+// Sends a number; returns the outcome, and the number of the reply in `result`.
 static enum rg_outcome ask(struct rg_worker *worker, enum rg_call call, int64_t number,
                            int64_t *result)
 {
@@ -302,7 +302,8 @@ static void a_worker_that_is_killed_while_it_waits_crashed(void **state)
     assert_int_equal(result, 8);
 }
 
-// Then the kernel keeps no status of a process that has ended, and there is nothing to wait for.
+// With SIGCHLD ignored the kernel keeps no status of an ended process, so there is nothing to wait
+// for.
 static void an_end_is_seen_where_sigchld_is_ignored(void **state)
 {
     int64_t result = 0;
@@ -357,7 +358,7 @@ static void another_build_is_asked_where_its_messages_are_the_same(void **state)
     assert_int_equal(ask_program("these messages", "RG_PROGRAM=/proc/self/exe\0", &result), RG_OK);
     assert_int_equal(result, 42);
     assert_string_equal(logged, "");
-    // This program itself is not asked.
+    // Without RG_PROGRAM the worker is this very program, whose messages are not checked.
     assert_int_equal(ask_program("other messages", NULL, &result), RG_OK);
 }
 
@@ -378,7 +379,7 @@ static void another_build_with_other_messages_is_turned_away(void **state)
     assert_non_null(strstr(logged, "RG_PROGRAM=/none/raingauge cannot be started: No such file"));
 }
 
-// A harness that is killed takes its workers along.
+// A worker ends when the harness is killed.
 static void no_worker_outlives_the_harness(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-// What a worker found out about a device, over which a driver has written: counts that exceed what
-// is counted, numbers that are none, bytes that are no bool. Each is refused in one line, and what
-// was found before stays.
+// A driver may have overwritten a worker's findings about a device: counts above their bound,
+// numbers that are NaN or infinite, bytes that are no bool. The harness refuses each in one line,
+// and keeps earlier findings.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,12 +22,12 @@
 #include "harness/measure/serving/messages.h"
 #include "tests/tools/expect.h"
 
-// What is written over a struct that is put into a reply.
+// The bytes written over a struct before it is put into a reply.
 struct damage {
     enum rg_call call;
     size_t at, size; // bytes
     int64_t integer;
-    double number; // where the integer is NUMBER
+    double number; // used if the integer is NUMBER
 };
 
 #define NUMBER         INT64_MIN
@@ -51,7 +51,7 @@ struct damage {
         RG_CALL_##name, WORD(S, field), NUMBER, value                                              \
     }
 
-// All are refused.
+// The harness refuses each, except the last, which damages nothing.
 static const struct damage damages[] = {
     OF_INFO(RG_CALL_OPEN, software, 2),
     OF_INFO(RG_CALL_OPEN, limits.has_clock, 255),
@@ -65,7 +65,7 @@ static const struct damage damages[] = {
     OF_OP(0, compared, RG_PROBE_INPUTS - 1),
     OF_OP(3, different, RG_PROBE_INPUTS + 1),
     OF_OP(3, different, -1),
-    OF_OP(RG_PROBE_COUNT - 1, largest_ulps, 7), // apart, and none differs
+    OF_OP(RG_PROBE_COUNT - 1, largest_ulps, 7), // an error in ulps without a differing input
     OF(DRAWING, struct rg_drawing, count, RG_DRAWING_FORMATS + 1),
     OF(DRAWING, struct rg_drawing, count, -1),
     OF(DRAWING, struct rg_drawing, formats[0].format, RG_FORMAT_NONE),
@@ -94,7 +94,7 @@ static const struct damage damages[] = {
     OF(TEXTURE, struct rg_told_texture, first_level, -1),
     OF(TEXTURE, struct rg_told_texture, desc.format, RG_FORMAT_COUNT),
     OF(TEXTURE, struct rg_told_texture, desc.levels, 0),
-    {RG_CALL_HELLO, 0, 0, 0, 0}, // nothing: the last
+    {RG_CALL_HELLO, 0, 0, 0, 0}, // the last damages nothing
 };
 enum { DAMAGES = sizeof(damages) / sizeof(damages[0]), NO_DAMAGE = DAMAGES - 1 };
 
@@ -125,7 +125,7 @@ static bool probe(struct rg_message *request, struct rg_message *reply)
     rg_probe_name(results);
     for (int i = 0; i < RG_PROBE_COUNT; i++)
         results[i].compared = RG_PROBE_INPUTS;
-    results[1].different = 2; // zeros of unlike signs, which are not apart
+    results[1].different = 2; // zeros of unlike signs, which are 0 ulps apart
     results[2].different = RG_PROBE_INPUTS;
     results[2].largest_ulps = UINT32_MAX;
     hurt(results, RG_CALL_PROBE);
@@ -149,7 +149,7 @@ static bool audit(struct rg_message *request, struct rg_message *reply)
                                    .has_timer = true,
                                    .api_ms = 2,
                                    .ratio = 2,
-                                   .trusted = true, // which a ratio of 2 is not
+                                   .trusted = true, // a lie: a ratio of 2 is not trusted
                                    .sync_us = 0,
                                    .dispatch_us = 0.5,
                                    .round_trip_us = 7};

@@ -1,10 +1,10 @@
-// A worker that lies: any byte of any reply may be another one, numbers may be ones that no message
-// has, replies are cut or go on, and notices of them say what is not so. Whatever it says, nothing
-// crashes, reads what is not there, or waits for ever, and what is refused names the device.
+// A worker that lies. Any byte of a reply may change, numbers become ones that no message has,
+// replies are cut or lengthened, and announced sizes are wrong. The harness must not crash, read
+// beyond a reply, or wait for ever. It must name the device when it refuses a reply.
 //
-// What it answers to each call is kept when it is asked first, and changed where the harness
-// receives it: so a million of them take minutes. Now and then it is asked again, and lies in the
-// size that it sends before a message. `--runs N --seed S` says how many calls.
+// The harness keeps the first reply to each call and tampers with it on arrival, so that a
+// million calls take minutes. Now and then it asks the worker again, which lies about the size that
+// it sends before a message. `--runs N --seed S` sets the number of calls.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,7 +48,7 @@ static void tamper(struct rg_message *m)
     const uint32_t kind = chance(8), at = size ? chance(size) : 0;
     if (!size)
         return;
-    if (kind < 3) // in its first bytes as well, for large blocks lie behind what is said of them
+    if (kind < 3) // kind 0 stays in the first bytes, since large blocks follow their description
         for (uint32_t i = 0; i <= chance(4); i++)
             m->bytes[chance(kind ? size : size < 256 ? size : 256)] = (char)chance(256);
     else if (kind < 5 && size >= 8)
@@ -71,7 +71,7 @@ ssize_t __wrap_send(int socket, const void *bytes, size_t size, int flags);
 
 ssize_t __wrap_send(int socket, const void *bytes, size_t size, int flags)
 {
-    static int sent; // the first ones open its device and its session
+    static int sent; // the first messages open its device and its session
     char told[sizeof(int64_t)];
     if (!is_worker || size != sizeof(told) || ++sent < 40 || chance(8))
         return __real_send(socket, bytes, size, flags);
@@ -83,10 +83,10 @@ ssize_t __wrap_send(int socket, const void *bytes, size_t size, int flags)
 
 // --- in the harness: replies ---
 
-static struct rg_message known[RG_CALL_COUNT_OF_CALLS]; // sound ones, by call
-static bool is_sound;                                   // all are until each is known
+static struct rg_message known[RG_CALL_COUNT_OF_CALLS]; // sound replies, by call
+static bool is_sound; // while each call's reply is still being learned
 static enum rg_call asked;
-static bool is_sent; // to the worker; else what is known is its answer
+static bool is_sent; // to the worker; otherwise the known reply answers
 
 static void copy(struct rg_message *to, const char *bytes, int64_t size)
 {
@@ -94,7 +94,8 @@ static void copy(struct rg_message *to, const char *bytes, int64_t size)
     rg_put(to, bytes, size);
 }
 
-// A reply with a line: a success, no error, and the line come before what it gives.
+// Begins a successful reply: the success, the fault, the outcome and one line come before its
+// result.
 static void begin_reply(struct rg_message *reply)
 {
     rg_message_free(reply);
@@ -115,14 +116,14 @@ static void keep_sound(const struct rg_message *reply)
     rg_put(&known[asked], reply->bytes + sizeof(head), reply->size - (int64_t)sizeof(head));
 }
 
-// What would take its time is made up.
+// Makes up the replies that would take long.
 static void make_up(void)
 {
     struct rg_probe_result results[RG_PROBE_COUNT] = {{.compared = 0}};
     for (int i = 0; i < RG_PROBE_COUNT; i++)
         results[i].compared = RG_PROBE_INPUTS;
-    begin_reply(&known[RG_CALL_SESSION_CLOSE]); // its session is opened again
-    begin_reply(&known[RG_CALL_KERNEL_CODE]);   // builds without drivers have none
+    begin_reply(&known[RG_CALL_SESSION_CLOSE]); // a new session follows
+    begin_reply(&known[RG_CALL_KERNEL_CODE]);   // builds without drivers have no code
     rg_put_fields(&known[RG_CALL_KERNEL_CODE], rg_told_bytes_fields,
                   &(struct rg_told_bytes){"code", 4, {.name = NULL}});
     begin_reply(&known[RG_CALL_PROBE]);
@@ -147,7 +148,7 @@ bool __wrap_rg_channel_send(struct rg_channel *channel, const struct rg_message 
         return __real_rg_channel_send(channel, head, body);
     memcpy(&call, head->bytes, sizeof(call));
     asked = (enum rg_call)call;
-    // A dispatch that came from a lie would run with any parameters.
+    // The worker gets no second dispatch: one that came from a lie would run with any parameters.
     is_sent = !known[call].size ||
               (call != RG_CALL_DISPATCH && call != RG_CALL_SESSION_CLOSE && !chance(1000));
     return !is_sent || __real_rg_channel_send(channel, head, body);
@@ -179,7 +180,7 @@ enum rg_arrival __wrap_rg_channel_receive(struct rg_channel *channel, struct rg_
 // --- in the harness ---
 
 static int lines;
-static int damaged, unnamed; // what was said of messages, and without their device
+static int damaged, unnamed; // lines about damaged messages, and those without the device
 
 static void hear(enum rg_log_level level, const char *line, void *user)
 {
@@ -193,7 +194,7 @@ struct asked {
     struct rg_device *device;
     struct rg_session *session;
     struct rg_digest_run run;
-    struct rg_dispatches dispatches; // that were taken last
+    struct rg_dispatches dispatches; // those of the last reply
 };
 
 static void tell_stage(const char *kernel, double ms, void *user)
@@ -309,7 +310,8 @@ static void close_all(struct asked *a)
     a->device = NULL;
 }
 
-// Opens what is not open; a worker that has come to its end is left. Each has lies of its own.
+// Opens the device and the session if they are not open; leaves a worker that has ended. Each
+// worker has its own lies.
 static bool open_all(struct asked *a)
 {
     char seed[32];
@@ -351,12 +353,12 @@ static int try_all(uint64_t runs)
     bool is_silent = false, is_well = true;
     make_up();
     is_sound = true;
-    for (uint32_t which = 0; which < 64; which++) // the session's are asked twice
+    for (uint32_t which = 0; which < 64; which++) // asks for everything at least twice
         is_well = is_well && open_all(&a) && ask(&a, which);
     if (!is_well)
         printf("a sound worker fails: %s\n", rg_last_error());
     is_sound = false;
-    rg_workers.timeout_s = 1; // what it says is to come may never come
+    rg_workers.timeout_s = 1; // an announced message may never come
     while (told < runs && !is_silent) {
         if (told % 1000 == 0)
             alarm(300);
@@ -374,7 +376,7 @@ static int try_all(uint64_t runs)
     rg_dispatches_free(&a.dispatches);
     free(settings);
     free(defaults);
-    // What it logs itself may come as another's error, which names no device.
+    // The worker's own log lines may be reported as another error, which names no device.
     return is_silent || !is_well || !well || well == told || unnamed * 20 > damaged;
 }
 

@@ -1,4 +1,4 @@
-// Messages between processes: what was put comes out, and damage is found.
+// Messages between processes: values come out as they were put in, and damage is found.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,7 +60,7 @@ static void values_come_out_in_order(void **state)
     rg_message_free(&message);
 }
 
-// Whatever its length, taking a message that was cut fails once, and gives nothing more.
+// Taking from a cut message of any length fails once, and gives nothing more.
 static void a_message_that_is_cut_fails_once(void **state)
 {
     (void)state;
@@ -98,7 +98,7 @@ static void sizes_that_lie_are_not_believed(void **state)
         rg_put(&message, "12345678", 8);
         size = 1;
         assert_null(rg_take_block(&message, &size));
-        assert_int_equal(size, 0); // which no taker counts rows of
+        assert_int_equal(size, 0); // so that no taker counts rows in it
         assert_true(message.failed);
         rg_message_free(&message);
     }
@@ -141,11 +141,11 @@ static void names_stay_when_their_message_has_gone(void **state)
     }
     assert_string_equal(names[0], "texels");
     assert_string_equal(names[1], "drops");
-    assert_ptr_equal(names[0], names[2]); // and take memory once
+    assert_ptr_equal(names[0], names[2]); // equal names share memory
     assert_ptr_equal(names[1], names[3]);
 }
 
-// What a liar says for ever: names are kept for as long as the process lives.
+// Names are kept as long as the process lives, so a liar may not send new ones for ever.
 static void names_are_no_more_than_a_program_has(void **state)
 {
     char name[512] = "";
@@ -169,8 +169,8 @@ static void names_are_no_more_than_a_program_has(void **state)
     rg_message_free(&message);
 }
 
-// What the other end says of a message is not believed beyond what it may hold, and what never
-// comes is not waited for.
+// The receiver bounds the size that a sender announces, and stops waiting for a message that never
+// comes.
 static void a_message_is_bounded(void **state)
 {
     static const struct {

@@ -20,7 +20,7 @@ static void keep(enum rg_log_level level, const char *line, void *user)
     snprintf(logged, sizeof(logged), "%s", line);
 }
 
-// The variables of a name with a bar behind each.
+// The variables of a name, each with a bar after it.
 static const char *variables(const struct rg_device_name *name)
 {
     static char text[2 * RG_DEVICE_NAME_SIZE];
@@ -88,7 +88,7 @@ static void a_short_name_stands_for_a_device_from_then_on(void **state)
     assert_true(rg_device_name_read(&rest, &name));
     assert_string_equal(name.name, "new");
     assert_string_equal(name.full, "vulkan@DRIVER=/opt/mesa;A=b=c");
-    rest = "new=vulkan@DRIVER=/opt/mesa;A=b=c"; // the same again
+    rest = "new=vulkan@DRIVER=/opt/mesa;A=b=c"; // the same name for the same device again
     assert_true(rg_device_name_read(&rest, &name));
     char with[RG_DEVICE_NAME_SIZE];
     assert_true(rg_device_name_with("new", "B", "1,2", with));

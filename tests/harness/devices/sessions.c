@@ -1,5 +1,4 @@
-// A session in a worker gives what one in this process gives, byte for byte, and ends as a worker
-// does.
+// A session in a worker gives the same bytes as one in this process, and ends with its worker.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +31,7 @@ static void keep(enum rg_log_level level, const char *line, void *user)
     snprintf(logged + used, sizeof(logged) - used, "%s\n", line);
 }
 
-// The same device twice, and a subject.
+// A device here and the same one in a worker, and a subject.
 struct pair {
     struct rg_device *devices[2];
     struct rg_session *sessions[2];
@@ -136,7 +135,7 @@ static void states_are_the_same(void **state)
         assert_string_equal(layouts[LOCAL].name, layouts[REMOTE].name);
         assert_int_equal(layouts[LOCAL].row, layouts[REMOTE].row);
         assert_int_equal(layouts[LOCAL].margin, layouts[REMOTE].margin);
-        assert_string_equal(layouts[LOCAL].words, s == 0 ? "f" : "u"); // water, and the others
+        assert_string_equal(layouts[LOCAL].words, s == 0 ? "f" : "u"); // the water is floats
         assert_string_equal(layouts[REMOTE].words, layouts[LOCAL].words);
         free(words[LOCAL]);
         free(words[REMOTE]);
@@ -202,7 +201,7 @@ static void stages_are_told_in_the_same_order(void **state)
     close_pair(&pair);
 }
 
-// Whatever the laws say, they say the same of the same state.
+// Laws say the same of the same state.
 static void laws_and_textures_are_the_same(void **state)
 {
     (void)state;
@@ -260,7 +259,7 @@ static void digests_are_the_same(void **state)
     close_pair(&pair);
 }
 
-// Files' names, choices and numbers reach the worker as they are.
+// File names, choices and numbers reach the worker unchanged.
 static void settings_arrive_as_they_are(void **state)
 {
     (void)state;
@@ -296,7 +295,7 @@ static void what_the_worker_refuses_is_refused_here(void **state)
     close_pair(&pair);
 }
 
-// A worker that ends takes its sessions along; the device stands again for the next.
+// A worker that ends takes its sessions along; the device works again for the next session.
 static void a_session_ends_with_its_worker(void **state)
 {
     (void)state;
@@ -313,12 +312,12 @@ static void a_session_ends_with_its_worker(void **state)
     assert_int_equal(rg_failure_take().outcome, RG_CRASH);
     assert_false(rg_session_tell(session, &account));
     assert_int_equal(account.frame, 0);
-    assert_int_equal(rg_worker_life(worker), 1); // no call of a session that is gone starts another
+    assert_int_equal(rg_worker_life(worker), 1); // a call of a lost session starts no other worker
 
     next = rg_session_run(pair.devices[REMOTE], &pair.subject, 2);
     assert_non_null(next);
     assert_int_equal(rg_worker_life(worker), 2);
-    assert_false(rg_session_step(session)); // it has gone, though another has its number
+    assert_false(rg_session_step(session)); // it stays lost, though a new session has its number
     assert_true(rg_session_step(next));
     assert_true(rg_session_tell(next, &account));
     assert_int_equal(account.frame, 3);
@@ -346,8 +345,8 @@ static void devices_have_an_environment(void **state)
     assert_null(rg_devices_open_one("cpu@RG_CPU_LEVEL=v99"));
 }
 
-// What one has taken the other cannot, until it is given back or its process has ended. It runs
-// last: nothing takes back a choice of how much there is.
+// A worker cannot take memory that another holds, until it is given back or that process has ended.
+// It runs last, since an allowed size cannot be taken back.
 static void workers_share_what_the_user_allows(void **state)
 {
     (void)state;
@@ -369,7 +368,7 @@ static void workers_share_what_the_user_allows(void **state)
     assert_null(rg_session_open(other, &pair.subject));
     assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT);
     assert_non_null(strstr(logged, " of --memory are left"));
-    assert_null(rg_session_open(pair.devices[LOCAL], &pair.subject)); // nor can this process
+    assert_null(rg_session_open(pair.devices[LOCAL], &pair.subject)); // this process cannot either
 
     kill(rg_worker_process(rg_remote_worker(pair.devices[REMOTE])), SIGKILL);
     assert_false(rg_session_step(pair.sessions[REMOTE]));

@@ -1,5 +1,5 @@
-// Subjects that go from one process to another, which may be another build: every parameter comes
-// out as it was put, and what a build does not know it may only leave alone where that is as usual.
+// Subjects go from one process to another, which may be another build. Every parameter comes out as
+// it was put in. A build may ignore a parameter that it does not know only at its usual value.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -30,7 +30,7 @@ static int begin(void **state)
     return 0;
 }
 
-// Another value than the usual one; of a number with a fraction one that no short text holds.
+// Sets another value than the usual one; a fraction gets more digits than a short text holds.
 static void change(const struct rg_param *param, void *settings)
 {
     char *at = (char *)settings + param->offset;

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Holds the gate against what it promises, with real processes: a build that is the same as itself must pass, and one that does
-5 % more must be found. Another process is busy on one of the cores all the while.
+"""Tests the gate with real processes: identical builds must pass, and a planted slow-down of 5 % must be caught. Another process
+keeps one core busy all the while.
 
 selftest.py BUILD [--device D,...] [--same N] [--planted N] [--extra PERCENT] [--idle] [--keep DIR] [--traces FILE]
 
-Runs `raingauge gate D D` until it has made --same verdicts (300), of all built-in cells in turn, over the devices that are
-named. By default these have one thread each, for with more a busy core keeps every frame waiting (docs/ci.md). Then it plants
-real work beside each frame, as much as takes --extra (5) percent of a frame as it was found, and runs the gate on what does it
-(BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts; where frames have changed since, it is sized anew.
---idle leaves the cores alone. --keep writes what each run found into a folder, as the gate's JSON and its launches: with the
-same build and arguments what is there is not made again, so that what was interrupted goes on. --traces writes all launches,
-for tests/harness/judge/traces.c to decide on again. Prints both directions, the share that was left open, seconds a cell and the power at 2,
-3 and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that was planted was not
-found.
+Runs `raingauge gate D D` until it has --same verdicts (300), over all built-in cells in turn, on the named devices. By default a
+device has one thread, since with more a busy core keeps every frame waiting (docs/ci.md). Then it plants real work beside each
+frame, --extra (5) percent of the frame's measured time, and runs the gate on that program (BUILD/tests/harness/gate/slower) until
+it has --planted (59) verdicts. If frames have changed since, it sizes the work anew. --idle leaves the cores alone. --keep keeps
+each run's findings in a folder, as the gate's JSON and its launches, so that an interrupted test goes on with the same build and
+arguments. --traces writes all launches, for tests/harness/judge/traces.c to decide on again.
+
+Prints both directions, the share left open, seconds a cell and the power at 2, 3 and 5 %. The exit status is 1 if more than one
+of 300 identical pairs was told apart, or a planted change was missed.
 """
 import argparse
 import csv
@@ -31,7 +31,7 @@ MOST_WRONG_SHARE = 1 / 300
 # The planted extra work is a share of frames timed earlier. MOST_OFF: largest relative change of frames since then;
 # SIZINGS: how often the work is sized anew.
 MOST_OFF, SIZINGS = 0.1, 3
-# The process ends when its parent, the self-test, has ended in whatever way.
+# The process ends when its parent, the self-test, has ended for any reason.
 BUSY = "import os\nwhose = os.getppid()\nwhile os.getppid() == whose: pass"
 
 
@@ -49,7 +49,7 @@ def options():
 
 
 class Kept:
-    """The folder of what runs of a build found, by this very script with the same arguments. What is there is not made again."""
+    """A folder of earlier runs' findings, by this very script with the same build and arguments. Runs found there are not repeated."""
 
     def __init__(self, folder, programs, asked):
         whose = {name: value for name, value in vars(asked).items() if name not in ("build", "keep", "traces")}
@@ -86,7 +86,7 @@ class Gates:
         return [line for line in source.read_text().splitlines() if line.strip() and not line.startswith("#")]
 
     def run(self, a, b, cells=None):
-        """The cases of one gate, by the cells' names."""
+        """The cases of one gate, by their cells' names."""
         self.runs += 1
         run = "%03d" % self.runs
         report = json.loads(self.kept.text(run + "/report.json", lambda: self.gate(a, b, cells, self.kept.folder / run)))
@@ -95,7 +95,7 @@ class Gates:
         return {case["name"].split(".", 1)[0]: case for case in report["gated"]}
 
     def gate(self, a, b, cells, folder):
-        """The report of a gate, which goes on from the launches in its folder where it was interrupted."""
+        """The report of a gate, which goes on from the launches in its folder."""
         command = [self.raingauge, "gate", a, b, "--json", "-o", str(folder)]
         if cells:
             path = folder / "cells.txt"
@@ -116,7 +116,7 @@ class Gates:
             print(case["name"].split(".", 1)[0], case["ending"], *logs, file=self.traces)
 
     def loop_ns(self):
-        """What one loop of the extra work takes, of processor time."""
+        """Processor time of one loop of the extra work, in ns."""
         return float(self.kept.text("loop_ns", lambda: repr(self.measured_loop_ns())))
 
     def measured_loop_ns(self):
@@ -169,7 +169,7 @@ def power(case, change):
 
 
 def plan(devices, count, cells):
-    """How many runs of all cells each device gets: half of the verdicts are the first device's."""
+    """Runs of all cells for each device: half of the verdicts are the first device's."""
     runs = -(-count // cells)
     others = max(1, runs // (2 * len(devices) - 2)) if len(devices) > 1 else 0
     return {device: runs - others * (len(devices) - 1) if i == 0 else others for i, device in enumerate(devices)}
@@ -191,15 +191,15 @@ def slower(gates, device, loops):
 
 
 def loop_ns(gates, device, line, frame):
-    """What one loop of the extra work takes beside frames, by a gate on twice the work."""
+    """Time of one loop of the extra work beside frames, in ns, by a gate on twice the work."""
     loops = round(frame * 1e6 / gates.loop_ns())
     case = gates.run(device, slower(gates, device, loops), [line])[line.split()[0]]
     return case["baseline_ms"] * 1e6 * (case["ratio"]["value"] - 1) / loops
 
 
 def planted_case(gates, device, line, frame, extra, a_loop_ns):
-    """A gate on so many percent more of a frame. Where the machine has become slower or faster since frames were timed, so that this
-    was less or more of the frames of this very gate, it is sized by these and tried again, whatever the verdict."""
+    """A gate on a frame that takes `extra` percent longer. If the machine's speed has changed since frames were timed, the extra
+    work is sized by this gate's frames and the gate runs again, whatever its verdict."""
     for _ in range(SIZINGS):
         loops = round(extra / 100 * frame * 1e6 / a_loop_ns)
         cases = gates.run(device, slower(gates, device, loops), [line])

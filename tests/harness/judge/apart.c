@@ -1,5 +1,5 @@
-// Verdicts on times that were taken apart, now and earlier: closed cases, noise whose truth is
-// known, and the course that leads to them.
+// Verdicts against a baseline: closed cases, noise with a known truth, and the course that leads to
+// them.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,11 +20,11 @@
 
 enum noise { NORMAL, SKEWED, TWO_STATES, LINKED, NOISES };
 
-// A launch's logarithm, with the spread of launches of one program as it was measured, 4.5 %.
+// A launch's logarithm, with the measured spread between launches of one program, 4.5 %.
 static double noise_of(enum noise noise, double *last)
 {
     switch (noise) {
-    case SKEWED: // never much below, and far above now and then
+    case SKEWED: // never far below, now and then far above
         return -0.04 * log(uniform());
     case TWO_STATES: // caches lie well or badly
         return 0.01 * normal() + 0.07 * (uniform() < 0.4);
@@ -47,7 +47,8 @@ static void fill(enum noise noise, double log_ms, double *logs, int count)
 
 // --- the shift and its interval ---
 
-// All ways to part m + n ranks are alike: so many of them have the pairs of U below k.
+// All ways to divide m + n ranks are equally probable: the share of those with fewer than k pairs
+// of U.
 static double share_below(int m, int n, int k)
 {
     int below = 0, all = 0;
@@ -65,12 +66,12 @@ static double share_below(int m, int n, int k)
     return (double)below / all;
 }
 
-// The ends of the interval are the differences whose ranks that counting gives, for each size of
-// samples and each tail.
+// The ends of the interval are the differences at the ranks that counting gives, for each pair of
+// sizes and each tail.
 static void test_exact(void **state)
 {
     (void)state;
-    static const double tails[] = {0.0011, 0.0103, 0.0257, 0.1013, 0.2017}; // no share is one
+    static const double tails[] = {0.0011, 0.0103, 0.0257, 0.1013, 0.2017}; // no share is equal
     for (int m = 1; m <= 6; m++)
         for (int n = 1; n <= 6; n++)
             for (int t = 0; t < 5; t++) {
@@ -78,7 +79,7 @@ static void test_exact(void **state)
                 for (int i = 0; i < m; i++)
                     a[i] = 100 * ((i * 7) % m);
                 for (int j = 0; j < n; j++)
-                    b[j] = 1 + (j * 7) % n; // so that the differences are all another
+                    b[j] = 1 + (j * 7) % n; // so that all differences differ
                 int k = 0;
                 while (k < m * n / 2 && share_below(m, n, k + 1) <= tails[t])
                     k++;
@@ -97,13 +98,13 @@ static void test_exact(void **state)
             }
 }
 
-// The median of the differences of all pairs; adding to b adds to it, and exchanging turns its
-// sign.
+// The estimate is the median of the differences of all pairs. Adding to b adds to it, and swapping
+// a and b changes its sign.
 static void test_estimate(void **state)
 {
     (void)state;
     const double a[] = {3, 1, 2}, b[] = {14, 10};
-    // 7 8 9 11 12 13
+    // the differences: 7 8 9 11 12 13
     assert_near(rg_shift(a, 3, b, 2, 0.1).median, 10, 1e-12);
     assert_near(rg_shift(b, 2, a, 3, 0.1).median, -10, 1e-12);
     const struct rg_interval all = rg_shift(a, 3, b, 2, 0.1);
@@ -111,8 +112,7 @@ static void test_estimate(void **state)
     assert_near(all.high, 13, 1e-12);
 }
 
-// The interval holds the truth as often as it claims to; here it claims 95 %. Samples of the
-// largest size count too.
+// An interval of 95 % holds the truth in 95 % of trials, even at the largest sample size.
 static void test_coverage(void **state)
 {
     (void)state;
@@ -143,8 +143,8 @@ static struct rg_gate_sample sample_of(double ms, double swing, int count)
     return sample;
 }
 
-// Sure and within what runs differ by is no regression, nor is large and unsure; above half of the
-// margin by its interval, and above all of it as such, it is.
+// No regression: a sure change within the spread between runs, or a large, unsure one. A
+// regression: the interval is above half of the margin, and the ratio above all of it.
 static void test_verdicts(void **state)
 {
     (void)state;
@@ -170,7 +170,7 @@ static void test_verdicts(void **state)
     assert_int_equal(rg_gate_decide_apart(&rule, &some, some.logs, 0).verdict, RG_TWO_INCONCLUSIVE);
 }
 
-// Advice has a margin without end, and so no verdict that is worth a word.
+// Advice has an infinite margin, and so no verdict worth printing.
 static void test_advice(void **state)
 {
     (void)state;
@@ -182,7 +182,7 @@ static void test_advice(void **state)
     assert_near(d.ratio, 3, 0.01);
 }
 
-// Rows and looks share the error, so that intervals of more are wider.
+// Rows and looks share the error, so more rows widen the intervals.
 static void test_shared(void **state)
 {
     (void)state;
@@ -197,7 +197,7 @@ static void test_shared(void **state)
     assert_near(rg_gate_power(&rule, &many, many.smallest), 0.95, 1e-6);
 }
 
-// Launches that follow each other's noise are counted in groups, of either sample.
+// Launches whose noise is correlated are counted in groups, in either sample.
 static void test_links(void **state)
 {
     (void)state;
@@ -215,7 +215,7 @@ static void test_links(void **state)
     assert_false(d.is_grouped);
 }
 
-// --- courses on noise whose truth is known ---
+// --- courses on noise with a known truth ---
 
 struct script {
     enum noise noise;
@@ -242,8 +242,8 @@ static bool take(int row, bool b_first, struct rg_quads *quads, void *user)
     return true;
 }
 
-// A gate against a baseline of 24 launches. Runs differ by `between` as such, and the program now
-// takes so many times as long.
+// A gate against a baseline of 24 launches. Runs differ by a spread of `between`, and the program
+// now takes `ratio` times as long.
 static struct rg_gate_row run_course(enum noise noise, double ratio, double between)
 {
     struct script s = {.noise = noise, .log_ms = 1 + log(ratio) + between * normal()};
@@ -265,8 +265,8 @@ static void count_verdicts(enum noise noise, double ratio, double between, int c
         counts[run_course(noise, ratio, between).decision.verdict]++;
 }
 
-// Of 400 gates of what is the same, on runs that differ by 2 % as such, at most one finds a change,
-// in each kind of noise.
+// At most one of 400 gates on identical programs, whose runs differ by 2 %, finds a change, in each
+// kind of noise.
 static void test_same(void **state)
 {
     (void)state;
@@ -279,7 +279,7 @@ static void test_same(void **state)
     }
 }
 
-// What takes 15 % longer, or less, is found by all of 400 gates but two.
+// All of 400 gates but two find a program that takes 15 % longer, or less.
 static void test_slower(void **state)
 {
     (void)state;
@@ -293,7 +293,7 @@ static void test_slower(void **state)
     }
 }
 
-// A course tells what A took, and that what it found was found by launches of its own twice.
+// A course reports A's time. Its finding must be confirmed by launches of its own.
 static void test_course(void **state)
 {
     (void)state;

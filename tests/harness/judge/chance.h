@@ -1,4 +1,4 @@
-// Chance for the tests of decisions: the same numbers in each run, from a state that a test sets.
+// Random numbers for the tests of decisions: the same in each run, from a state that a test sets.
 #ifndef RG_TESTS_HARNESS_GATE_DECIDE_CHANCE_H
 #define RG_TESTS_HARNESS_GATE_DECIDE_CHANCE_H
 

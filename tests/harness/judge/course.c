@@ -1,5 +1,5 @@
-// The course of a gate, with times that the test makes: how often what is timed, in which order,
-// and when it ends.
+// The course of a gate, with times that the test makes: how often cells are timed, in which order,
+// and when the course ends.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,13 +15,13 @@
 
 enum { MOST_ROWS = 4 };
 
-// Times of rows whose B takes so many times as long as A.
+// Times of rows whose B takes `ratios` times as long as A.
 struct script {
     double ratios[MOST_ROWS];
     double later_ratio;   // of row 0 from launch `later` on
     int later;            // 0: never
-    int broken_row, over; // -1: none; after so many launches the time is over; 0: never
-    int disturbed_every;  // quads of row 0; 0: none
+    int broken_row, over; // the row that breaks, -1: none; launches until time is over, 0: never
+    int disturbed_every;  // row 0 keeps one quad of so many; 0: all
     double noise;
     int launches, taken[MOST_ROWS], b_first[MOST_ROWS];
     int first_row[MOST_ROWS]; // how often a row came first in a launch
@@ -71,7 +71,7 @@ static void run(struct script *s, int rows, struct rg_gate_row *found)
 
 #define SCRIPT(...) ((struct script){.noise = 0.004, .broken_row = -1, __VA_ARGS__})
 
-// What is the same ends with the first look that can tell; what is not, when it was found again.
+// Equal sides end at the first look that can tell; a change ends when it was confirmed.
 static void test_verdicts(void **state)
 {
     (void)state;
@@ -94,8 +94,8 @@ static void test_verdicts(void **state)
     assert_int_equal(s.launches, 32);
 }
 
-// Orders are drawn: neither of a quad comes first much oftener than the other, nor a row of a
-// launch.
+// Orders are drawn by chance: in no quad does one side, and in no launch does one row, come first
+// much more often.
 static void test_orders(void **state)
 {
     (void)state;
@@ -112,7 +112,7 @@ static void test_orders(void **state)
     }
 }
 
-// What was slower for a while, and is not when it is measured again, is no regression.
+// A slow-down that is gone when it is measured again is no regression.
 static void test_confirmation(void **state)
 {
     (void)state;
@@ -128,8 +128,8 @@ static void test_confirmation(void **state)
     assert_int_equal(found[0].end, RG_END_UNCONFIRMED);
 }
 
-// What was found by a later look is measured again from the first: a change that is plain by then
-// needs no more launches than that has.
+// A confirmation starts from the first look: if a change is plain by then, it needs no more
+// launches than that look has.
 static void test_first_look_again(void **state)
 {
     (void)state;
@@ -147,7 +147,8 @@ static void test_first_look_again(void **state)
     assert_int_equal(found[0].launches, units + 16);
 }
 
-// A row that breaks ends alone; when the time is over all end, and none with a verdict.
+// A row that breaks ends alone. When the time is over all rows end, and those still open get no
+// verdict.
 static void test_ends(void **state)
 {
     (void)state;
@@ -162,13 +163,13 @@ static void test_ends(void **state)
     s = SCRIPT(.ratios = {1.1, 1}, .over = 20);
     run(&s, 2, found);
     assert_int_equal(s.launches, 20);
-    assert_int_equal(found[0].end, RG_END_OVER); // it was found once, and not again
+    assert_int_equal(found[0].end, RG_END_OVER); // found once, not confirmed
     assert_int_equal(found[0].decision.verdict, RG_TWO_INCONCLUSIVE);
     assert_int_equal(found[1].decision.verdict, RG_TWO_PASS);
 }
 
-// Of 300 courses of two that are the same, on a machine that is now fast for the one and now for
-// the other, for some launches each, none ends with a verdict but pass.
+// On equal sides, none of 300 courses ends with a verdict but pass or inconclusive. The machine is
+// faster now for one side and now for the other, for some launches each.
 static bool take_linked(int row, bool b_first, struct rg_quads *quads, void *user)
 {
     double *last = user;
@@ -202,7 +203,7 @@ static void test_linked_noise(void **state)
     }
 }
 
-// Quads that were disturbed do not count, whatever their times are, and more are taken for them.
+// Disturbed quads do not count, whatever their times; others replace them.
 static void test_disturbed(void **state)
 {
     (void)state;
@@ -212,7 +213,7 @@ static void test_disturbed(void **state)
     assert_int_equal(found[0].decision.verdict, RG_TWO_PASS);
     assert_int_equal(found[0].launches, 32);
     assert_int_equal(found[0].disturbed, 16);
-    s = SCRIPT(.ratios = {1}, .disturbed_every = 2); // one of two counts, as long as it takes
+    s = SCRIPT(.ratios = {1}, .disturbed_every = 2); // one of two counts, so twice as long
     s.noise = 0.6;
     run(&s, 1, found);
     assert_int_equal(found[0].end, RG_END_LOOKS);

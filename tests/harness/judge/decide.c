@@ -1,5 +1,4 @@
-// Verdicts on two things of which it is known how they differ: closed cases, and noise whose truth
-// is known.
+// Verdicts on two sides whose difference is known: closed cases, and noise with a known truth.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,13 +17,13 @@
 
 enum noise { NORMAL, SKEWED, TWO_STATES, LINKED, NOISES };
 
-// A launch's logarithm around 0 with the spread of a launch, 3 %, in median.
+// A launch's logarithm around a median of 0, with the spread of a launch, 3 %.
 static double noise_of(enum noise noise, double *last)
 {
     switch (noise) {
-    case SKEWED: // the difference of two that are far above now and then
+    case SKEWED: // the difference of two values that are far above now and then
         return 0.02 * (log(uniform()) - log(uniform()));
-    case TWO_STATES: // caches lie well or badly, for each by itself
+    case TWO_STATES: // caches lie well or badly, for each side by itself
         return 0.004 * normal() + 0.03 * ((uniform() < 0.4) - (uniform() < 0.4));
     case LINKED: // a machine that is warm for a while
         *last = 0.4 * *last + 0.0275 * normal();
@@ -45,7 +44,8 @@ static void fill(enum noise noise, double change, double *logs, int count)
 
 // --- closed cases ---
 
-// A machine that slows down steadily slows both alike; twice as long is log 2.
+// A machine that slows down steadily slows both sides alike. A side that takes twice as long has
+// log 2.
 static void test_quads(void **state)
 {
     (void)state;
@@ -56,8 +56,8 @@ static void test_quads(void **state)
     assert_near(rg_block_log_ratio(twice, a), -log(2), 1e-12);
 }
 
-// Of 16 launches and a tail of 0.0005, all must be on one side but one of either; the least and the
-// largest, and their neighbours, are the ends as the binomial distribution has them.
+// With 16 launches and a tail of 0.0005, all must be on one side but one. The interval's ends are
+// the smallest and the largest, or their neighbours, by the binomial distribution.
 static void test_interval(void **state)
 {
     (void)state;
@@ -67,16 +67,16 @@ static void test_interval(void **state)
     for (int i = 0; i < 16; i++)
         logs[i] = 0.001 * ((i * 7) % 16 - 7.5);
     struct rg_gate_decision d = rg_gate_decide(&rule, logs, 16);
-    // P(X = 0) + P(X = 1) is 17 / 65536, and that of three more is 137 / 65536.
+    // P(X = 0) + P(X = 1) is 17 / 65536; with P(X = 2) it is 137 / 65536.
     assert_near(d.low, exp(-0.0065), 1e-12);
     assert_near(d.high, exp(0.0065), 1e-12);
     assert_near(d.ratio, 1, 1e-12);
     assert_near(d.shift, 1, 1e-12);
     assert_int_equal(d.verdict, RG_TWO_PASS);
-    rule.rows = 2; // of which each has half: 17 / 65536 is more than 0.00025
+    rule.rows = 2; // each gets half of the error: 17 / 65536 is more than 0.00025
     d = rg_gate_decide(&rule, logs, 16);
     assert_near(d.low, exp(-0.0075), 1e-12);
-    rule.look_count = 20; // a tail of 0.0000125: of 16 launches none is so sure
+    rule.look_count = 20; // a tail of 0.0000125, for which 16 launches are too few
     d = rg_gate_decide(&rule, logs, 16);
     assert_equals(d.low, 0);
     assert_true(isinf(d.high));
@@ -86,7 +86,7 @@ static void test_interval(void **state)
     assert_int_equal(d.units, 0);
 }
 
-// What is sure and small is no regression; what is large and unsure is none either.
+// A sure, small change is no regression, nor is a large, unsure one.
 static void test_verdicts(void **state)
 {
     (void)state;
@@ -106,8 +106,8 @@ static void test_verdicts(void **state)
     }
 }
 
-// Launches that follow each other's noise are counted in groups, until neighbours are no longer
-// alike: here in fours.
+// Launches whose noise is correlated are counted in groups, which grow until neighbours are not
+// alike: here fours.
 static void test_links(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void test_links(void **state)
     assert_int_equal(d.units, 66);
 }
 
-// A timer that sees no difference in more than one of twenty launches decides nothing.
+// A timer that shows no difference in more than one of twenty launches decides nothing.
 static void test_coarse(void **state)
 {
     (void)state;
@@ -140,8 +140,8 @@ static void test_coarse(void **state)
     }
 }
 
-// With a spread s, 64 launches and a tail of 0.025 the interval must be 1.96 errors above 0,
-// and 1.645 more are needed for 95 %; the error of a median is 1.2533 s / 8.
+// With a spread s, the error of a median of 64 launches is 1.2533 s / 8. With a tail of 0.025 the
+// interval must be 1.96 errors above 0, and 95 % power needs 1.645 errors more.
 static void test_what_could_be_seen(void **state)
 {
     (void)state;
@@ -156,19 +156,19 @@ static void test_what_could_be_seen(void **state)
     assert_near(d.smallest, expm1((1.959964 + 1.644854) * error), 1e-6);
     assert_near(rg_gate_power(&rule, &d, d.smallest), 0.95, 1e-6);
     assert_near(rg_gate_power(&rule, &d, expm1(1.959964 * error)), 0.5, 1e-6);
-    // Of little spread, half of the margin is what binds.
+    // With little spread, half of the margin decides.
     for (int i = 0; i < 64; i++)
         logs[i] *= 0.001;
     d = rg_gate_decide(&rule, logs, 64);
     assert_near(d.smallest, expm1(log1p(0.005) + 1.644854 * error * 0.001), 1e-8);
-    // Of too few for an interval nothing could be seen, however alike they are.
+    // Launches too few for an interval could show nothing, however alike they are.
     d = rg_gate_decide(&rule, logs, 4);
     assert_true(isinf(d.smallest));
     assert_equals(rg_gate_power(&rule, &d, 0.05), 0);
     assert_int_equal(d.verdict, RG_TWO_INCONCLUSIVE);
 }
 
-// --- noise whose truth is known ---
+// --- noise with a known truth ---
 
 static void count_verdicts(enum noise noise, double change, int launches, int counts[4])
 {
@@ -183,8 +183,8 @@ static void count_verdicts(enum noise noise, double change, int launches, int co
     }
 }
 
-// Of 400 pairs that are the same none, or one, is told apart, with few launches and with many. That
-// launches are linked is not always noticed: what then is left the course sees (course.c).
+// With few launches and with many, at most one of 400 equal pairs is found to differ. Correlated
+// launches are not always noticed; the test of courses covers these (course.c).
 static void test_same(void **state)
 {
     (void)state;
@@ -199,12 +199,12 @@ static void test_same(void **state)
         }
 }
 
-// What takes 5 % longer, or less, is found, by 256 launches in each of 400 trials but two.
+// 256 launches find a side that takes 5 % longer, or less, in all of 400 trials but two.
 static void test_slower(void **state)
 {
     (void)state;
     state_of_chance = 2;
-    for (enum noise noise = 0; noise < LINKED; noise++) { // in groups, 256 are too few
+    for (enum noise noise = 0; noise < LINKED; noise++) { // in groups, 256 launches are too few
         int counts[4];
         count_verdicts(noise, 0.05, 256, counts);
         assert_in_range(counts[RG_TWO_REGRESSED], 398, 400);
@@ -213,7 +213,7 @@ static void test_slower(void **state)
     }
 }
 
-// The interval holds the truth as often as it claims to; here it claims 95 %.
+// An interval of 95 % holds the truth in 95 % of trials.
 static void test_coverage(void **state)
 {
     (void)state;

@@ -12,7 +12,7 @@
 
 enum { LAUNCHES = RG_SETTLE_LAUNCHES };
 
-// Values about a median, with noise that follows nothing.
+// Values about a median, with uniform noise that is not correlated.
 static void fill(double *values, int from, int to, double median, double noise)
 {
     uint32_t x = 7 + (uint32_t)from;
@@ -44,7 +44,7 @@ static void looks_and_confirmation(void **state)
     assert_int_equal(settle(values, 0.4, INFINITY, LAUNCHES).settled, RG_SETTLED_FAILS);
     assert_int_equal(settle(values, -INFINITY, 0.1, LAUNCHES).settled, RG_SETTLED_FAILS);
     assert_int_equal(settle(values, 0.1, 0.3, LAUNCHES).settled, RG_SETTLED_HOLDS);
-    // The second half says the opposite, or nothing: neither counts.
+    // The second half says the opposite, or nothing: the claim stays open.
     fill(values, 12, LAUNCHES, -0.2, 0.01);
     assert_int_equal(settle(values, 0, INFINITY, LAUNCHES).settled, RG_SETTLED_OPEN);
     assert_true(settle(values, 0, INFINITY, LAUNCHES).is_unconfirmed);
@@ -61,10 +61,10 @@ static void at_the_bound(void **state)
     double values[LAUNCHES];
     fill(values, 0, LAUNCHES, 0, 0.03);
     const struct rg_settling s = settle(values, 0, INFINITY, LAUNCHES);
-    assert_int_equal(s.settled, RG_SETTLED_AT_BOUND); // at once: it needs no confirmation
+    assert_int_equal(s.settled, RG_SETTLED_AT_BOUND); // at once: no confirmation is needed
     assert_int_equal(s.launches, 12);
     fill(values, 0, LAUNCHES, 0, 0.2);
-    assert_at_least(settle(values, 0, INFINITY, LAUNCHES).launches, 24); // wider than 1.05
+    assert_at_least(settle(values, 0, INFINITY, LAUNCHES).launches, 24); // 12 give more than 1.05
     // An interval beside the bound is not at it, however near.
     fill(values, 0, LAUNCHES, 0.02, 0.01);
     assert_int_equal(settle(values, 0, INFINITY, LAUNCHES).settled, RG_SETTLED_HOLDS);

@@ -1,5 +1,5 @@
-// Decisions on launches of real processes, which tests/harness/gate/selftest.py --traces wrote:
-// they end as they ended there, and what is found in their noise is what the gate says it finds.
+// Decisions on launches of real processes, which tests/harness/gate/selftest.py --traces wrote.
+// They end as they did then, and the gate finds the promised changes in their noise.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
 
 enum { MOST_GATES = 64, MOST_ROWS = 8, MOST_LAUNCHES = 1024 };
 
-// Of each row the launches in their order; NAN where one was disturbed.
+// A row's launches in their order; NAN: the launch was disturbed.
 struct trace {
     char name[32], ending[16];
     int count, next;
@@ -28,7 +28,7 @@ struct gate {
     bool is_same;
     int rows;
     struct trace of[MOST_ROWS];
-    // What a test does to it: by how much longer B takes, and after how many launches it is over.
+    // A test's changes: B takes longer by this logarithm, and time is over after `over` launches.
     double added_log;
     int over, launches;
 };
@@ -100,7 +100,7 @@ static bool is_over(void *user)
     return gate->over && gate->launches >= gate->over;
 }
 
-// By the rule for as many rows as it had then.
+// Decides by the rule for as many rows as the gate had then.
 static void decide(struct gate *gate, struct rg_gate_row *found)
 {
     const struct rg_gate_rule rule = rg_gate_rule_of(gate->rows);
@@ -111,7 +111,7 @@ static void decide(struct gate *gate, struct rg_gate_row *found)
     assert_true(rg_course_run(&rule, &source, RG_COURSE_SEED, found));
 }
 
-// Each verdict is the one of then, after as many launches.
+// Each verdict is the same as then, after as many launches.
 static void test_as_they_ended(void **state)
 {
     (void)state;
@@ -132,8 +132,8 @@ static void test_as_they_ended(void **state)
     assert_at_least(planted, 18);
 }
 
-// A gate whose time is over before the first look finds nothing, and whose time is over before a
-// regression was found again neither.
+// A gate whose time is over before the first look finds nothing, and neither does one whose time is
+// over before a regression was confirmed.
 static void test_over(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void test_over(void **state)
     }
 }
 
-// The launches of a cell on a device in all gates on what is the same, one after the other.
+// Joins the launches of a cell on a device in all gates on equal sides, one after the other.
 static bool join(struct gate *joined, int first, int row)
 {
     const struct trace *of = &gates[first].of[row];
@@ -160,7 +160,7 @@ static bool join(struct gate *joined, int first, int row)
         if (!gates[i].is_same || strcmp(gates[i].device, gates[first].device))
             continue;
         if (i < first)
-            return false; // it was joined then
+            return false; // an earlier call joined it
         const struct trace *next = &gates[i].of[row];
         assert_string_equal(next->name, of->name);
         memcpy(trace->logs + trace->count, next->logs, sizeof(double) * (size_t)next->count);
@@ -169,8 +169,8 @@ static bool join(struct gate *joined, int first, int row)
     return trace->count >= 32;
 }
 
-// In the noise of what is the same 5 % more or less are found, from whichever launch on; no change
-// is taken for one; and 1 % is none that fails a gate.
+// In the noise of equal sides the gate finds 5 % more or less, from whichever launch on. It takes
+// no change for one, and passes 1 %.
 static void test_in_their_noise(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static void test_in_their_noise(void **state)
                     memmove(gate.of[0].logs, joined.of[0].logs + start,
                             sizeof(double) * (size_t)gate.of[0].count);
                     decide(&gate, &found);
-                    // What asks for more launches than there are is not decided.
+                    // A course that asks for more launches than there are is not decided.
                     if (found.end == RG_END_BROKEN)
                         continue;
                     assert_int_equal(found.decision.verdict, cases[c].due);

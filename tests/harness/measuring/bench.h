@@ -1,5 +1,5 @@
-// Jobs on a device of fake.h, measured: what is timed, how often and in which order can be worked
-// out by hand.
+// Jobs on a device of fake.h, measured: the test can work out by hand which frames are timed, how
+// often and in which order.
 #ifndef RG_TESTS_HARNESS_MEASURING_BENCH_H
 #define RG_TESTS_HARNESS_MEASURING_BENCH_H
 
@@ -55,7 +55,8 @@ static inline void end(struct bench *bench)
 {
     for (int i = 0; i < bench->count; i++)
         rg_job_close(&bench->jobs[i]);
-    // One that is lost says so once more, for what is closed with it cannot.
+    // A lost device reports the loss once more when it is closed, since its objects cannot be
+    // closed.
     assert_int_equal(rg_device_close(&bench->fake->pub), bench->fake->waits_left < 0);
     rg_log_listen(NULL, NULL);
 }
@@ -77,8 +78,8 @@ static const struct rg_measure_options plain = {.most_samples = 40,
                                                 .warm_up_frames = 4,
                                                 .passes_ms = 400};
 
-// A machine that gets slower from round to round, but for one that was disturbed, and stands still
-// once in each.
+// A machine that gets slower from round to round. One round is disturbed, and each round stands
+// still once.
 enum { LOADS_A_TIME = 3 };
 static int loads;
 static inline void run_load(void)

@@ -1,8 +1,6 @@
-// A device and a technique that do nothing but take time, by a script, and a wall clock that only
-// they move: what the harness says of them can be worked out by hand. As on a GPU, work that was
-// asked for takes its time at the next wait.
-//
-// The program's rg_now_ms is fake.c's, in place of harness/console/clock.h's.
+// A device and a technique that only take time, by a script, and a wall clock that only they move.
+// So a test can work out by hand what the harness reports. As on a GPU, requested work takes its
+// time at the next wait.
 #ifndef RG_TESTS_HARNESS_MEASURING_FAKE_H
 #define RG_TESTS_HARNESS_MEASURING_FAKE_H
 
@@ -11,44 +9,44 @@
 #include "core/device/device.h"
 #include "core/techniques/technique.h"
 
-// What a technique does; its settings.
+// The costs of a technique; its settings.
 struct fake_script {
-    char letter; // of its steps in the events
+    char letter; // in the events, for each step
     double open_ms, step_ms, draw_ms;
-    double cold_ms;          // more of a frame that follows one of another instance
-    const double *frames_ms; // what the first `frame_count` drawings take instead of draw_ms
+    double cold_ms;          // added to a frame that follows another instance's
+    const double *frames_ms; // the first `frame_count` drawings take these instead of draw_ms
     int frame_count;
-    int interrupt_at; // the step that ends with a signal; 0: none
+    int interrupt_at; // the step that a signal ends; 0: none
 };
 extern const struct rg_technique fake_technique;
 
-// What a device does. Fields may be changed while it is open.
+// The costs of a device. Fields may be changed while it is open.
 struct fake_device {
     struct rg_device pub;
-    double sync_ms;          // a wait, whatever it waits for
+    double sync_ms;          // any wait
     double run_ms;           // a run of a pass
-    double item_ms, word_ms; // more of each of its items, and of each that copies a word
-    int slow_runs;           // so many runs more take ten times as long
-    int slow_every;          // as does each of so many; 0: none
-    double clock_rate;       // of the API's clock, by wall clock
-    double clock_ms;         // reading it
-    int waits_left;          // after so many waits it is lost; -1: never
+    double item_ms, word_ms; // added for each item, and for each item that copies a word
+    int slow_runs;           // this many more runs take ten times as long
+    int slow_every;          // so does every slow_every-th run; 0: none
+    double clock_rate;       // of the API's clock, relative to the wall clock
+    double clock_ms;         // reading the API's clock
+    int waits_left;          // the device is lost after this many; -1: never
     bool was_lost;
     int64_t waits, clock_reads, runs; // since it was opened
-    double pending_ms;                // asked for, and not waited for
-    const void *last;                 // the instance that stepped last
-    uint16_t shown;                   // each half of the images that are read
+    double pending_ms;                // requested, and not waited for yet
+    const void *last;                 // the instance that last stepped
+    uint16_t shown;                   // the value of each half of images that are read
 };
 struct fake_device *fake_open(void);
 
-// Also false where the value is no number, or infinite.
+// False for NaN and infinities, too.
 #define assert_near(value, due, within) assert_true(fabs((double)(value) - (due)) <= (within))
 
-// What happened since fake_forget, of all devices: "(" opened, a script's letter for a step, "."
+// The events since fake_forget, of all devices: "(" opened, a script's letter for a step, "."
 // drawn, "|" waited, "t" the clock read.
 const char *fake_events(void);
 void fake_forget(void);
-// The wall clock goes on by itself.
+// Moves the wall clock on.
 void fake_pass(double ms);
 
 #endif

@@ -1,5 +1,5 @@
-// Jobs: by what a device's image is judged, what a record keeps of its instance, and where a pass's
-// time goes.
+// Jobs: how a device's image is judged, which parts of its instance a record keeps, and where a
+// pass's time goes.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,9 +33,9 @@ static void *settings_of(const char *assignments)
     return settings;
 }
 
-// --- a device is judged by the tier that it owes, over the rain mask ---
+// --- a device is judged by its tier, over the rain mask ---
 
-// So many pixels on which it rains become two codes brighter in red.
+// Makes this many pixels with rain two codes brighter in red.
 static void brighten(struct rg_picture *picture, const struct rg_picture *dry, int pixels)
 {
     for (int i = 0; i < SIZE_PX * SIZE_PX && pixels > 0; i++) {
@@ -65,7 +65,7 @@ static enum rg_outcome judge(struct rg_device *device, const void *settings,
     return record.outcome;
 }
 
-// What cpu:reference shows of a technique, with the background.
+// The image that cpu:reference draws of a technique, and its background.
 static void expect(struct rg_expected *expected, const struct rg_technique *technique,
                    const void *settings)
 {
@@ -82,7 +82,7 @@ static void expect(struct rg_expected *expected, const struct rg_technique *tech
 static void test_tiers_by_the_mask(void **state)
 {
     (void)state;
-    enum { PIXELS = 12 }; // below 0.1 % of the picture, above 0.1 % of where it rains
+    enum { PIXELS = 12 }; // below 0.1 % of the picture, above 0.1 % of the rain mask
     char detail[256];
     void *settings = settings_of(CHEAP " drops=90");
     struct rg_device *device = rg_device_open("cpu");
@@ -90,24 +90,24 @@ static void test_tiers_by_the_mask(void **state)
     expect(&expected, rg_technique_find("flow"), settings);
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_OK);
     brighten(&expected.picture, &expected.dry, PIXELS);
-    ((char *)expected.texels)[0] ^= 1; // what the device draws is no longer identical
+    ((char *)expected.texels)[0] ^= 1; // the device's image is no longer identical
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_FAIL);
     assert_non_null(strstr(detail, "(T0)"));
     device->info.tier = RG_T1;
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_FAIL);
     if (!strstr(detail, "of the mask is above 1/255"))
         fail_msg("failed for another reason: %s", detail);
-    device->info.tier = RG_T2; // which takes pixels of two codes more for the same rain
+    device->info.tier = RG_T2; // T2 allows more pixels that are two codes off
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_OK);
     device->info.tier = RG_T1;
-    rg_picture_destroy(&expected.dry); // without a background the whole picture is the mask
+    rg_picture_destroy(&expected.dry); // without a background the mask is the whole picture
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_OK);
     rg_expected_free(&expected);
     assert_true(rg_device_close(device));
     free(settings);
 }
 
-// --- a technique that tells facts and runs many passes: flow, with more said of it ---
+// --- flow with one more fact and many more passes ---
 
 static bool open_talker(struct rg_instance *instance)
 {
@@ -116,7 +116,7 @@ static bool open_talker(struct rg_instance *instance)
     return ok;
 }
 
-// 72 passes more, each named twice a frame. The last takes a millisecond each time.
+// 72 more passes, each named twice a frame. The last takes a millisecond each time.
 enum { OWN_PASSES = RG_MAX_PASS_TIMES + 8 };
 
 static bool step_talker(struct rg_instance *instance)
@@ -157,10 +157,10 @@ static void test_what_a_record_keeps(void **state)
                 rg_job_warm_up(&job, &options));
     rg_jobs_measure(&job, 1, &options);
     assert_int_equal(record.outcome, RG_OK);
-    assert_int_equal(record.fact_count, 3); // behind flow's own, the vertices and faces of its pane
+    assert_int_equal(record.fact_count, 3); // after flow's own, the vertices and faces of its pane
     assert_string_equal(record.facts[2].name, "panes");
     assert_equals(record.facts[2].number, 6 + RG_CHECK_FRAMES);
-    // Every name once; flow's own passes came too late for a name of their own.
+    // Every name once; flow's own passes came too late to get one.
     assert_int_equal(record.pass_count, RG_MAX_PASS_TIMES);
     for (int i = 0; i < RG_MAX_PASS_TIMES - 1; i++) {
         char name[16];
@@ -169,7 +169,7 @@ static void test_what_a_record_keeps(void **state)
     }
     const struct rg_pass_time *other = &record.passes[RG_MAX_PASS_TIMES - 1];
     assert_string_equal(other->name, "other");
-    assert_at_least(other->ms, 2); // the last pass is in it, both times
+    assert_at_least(other->ms, 2); // it has the last pass, both times
     rg_job_close(&job);
     rg_expected_free(&expected);
     assert_true(rg_device_close(device));
@@ -184,7 +184,7 @@ static bool step_slowly(struct rg_instance *instance)
     return rg_technique_find("flow")->step(instance);
 }
 
-// As many as the time for them allows, within bounds: slow cells and fast ones in one run.
+// As many as the time allows, within bounds: slow and fast cells in one run.
 static void test_samples(void **state)
 {
     (void)state;
@@ -216,7 +216,7 @@ static void test_samples(void **state)
         assert_in_range(records[i].pass_frames, 2, 40);
         rg_job_close(&jobs[i]);
     }
-    assert_at_most(records[1].sample_count, 5); // of 40 ms, with the frame before it
+    assert_at_most(records[1].sample_count, 5); // 40 ms each, with the frame before it
     assert_true(rg_device_close(device));
     free(settings);
 }
@@ -224,7 +224,7 @@ static void test_samples(void **state)
 // --- frames of one age ---
 
 enum { WINDOW_CHECK_FRAMES = 5, WINDOW_FRAMES = 4 };
-static int frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES + 1]; // the last: of any above
+static int frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES + 1]; // the last counts all older ones
 
 static bool step_with_age(struct rg_instance *instance)
 {
@@ -252,9 +252,9 @@ static void test_window(void **state)
     rg_jobs_measure(&job, 1, &options);
     assert_int_equal(record.outcome, RG_OK);
     assert_int_equal(record.sample_count, 9);
-    assert_int_equal(record.frames_a_sample, WINDOW_FRAMES - 1); // and the one before it
+    assert_int_equal(record.frames_a_sample, WINDOW_FRAMES - 1); // the first frame is not timed
     assert_int_equal(frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES], 0);
-    // Each sample lies behind check frames of its own, where a frame of it was.
+    // Each sample follows check frames of its own, and includes the last frame of the window.
     assert_at_least(frames_of_age[0], 9);
     assert_at_least(frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES - 1], 9);
     rg_job_close(&job);
@@ -262,7 +262,7 @@ static void test_window(void **state)
     free(settings);
 }
 
-// --- what counters grow by in a frame ---
+// --- how much counters grow in a frame ---
 
 static void test_counted(void **state)
 {

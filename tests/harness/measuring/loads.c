@@ -1,4 +1,4 @@
-// What the timer audit and the ceilings say of a device whose every cost is known.
+// The timer audit and the ceilings of a device whose every cost is known.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,24 +35,24 @@ static void test_costs(void **state)
     assert_near(result.dispatch_us, 2.001 + 0.1, 1e-3);
 }
 
-// A load lasts 50 ms, of however long a pass.
+// A load lasts 50 ms, however long its pass is.
 static void test_load(void **state)
 {
     (void)state;
     struct rg_timer_audit result;
     audit(1, 1e-4, &result);
     assert_int_equal(result.passes, 1);
-    audit(1, 1e-5, &result); // 10 ms, and 105 in the run that compiles
+    audit(1, 1e-5, &result); // 10 ms, and 105 ms in the run that compiles
     assert_in_range(result.passes, 5, 8);
     audit(1, 1e-9, &result); // 0.003 ms: 8 times as many passes at a time, up to 50 ms
     assert_in_range((int)result.wall_ms, 50, 70);
-    struct fake_device *fake = fake_open(); // takes no time at all
+    struct fake_device *fake = fake_open(); // takes no time
     assert_true(rg_timer_audit(&fake->pub, &result));
     assert_int_equal(result.passes, 20000);
     assert_true(rg_device_close(&fake->pub));
 }
 
-// Each side of the bounds within which a timer is trusted.
+// Rates on both sides of the bounds within which a timer is trusted.
 static void test_trust(void **state)
 {
     (void)state;
@@ -71,7 +71,7 @@ static void test_trust(void **state)
     }
 }
 
-// A copy of 64 MiB reads and writes 134 MB; runs that compile first do not count.
+// A copy of 64 MiB reads and writes 134 MB; the runs that compile do not count.
 static void test_ceilings(void **state)
 {
     (void)state;
@@ -89,7 +89,7 @@ static void test_ceilings(void **state)
     assert_true(rg_ceilings_measure(&fake->pub, &ceilings));
     assert_near(ceilings.memory_gb_s, 8, 1e-6);
     fake->slow_every = 0;
-    fake->sync_ms = 16; // a wait counts once for a batch: of one large copy, of 16 small ones
+    fake->sync_ms = 16; // one wait a batch: of one large copy, of 16 small ones
     assert_true(rg_ceilings_measure(&fake->pub, &ceilings));
     assert_near(ceilings.memory_gb_s, 134.217728 / (16.777216 + 16), 1e-6);
     assert_near(ceilings.cache_gb_s, 2.097152 / (0.262144 + 1), 1e-6);

@@ -1,5 +1,5 @@
-// What others take of the machine: how it is read, which samples it has taken again, and when it is
-// told. By a scripted /proc/stat, and a clock that only the script moves.
+// Other processes' load: how it is read, which samples it has retaken, and when it is reported. It
+// comes from a scripted /proc/stat, and from a clock that only the script moves.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,7 +23,8 @@
 
 // --- a reading ---
 
-// Writes a machine of so many processors, each with these ticks of idle time, waiting and steal.
+// Writes a machine with this many processors, each with these ticks of idle time, waiting and
+// steal.
 static void write_stat(const char *root, int processors, int idle, int waiting, int stolen)
 {
     char path[256];
@@ -56,7 +57,7 @@ static void test_reading(void **state)
     assert_ms(before.stolen_ms, 5 * before.count * tick_ms);
     assert_above(before.own_ms, 0);
     assert_true(isnan(rg_processors_read(root, &gone, 1).own_ms));
-    // A line that is cut off tells nothing.
+    // A line that is cut off says nothing.
     FILE *file = fopen(strcat(path, "/stat"), "w");
     fprintf(file, "cpu  7 1 2\ncpu0 7 1\n");
     fclose(file);
@@ -70,24 +71,24 @@ static void test_taken(void **state)
     (void)state;
     const struct rg_processors before = {.count = 2, .grain_ms = 10};
     struct rg_processors after = before;
-    after.at_ms = 500; // of two: 1000 ms
+    after.at_ms = 500; // two processors: 1000 ms
     after.idle_ms = 290;
     after.own_ms = 200;
     after.stolen_ms = 100;
     const struct rg_taken taken = rg_taken_between(&before, &after);
     assert_ms(taken.stolen, 0.1);
-    assert_ms(taken.others, 0.4); // but for the grain
-    after.idle_ms = 795;          // less is not told from none
+    assert_ms(taken.others, 0.4); // less the grain
+    after.idle_ms = 795;          // less than the grain counts as none
     assert_equals(rg_taken_between(&before, &after).others, 0);
     after.idle_ms = 0;
-    after.own_ms = NAN; // a process of ours has gone
+    after.own_ms = NAN; // a process of ours has ended
     assert_equals(rg_taken_between(&before, &after).others, 0);
     after.count = 0; // nothing is known
     assert_equals(rg_taken_between(&before, &after).stolen, 0);
 }
 
-// Ten seconds of two processors, on one of which ours ran, and waited. `busy_ms`: of all, without
-// steal.
+// Ten seconds of two processors. Our process ran and waited on one of them. `busy_ms` counts all
+// processes, without steal.
 static void expect_shares(double busy_ms, double own_ms, double waited_ms, double stolen_ms,
                           double others)
 {
@@ -109,10 +110,10 @@ static void test_waiting(void **state)
     (void)state;
     expect_shares(10000, 10000, 0, 0, 0);       // alone
     expect_shares(20000, 10000, 0, 0, 0);       // another process has the other core
-    expect_shares(20000, 5000, 5000, 0, 0.5);   // and here it takes half of our time
+    expect_shares(20000, 5000, 5000, 0, 0.5);   // it takes half of our time
     expect_shares(10000, 10000, 10000, 0, 0);   // threads of ours wait for each other
     expect_shares(12000, 10000, 10000, 0, 0.1); // another process took a tenth of the machine
-    expect_shares(16000, 10000, -1, 0, 0.3);    // a kernel that tells nothing of threads
+    expect_shares(16000, 10000, -1, 0, 0.3);    // a kernel that does not report threads
     expect_shares(10000, 10000, 0, 2000, 0);    // a hypervisor took a tenth
     const pid_t self = getpid();
     const struct rg_processors now = rg_processors_now(&self, 1);
@@ -123,7 +124,7 @@ static void test_waiting(void **state)
 
 // --- samples ---
 
-// Two processors, of which others take a share from one time to another.
+// Two processors, of which others take a share between two times.
 static struct {
     double from_ms, to_ms, share;
     int readings;
@@ -155,7 +156,7 @@ static void begin_machine(double from_ms, double to_ms, double share)
 enum { SAMPLES = 12, JOBS = 2 };
 static struct rg_record records[JOBS];
 
-// Two jobs of samples of 50 ms, with a frame of as much before each: five of them make a batch.
+// Two jobs with samples of 50 ms, and a frame of 50 ms before each: five samples make a batch.
 static void measure_until(double end_ms)
 {
     static const struct fake_script scripts[JOBS] = {{.letter = 'A', .draw_ms = 50},
@@ -212,8 +213,8 @@ static void test_quiet(void **state)
     }
 }
 
-// Checks that as many samples were timed as records say, taken again or not: of two frames each,
-// besides one in which passes are timed.
+// Counts the retaken samples. The events must show all samples that the records name: two frames
+// each, besides one frame in which passes are timed.
 static int retaken_of_all(void)
 {
     int frames = 0;
@@ -224,7 +225,7 @@ static int retaken_of_all(void)
     return retaken;
 }
 
-// Others are there for a short while: the samples of that batch alone are taken again.
+// Others are there for a short while: only the samples of that batch are retaken.
 static void test_disturbed_once(void **state)
 {
     (void)state;
@@ -238,7 +239,7 @@ static void test_disturbed_once(void **state)
     assert_in_range(retaken_of_all(), 2, 6);
 }
 
-// They stay: samples are taken again twice, but not for ever, and kept, whatever their times.
+// Others stay: samples are retaken twice, and then kept, whatever their times.
 static void test_disturbed_always(void **state)
 {
     (void)state;
@@ -253,7 +254,7 @@ static void test_disturbed_always(void **state)
     }
 }
 
-// Within a budget there may be no time for it.
+// A budget may leave no time to retake samples.
 static void test_disturbed_at_the_end(void **state)
 {
     (void)state;
@@ -263,7 +264,7 @@ static void test_disturbed_at_the_end(void **state)
     assert_int_equal(rg_record_disturbed(&records[0]), SAMPLES);
 }
 
-// Steal counts as other programs do.
+// Steal counts like other programs.
 static void test_marks(void **state)
 {
     (void)state;
@@ -294,7 +295,7 @@ static void hear(enum rg_log_level level, const char *line, void *user)
     snprintf(heard, sizeof(heard), "%s", line);
 }
 
-// The clock of this program stands still, so that a reading moves it.
+// The clock of this program stands still, so a reading moves it.
 static struct rg_processors watch_and_pass(const pid_t *ours, int our_count)
 {
     const struct rg_processors now = watch(ours, our_count);

@@ -1,5 +1,5 @@
-// Jobs that are visited again, the API's own clock, passes, and what ends early, by a clock that
-// stands still but for what the script says.
+// Jobs that are visited again, the API's own clock, passes, and runs that end early, by a clock
+// that moves only as the script says.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,8 +19,8 @@ static int count_of(char event)
     return count;
 }
 
-// Each visit takes its share, opens again what was closed, and takes no calibration for rounds in
-// which there is nothing to do. Only the last tells passes apart and reads the API's clock.
+// Each visit takes its share, opens closed jobs again, and skips the calibration of rounds without
+// work. Only the last visit tells passes apart and reads the API's clock.
 static void test_visits(void **state)
 {
     (void)state;
@@ -38,12 +38,12 @@ static void test_visits(void **state)
     for (int visit = 0; visit < 3; visit++) {
         const int loads_before = loads;
         options.share = (visit + 1) / 3.0;
-        options.sample_ms = visit ? 500 : 20; // how a job is sampled was settled
+        options.sample_ms = visit ? 500 : 20; // the first visit settled how jobs are sampled
         if (!visit)
             measure(&bench, &options);
         else
             rg_jobs_measure(bench.jobs, 2, &options);
-        // Before the first round, and behind each of four.
+        // Before the first round, and after each of four.
         assert_int_equal(loads - loads_before, 5 * LOADS_A_TIME);
         assert_int_equal(count_of('('), visit ? 2 : 0);
         assert_int_equal(count_of('t'), visit == 2 ? 4 : 0);
@@ -54,7 +54,7 @@ static void test_visits(void **state)
             assert_int_equal(bench.records[i].frames_a_sample, 1);
             assert_int_equal(bench.records[i].pass_frames > 0, visit == 2);
             assert_int_equal(rg_record_is_whole(&bench.records[i]), visit == 2);
-            assert_ms(bench.records[i].calibration_begin_ms, 13.5); // 13 and 14: of the first visit
+            assert_ms(bench.records[i].calibration_begin_ms, 13.5); // 13 and 14, of the first visit
             rg_job_close(&bench.jobs[i]);
         }
         fake_forget();
@@ -67,20 +67,20 @@ static void test_visits(void **state)
     end(&bench);
 }
 
-// What is left to take is expected to last as long as it does.
+// The remaining samples are expected to take as long as they do.
 static void test_expected(void **state)
 {
     (void)state;
     const struct fake_script script = {.letter = 'A', .draw_ms = 50};
     struct rg_measure_options options = plain;
-    options.job_ms = 1200; // 12 samples, with a frame before each
+    options.job_ms = 1200; // 12 samples, each after another frame
     struct bench bench;
     begin(&bench);
     add(&bench, &script, 2);
     add(&bench, &script, 2)->record->outcome = RG_FAIL;
     assert_true(rg_job_open(&bench.jobs[0]) && rg_job_warm_up(&bench.jobs[0], &options));
     bench.jobs[1].warm_frame_ms = 1;
-    const double passes_ms = 6 * 75; // until 400 ms are over
+    const double passes_ms = 6 * 75; // until 400 ms have passed
     assert_ms(rg_jobs_expected_ms(bench.jobs, 2, &options), 12 * 2 * 50 + passes_ms);
     options.share = 0.25;
     rg_jobs_measure(bench.jobs, 2, &options);
@@ -102,7 +102,7 @@ static double api_over_wall(double rate, bool has_clock, int64_t *reads)
     measure(&bench, &plain);
     const double ratio = bench.records[0].api_over_wall;
     *reads = bench.fake->clock_reads;
-    const char *last = strrchr(fake_events(), 't'); // the passes follow: it was the last sample
+    const char *last = strrchr(fake_events(), 't'); // only passes follow the last sample
     assert_true(!last || !strncmp(last + 1, "A|.||", 5));
     assert_int_equal(bench.records[0].outcome, RG_OK);
     end(&bench);
@@ -149,7 +149,7 @@ static void test_passes(void **state)
     }
 }
 
-// Frames that something else disturbs are not told as what a pass takes.
+// The times of passes leave out disturbed frames.
 static void test_disturbed_passes(void **state)
 {
     (void)state;
@@ -166,14 +166,14 @@ static void test_disturbed_passes(void **state)
     end(&bench);
 }
 
-// --- what ends early ---
+// --- runs that end early ---
 
 static void note_progress(double share, void *user)
 {
     *(double *)user = share;
 }
 
-// An interrupted run leaves records that are not whole, and runs no passes for them.
+// An interrupted run leaves incomplete records, and times no passes.
 static void test_interrupted(void **state)
 {
     (void)state;
@@ -190,7 +190,7 @@ static void test_interrupted(void **state)
     measure(&bench, &options);
     assert_true(rg_interrupted());
     assert_above(share, 0);
-    assert_below(share, 0.5); // all rounds are 6/11 of the run, and not all were taken
+    assert_below(share, 0.5); // all rounds are 6/11 of the run, and some are missing
     for (int i = 0; i < 2; i++) {
         assert_below(bench.records[i].sample_count, bench.jobs[i].record->wanted_samples);
         assert_int_equal(bench.records[i].pass_frames, 0);
@@ -200,8 +200,8 @@ static void test_interrupted(void **state)
     rg_interrupt_watch();
 }
 
-// Wherever it comes, no sample has fewer frames than it says, and how a job is sampled is settled
-// by whole runs alone.
+// Wherever a signal comes, no sample has fewer frames than it says, and only whole runs settle how
+// a job is sampled.
 static void test_interrupted_samples(void **state)
 {
     (void)state;
@@ -221,7 +221,7 @@ static void test_interrupted_samples(void **state)
     }
 }
 
-// A device that is lost ends its own job, in whatever it does then.
+// A lost device ends its own job alone, whatever the job is doing.
 static void test_lost(void **state)
 {
     (void)state;
@@ -239,7 +239,7 @@ static void test_lost(void **state)
         rg_jobs_measure(bench.jobs, 2, &plain);
         assert_int_equal(job->record->outcome, RG_ERROR);
         assert_non_null(strstr(job->record->detail, "lost"));
-        // It is asked for no more than the sample in which it was lost.
+        // The job asks nothing more after the sample in which the device was lost.
         assert_at_most(bench.fake->waits, waits + 3);
         assert_at_most(job->record->sample_count, job->record->wanted_samples);
         assert_int_equal(well->record->outcome, RG_OK);

@@ -1,5 +1,5 @@
-// What is timed, how often and in which order, by a clock that stands still but for what the script
-// says: each number can be worked out by hand.
+// How often and in which order frames are timed, by a clock that moves only as the script says:
+// every number can be worked out by hand.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 
 // --- opening and warming up ---
 
-// What the driver does when it opens, in the first frame and in a later one stands apart.
+// The times of opening, of the first frame and of a later frame are kept apart.
 static void test_open(void **state)
 {
     (void)state;
@@ -37,7 +37,7 @@ static void test_open(void **state)
     end(&bench);
 }
 
-// The frames that a warm-up takes where the drawings behind the first take so long, and then 9 ms.
+// The number of frames of a warm-up whose drawings take these times, and 9 ms after them.
 static int warm_up_frames(const double *frames_ms, int count, double most_ms)
 {
     const struct fake_script script = {
@@ -78,7 +78,7 @@ static void test_warm_up(void **state)
 
 // --- samples ---
 
-// A sample is whole frames of 3 ms, though the frame behind another job's takes 50 ms more.
+// A sample is whole frames of 3 ms, though a frame after another job's takes 50 ms more.
 static void test_samples(void **state)
 {
     (void)state;
@@ -102,7 +102,8 @@ static void test_samples(void **state)
             assert_ms(record->samples_ms[j], frame_ms[i]);
         assert_ms(record->frame_ms.median, frame_ms[i]);
     }
-    // No frame is run before one of more than 100 ms: two samples, and those of the passes.
+    // A frame of more than 100 ms has no untimed frame before it: two samples, and those of the
+    // passes.
     int steps = 0;
     for (const char *event = fake_events(); *event; event++)
         steps += *event == 'B';
@@ -132,7 +133,7 @@ static void test_bounds_of_samples(void **state)
     }
 }
 
-// A session that is opened anew for its window is not in the time of a sample.
+// Opening a session anew for its window is not timed.
 static void test_window_is_not_timed(void **state)
 {
     (void)state;
@@ -148,8 +149,8 @@ static void test_window_is_not_timed(void **state)
     end(&bench);
 }
 
-// The load is run before the first round and behind each: nine times of eight rounds. The first
-// three took 11, 500 and 13 ms, the last three 17, 18 and 19. Samples know nothing of that.
+// The load runs before the first round and after each: nine times for eight rounds. The first three
+// took 11, 500 and 13 ms, the last three 17, 18 and 19. It does not affect the samples.
 static void test_calibration(void **state)
 {
     (void)state;
@@ -173,7 +174,7 @@ static void test_calibration(void **state)
     end(&bench);
     begin(&bench);
     add(&bench, &script, 1);
-    measure(&bench, &plain); // without a load nothing is told
+    measure(&bench, &plain); // without a load no calibration is kept
     assert_equals(bench.records[0].calibration_begin_ms, 0);
     assert_equals(bench.records[0].calibration_end_ms, 0);
     end(&bench);
@@ -181,7 +182,7 @@ static void test_calibration(void **state)
 
 // --- the order of samples ---
 
-// Reads the order of samples of one frame each, with a frame before it, from the events.
+// Reads the order of samples from the events. Each sample is one frame, with a frame before it.
 static int order_of(char *order, int most)
 {
     int count = 0;
@@ -212,7 +213,7 @@ static void measure_four(char *order, int samples)
     end(&bench);
 }
 
-// Every job once a round, and at each place of a round about as often as at another.
+// Every job has one sample a round, and each place in a round about as often as any other.
 static void test_order(void **state)
 {
     (void)state;
@@ -230,7 +231,7 @@ static void test_order(void **state)
     for (int round = 0; round < ROUNDS; round++)
         for (char letter = 'A'; letter <= 'D'; letter++)
             assert_non_null(memchr(order + (size_t)4 * (size_t)round, letter, 4));
-    int stays = 0; // as often as a place is had by chance: one of four
+    int stays = 0; // by chance a job keeps its place one time in four
     for (int i = 4; i < 4 * ROUNDS; i++)
         stays += order[i] == order[i - 4];
     assert_in_range(stays, ROUNDS / 2, ROUNDS * 3 / 2);
@@ -238,7 +239,7 @@ static void test_order(void **state)
     assert_memory_equal(order, again, sizeof(order));
 }
 
-// A job of fewer samples takes them all through the run, not at its beginning.
+// A job with fewer samples spreads them over the run.
 static void test_spread(void **state)
 {
     (void)state;
@@ -256,7 +257,7 @@ static void test_spread(void **state)
     assert_int_equal(bench.records[0].sample_count, 12);
     assert_int_equal(bench.records[1].sample_count, 6);
     assert_int_equal(order_of(order, 18), 18);
-    for (int i = 0; i < 18; i += 3) { // A A B or A B A: two rounds
+    for (int i = 0; i < 18; i += 3) { // A A B or A B A, two rounds
         int seen = 0;
         for (int j = 0; j < 3; j++)
             seen += order[i + j] == 'B';

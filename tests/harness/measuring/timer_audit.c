@@ -1,4 +1,5 @@
-// The audit tells an honest timer from a lying and from an absent one: cpu's, and two in its place.
+// The audit tells an honest timer from a lying and from an absent one: cpu's, and two that replace
+// it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,7 +41,7 @@ static void ignore_line(enum rg_log_level level, const char *line, void *user)
     (void)user;
 }
 
-static bool has_clock = true; // that the device says it has
+static bool has_clock = true; // the device says that it has one
 
 // Audits cpu with some of its functions replaced.
 static bool audit(struct rg_backend backend, struct rg_timer_audit *result)
@@ -66,7 +67,7 @@ static int find_honest(void **state)
     return rg_device_close(device) && honest ? 0 : -1;
 }
 
-// cpu's timer is wall clock: its interval holds the wall's, so the ratio is never below 1.
+// cpu's timer is the wall clock: its interval holds the wall's, so the ratio is never below 1.
 static void an_honest_timer_is_read(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// The four pieces of work that machines are laid beside each other by.
+// The four pieces of work by which machines are compared.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +10,7 @@
 #include "harness/measure/yardsticks.h"
 #include "tests/tools/expect.h"
 
-// Each is done, takes some time, and can be done again; what is copied is.
+// Each is done, takes some time, and can be done again; the copy is complete.
 static void test_all(void **state)
 {
     (void)state;
@@ -21,7 +21,7 @@ static void test_all(void **state)
             assert_above(rg_yardstick_take(&room, (enum rg_yardstick)i), 0);
     assert_memory_equal(room.from, room.to, (size_t)64 << 20);
     rg_yardsticks_close(&room);
-    rg_yardsticks_close(&room); // nothing is left of it
+    rg_yardsticks_close(&room); // a second close does nothing
 }
 
 static void test_names(void **state)

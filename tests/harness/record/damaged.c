@@ -1,5 +1,4 @@
-// Documents that are damaged in ways that nobody thought of: they are refused in one line, or taken
-// and printed, and harm nothing.
+// Documents with unforeseen damage are refused in one line, or taken and printed, and do no harm.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +8,8 @@
 #include "tests/harness/record/made.h"
 #include "tests/tools/expect.h"
 
-// A document that is taken prints, and is written as it was read; one that is not is told of in one
-// line that begins with the file.
+// Prints a document that is taken, and writes it as it was read. One that is not taken is refused
+// in one line that begins with the file.
 static bool try_document(const json_t *document)
 {
     char why[RG_WHY_SIZE];
@@ -65,8 +64,8 @@ static json_t *other_value(int kind)
 }
 enum { KINDS = 9 };
 
-// Puts every kind of value in the place of each field and element, one at a time. Of a list of what
-// is alike, the first stands for all.
+// Puts every kind of value in the place of each field and element, one at a time. The first element
+// of a list stands for all.
 static void vary(const json_t *document, json_t *at, int *refused, int *taken)
 {
     const char *key;
@@ -95,7 +94,7 @@ static void vary(const json_t *document, json_t *at, int *refused, int *taken)
     json_decref(fields);
 }
 
-// Of a cell that was left out, too.
+// Does the same to a cell that was left out.
 static void vary_left_out(const json_t *document, int *refused, int *taken)
 {
     json_t *cell = json_array_get(json_object_get(document, "cells"), 3);
@@ -117,7 +116,7 @@ static void test_other_kinds(void **state)
     json_decref(document);
 }
 
-// Whether a text is a document, and one that is taken.
+// Whether a text is a document that is taken.
 static bool try_text(const char *text, size_t size)
 {
     json_t *document = json_loadb(text, size, JSON_REJECT_DUPLICATES, NULL);
@@ -126,7 +125,7 @@ static bool try_text(const char *text, size_t size)
     return ok;
 }
 
-// Texts that were cut, or of which some bytes are others.
+// Texts that were cut, or that have changed bytes.
 static void test_bytes(void **state)
 {
     (void)state;
@@ -152,7 +151,7 @@ static void test_bytes(void **state)
     rg_result_free(&made);
 }
 
-// Texts and names in a document may not steer the terminal that it is printed on.
+// Texts and names in a document may not control the terminal that it is printed on.
 static void test_control_characters(void **state)
 {
     (void)state;

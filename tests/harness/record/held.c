@@ -1,4 +1,4 @@
-// What a journal holds of results that no device made, and where it lies.
+// The rows that a journal holds of results that no device made, and the folder of a journal.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +40,7 @@ static int teardown(void **state)
     return system(command);
 }
 
-// Rows 1 to 3, counted from 0, of devices with limits, and all well.
+// Rows 1 to 3, counted from 0, of devices with limits, all without errors.
 static struct rg_result make_rows(void)
 {
     struct rg_result result = make_result();
@@ -55,7 +55,7 @@ static struct rg_result make_rows(void)
     return result;
 }
 
-// Which of the rows a journal has: bit by bit.
+// The rows that a journal has, a bit each.
 static int rows_of(const struct rg_journal *journal)
 {
     int rows = 0;
@@ -85,7 +85,7 @@ static void test_rows(void **state)
     rg_result_free(&again);
 }
 
-// A driver's error in one cell, or in the truth's, and the row is measured again.
+// After a driver's error in one cell, or in its truth's, the row is measured again.
 static void test_errors(void **state)
 {
     (void)state;
@@ -103,9 +103,9 @@ static void test_errors(void **state)
     }
 }
 
-// --- where it lies ---
+// --- the journal's folder ---
 
-// Where a journal without a folder lies, behind the test's folder; "" where there is none.
+// The path of a journal without a given folder, after the test's folder; "" if there is none.
 static const char *place_with(const char *state_home, const char *home)
 {
     static char path[2048];
@@ -132,7 +132,7 @@ static void test_places(void **state)
     assert_int_equal(lines, 0);
     assert_string_equal(place_with(NULL, "relative"), "");
     assert_int_equal(lines, 1);
-    // A place that is too long is none, and not a part of it.
+    // A path that is too long gives no journal, and no shortened path.
     snprintf(long_home, sizeof(long_home), "%s/", folder);
     for (size_t used = strlen(long_home); used < 1530; used += 2)
         strcpy(long_home + used, "a/");
@@ -152,7 +152,7 @@ static void write_result(const char *name, const char *text)
     fclose(file);
 }
 
-// Of a folder, what ends in .json and .journal; of a file, each document.
+// A folder gives its files that end in .json and .journal; a file gives each of its documents.
 static void test_folder(void **state)
 {
     (void)state;
@@ -169,7 +169,7 @@ static void test_folder(void **state)
     assert_int_equal(stored.count, 3);
     rg_stored_free(&stored);
     assert_int_equal(lines, 0);
-    // The line of what is no JSON is the file's.
+    // An error's line is counted from the file's beginning.
     char why[RG_WHY_SIZE];
     struct rg_result found = {0};
     write_result("a.json", "\n\n{\"format\":\n 1,\n x}");

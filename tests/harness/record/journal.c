@@ -1,4 +1,4 @@
-// A table that is interrupted, and goes on: what its journal keeps, and what it does not.
+// An interrupted table goes on: which rows its journal keeps, and which it does not.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -97,8 +97,8 @@ static void begin(struct rig *rig, struct rg_result *result, int last_row)
     rg_table_begin(result, &table, &part, &rig->devices);
 }
 
-// Runs the table with its journal, which stays on disk, and returns its JSON. Other tables follow,
-// so that all rows are kept.
+// Runs the table with its journal, which stays on disk, and returns its JSON. The journal keeps all
+// rows, unless no other table follows.
 static json_t *run_table(struct rig *rig, struct rg_result *result, bool fresh)
 {
     begin(rig, result, 1);
@@ -122,7 +122,7 @@ static int resumed_rows(const json_t *json)
     return (int)json_integer_value(json_object_get(json, "resumed_rows"));
 }
 
-// Whether a note of the result's sheet says that rows are an earlier run's.
+// Whether a note of the result's sheet says that an earlier run measured rows.
 static bool tells_of_earlier_run(const struct rg_result *result)
 {
     struct rg_sheet sheet;
@@ -135,8 +135,8 @@ static bool tells_of_earlier_run(const struct rg_result *result)
     return is_told;
 }
 
-// The second row cannot be opened and is not kept; the first is, and the next run takes it to the
-// last digit.
+// The second row cannot be opened and is not kept. The first row is kept, and the next run takes it
+// to the last digit.
 static void test_resumes(void **state)
 {
     struct rig *rig = *state;
@@ -164,8 +164,8 @@ static const json_t *samples_of(const json_t *json, size_t cell)
     return json_object_get(json_object_get(cell_at(json, cell), "measured"), "samples_ms");
 }
 
-// The first row has some of its samples when the second interrupts the run, which prints none of
-// it; the next run takes those, and the others.
+// The first row has some of its samples when the second interrupts the run, which prints no row.
+// The next run takes those samples and measures the others.
 static void test_goes_on(void **state)
 {
     struct rig *rig = *state;
@@ -184,7 +184,7 @@ static void test_goes_on(void **state)
     json_t *kept = json_load_file(path, 0, NULL);
     assert_int_equal(json_array_size(json_object_get(kept, "cells")), 2);
     struct rg_stored stored = {0};
-    assert_true(rg_stored_read(&stored, path)); // which holds no row that could be printed
+    assert_true(rg_stored_read(&stored, path)); // it holds no row that could be printed
     assert_int_equal(rg_result_first_missing(&stored.results[0]), 0);
     rg_stored_free(&stored);
     begin(rig, &result, 1);
@@ -229,7 +229,7 @@ static void test_keeps_no_errors(void **state)
     json_decref(third);
 }
 
-// --- what is no journal of this run ---
+// --- files that are no journal of this run ---
 
 // The journal's JSON, of a run whose second row could not be opened.
 static json_t *make_journal(struct rig *rig, char path[128])
@@ -239,7 +239,7 @@ static json_t *make_journal(struct rig *rig, char path[128])
     rg_result_free(&result);
     snprintf(path, 128, "%s/test-quick.journal", rig->folder);
     json_t *json = json_load_file(path, 0, NULL);
-    // It is what is printed of these rows.
+    // A cell in it is the same as in the printed result.
     char *text = json_dumps(cell_at(printed, 1), RG_JSON_FLAGS);
     json_t *cell = json_loads(text, 0, NULL);
     assert_true(json_equal(cell_at(json, 1), cell));
@@ -249,7 +249,7 @@ static json_t *make_journal(struct rig *rig, char path[128])
     return json;
 }
 
-// How many rows a run of these rows takes from the journal, and with how many messages.
+// The number of rows that a run of these rows takes from the journal; it logs this many messages.
 static int taken(struct rig *rig, int last_row, int messages)
 {
     struct rg_result result;
@@ -269,14 +269,14 @@ static int taken(struct rig *rig, int last_row, int messages)
     return count;
 }
 
-// Writes the journal with a field of an object changed, and counts what is taken of it.
+// Writes the journal with a field of an object changed, and counts the rows that are taken.
 static int taken_with(struct rig *rig, json_t *journal, const char *path, json_t *object,
                       const char *field, json_t *value, int messages)
 {
     json_t *kept = json_incref(json_object_get(object, field));
     assert_non_null(kept);
     json_object_set_new(object, field, value);
-    // Without a new checksum any change is noticed; with one, the key is all that tells.
+    // The checksum shows any change. With a new checksum, only the key shows it.
     assert_int_equal(0, json_dump_file(journal, path, RG_JSON_FLAGS));
     assert_int_equal(taken(rig, 1, 1), 0);
     assert_true(rg_seal(journal));
@@ -302,7 +302,7 @@ static void test_other_runs(void **state)
     json_t *build = json_object_get(passport, "raingauge");
     assert_int_equal(taken_with(rig, json, path, build, "program", json_string("0123"), 1), 0);
     assert_int_equal(taken_with(rig, json, path, passport, "machine", json_object(), 1), 0);
-    // A row of other settings counts for nothing, whoever wrote it.
+    // A row with other settings is not taken, whoever wrote it.
     json_t *cell = json_array_get(json_object_get(json, "cells"), 1);
     assert_int_equal(taken_with(rig, json, path, cell, "set", json_string("drops=1"), 0), 0);
     assert_true(rg_seal(json));
@@ -311,7 +311,7 @@ static void test_other_runs(void **state)
     json_decref(json);
 }
 
-// Each row comes back as itself, and each of its variants.
+// Each row, and each of its variants, is taken as itself.
 static void test_rows_stay_apart(void **state)
 {
     struct rig *rig = *state;
@@ -325,7 +325,7 @@ static void test_rows_stay_apart(void **state)
         assert_true(rg_table_add_row(&second, &table, row));
         for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(&first, &at);) {
             rg_result_at(&first, at)->create_ms = ++ms;
-            rg_result_at(&first, at)->sample_count = 1; // of none nothing is kept
+            rg_result_at(&first, at)->sample_count = 1; // a record without samples is not kept
         }
     }
     rg_journal_add(journal, &first, 0, 1);
@@ -341,7 +341,7 @@ static void test_rows_stay_apart(void **state)
     rg_result_free(&second);
 }
 
-// A row that is copied over another, a number that is changed: both are sound JSON of this run.
+// A row that is copied over another, and a number that is changed, are sound JSON of this run.
 static void test_changes(void **state)
 {
     struct rig *rig = *state;
@@ -375,7 +375,7 @@ static void test_damage(void **state)
     char path[128];
     json_t *json = make_journal(rig, path);
     char *text = json_dumps(json, 0);
-    // Cut anywhere, it is no journal, and harms nothing.
+    // Cut anywhere, it is no journal, and does no harm.
     for (size_t length = 0; length < strlen(text); length += 1 + strlen(text) / 16) {
         FILE *file = fopen(path, "w");
         fwrite(text, 1, length, file);
@@ -386,7 +386,7 @@ static void test_damage(void **state)
     json_decref(json);
 }
 
-// --- where it is ---
+// --- the journal's file ---
 
 static int files_in(const char *folder)
 {
@@ -399,7 +399,7 @@ static int files_in(const char *folder)
     return count;
 }
 
-// A run that ends has nothing to keep but for tables that follow; what is done is removed.
+// A run that ends keeps its rows only if other tables follow; then they are removed.
 static void test_leaves_nothing(void **state)
 {
     struct rig *rig = *state;

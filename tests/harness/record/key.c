@@ -1,4 +1,4 @@
-// What the comparison key of a device depends on, and what it does not.
+// A device's comparison key depends on some fields of its passport and ignores others.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -27,7 +27,7 @@ static json_t *make_device(void)
                      "llvmpipe (LLVM 15.0.6, 256 bits)", "driver", "Mesa 22.3.6", "software", 1);
 }
 
-// The key after one field is made another; without a path, as it is.
+// The key after one field has changed; without a field, the key as it is.
 static void key_with(const char *group, const char *field, json_t *value, char key[RG_KEY_SIZE])
 {
     json_t *passport = make_passport(), *device = make_device();
@@ -85,7 +85,7 @@ static void what_else_changes_does_not(void **state)
     assert_changes(false, "device", "name", json_string("gl:0"));
 }
 
-// A quota that is a little another is the same to a tenth of a CPU.
+// A slightly different quota is the same to a tenth of a CPU.
 static void quotas_are_rounded(void **state)
 {
     (void)state;

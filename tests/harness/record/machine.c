@@ -1,4 +1,4 @@
-// The machine is read from Linux' files, here from copies in a folder of our own.
+// The machine is read from Linux' files, here from copies in the test's own folder.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -53,7 +53,7 @@ static void an_empty_root_is_all_unknown(void **state)
     assert_equals(machine.quota_cpus, 0);
 }
 
-// The tightest of the group and those around it holds.
+// The tightest quota of the group and of those around it counts.
 static void version_2_quotas_are_found(void **state)
 {
     (void)state;
@@ -79,7 +79,7 @@ static void version_1_quotas_are_found(void **state)
     assert_equals(read_machine().quota_cpus, 2.5);
 }
 
-// In a container the path is the host's, and the group is mounted at the top.
+// In a container the path is the host's, but the group is mounted at the top.
 static void a_containers_quota_is_found(void **state)
 {
     (void)state;
@@ -89,7 +89,7 @@ static void a_containers_quota_is_found(void **state)
     assert_equals(read_machine().quota_cpus, 2);
 }
 
-// Only what bounds the clocks is told, however it is told.
+// Only bounds of the clocks are kept, whichever file names them.
 static void clocks_are_told(void **state)
 {
     (void)state;

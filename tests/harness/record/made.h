@@ -11,11 +11,11 @@
 
 #include "harness/record/result.h"
 
-// Rows 2 to 4, of which the third is missing, in two works and variants, on two devices; of the
-// variant "bare" the second device has none. The caller frees it.
+// Rows 2 to 4, of which row 3 is missing, in two works and variants, on two devices. The second
+// device has none of the variant "bare". The caller frees it.
 struct rg_result make_result(void);
 
-// What is printed of a result in a format; the caller frees it.
+// A result printed in a format; the caller frees the text.
 char *print_result(const struct rg_result *result, int format);
 void assert_prints_same(const struct rg_result *a, const struct rg_result *b);
 

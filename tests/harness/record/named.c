@@ -12,7 +12,7 @@
 #include "harness/record/named.h"
 #include "tests/tools/expect.h"
 
-// A character that does not fit whole is left out; what is no UTF-8 is marked.
+// A character that does not fit whole is left out; bytes that are no UTF-8 are marked.
 static void test_texts(void **state)
 {
     (void)state;
@@ -36,7 +36,7 @@ static void test_texts(void **state)
     json_decref(json);
 }
 
-// What is no number is null; whole ones are integers as long as they lose nothing.
+// NaN and infinities are null; whole numbers are integers if they lose nothing.
 static void test_numbers(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Files of results: all of a set, or what was there before.
+// Files of results: either all of a set are new, or none.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -66,7 +66,7 @@ static void a_set_is_written(void **state)
     expect_text("a.md", "old a");
     struct stat st;
     char path[128];
-    const mode_t mask = umask(022); // others may read it, as any other file
+    const mode_t mask = umask(022); // others may read it, like any other file
     umask(mask);
     snprintf(path, sizeof(path), "%s/a.md", folder);
     assert_int_equal(stat(path, &st), 0);
@@ -78,7 +78,7 @@ static void a_set_is_written(void **state)
     expect_text("c.json", "new c");
 }
 
-// What others may not read they do not read once it is written anew, whatever the mask says.
+// A replaced file keeps its mode, whatever the mask says, so that nobody else can read it.
 static void what_is_replaced_keeps_its_mode(void **state)
 {
     (void)state;
@@ -96,7 +96,7 @@ static void what_is_replaced_keeps_its_mode(void **state)
     }
 }
 
-// The third does not fit: neither the first nor the second changes.
+// The third file does not fit, so neither the first nor the second changes.
 static void a_full_disk_changes_none(void **state)
 {
     (void)state;

@@ -8,7 +8,7 @@
 #include "harness/record/output.h"
 #include "tests/harness/record/made.h"
 
-// Rows 1 to 3, counted from 0, of which 2 is missing; "a=ROW b=2" is set in them.
+// Rows 1 to 3, counted from 0; row 2 is missing. Their settings are "a=ROW b=2".
 static void test_kept_rows(void **state)
 {
     (void)state;
@@ -37,7 +37,7 @@ static void test_kept_rows(void **state)
     rg_result_free(&result);
 }
 
-// Every cell is another, and each is met once.
+// Every cell is another one, and is met once.
 static void test_cells(void **state)
 {
     (void)state;
@@ -52,7 +52,7 @@ static void test_cells(void **state)
     rg_result_free(&result);
 }
 
-// Of the cells that were measured, wherever they stand.
+// Only measured cells count, wherever they stand.
 static void test_samples(void **state)
 {
     (void)state;
@@ -70,8 +70,8 @@ static void test_samples(void **state)
     rg_result_free(&result);
 }
 
-// A new file may be read by whom any other that the user writes may be, and one that is replaced by
-// whom it could be; it is whole or not there.
+// A new file gets the mode of any other that the user writes, and a replaced one keeps its mode. A
+// file is whole or missing.
 static void test_files(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Checksums of a stored table's cells: whatever is changed is noticed, and the cell is named; what
-// is made anew, and how numbers are written, is not looked at.
+// Checksums of a stored table's cells: any change is noticed, and the cell is named. Derived
+// fields, and the form of numbers, may change.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "tests/harness/record/made.h"
 #include "tests/tools/expect.h"
 
-// What is printed of a made result, read again.
+// A made result, printed and read again.
 static json_t *make_document(void)
 {
     struct rg_result made = make_result();
@@ -33,7 +33,7 @@ static void assert_taken(const json_t *document)
         fail_msg("refused: %s", why);
 }
 
-// `names`: what the line names.
+// `names`: text that the line contains.
 static void assert_refused(const json_t *document, const char *names)
 {
     char why[RG_WHY_SIZE] = "";
@@ -44,11 +44,11 @@ static void assert_refused(const json_t *document, const char *names)
         fail_msg("'%s' instead of '%s'", why, names);
 }
 
-// --- what is changed ---
+// --- changed fields ---
 
 static bool is_made_anew(const char *key)
 {
-    // The last is a fact, beside what is published of it.
+    // The last is a fact, next to its published value.
     static const char *const keys[] = {"interrupted", "shapes",   "fps",          "ms",
                                        "ms_low",      "ms_high",  "passes_share", "noise",
                                        "disturbed",   "particles"};
@@ -58,7 +58,7 @@ static bool is_made_anew(const char *key)
     return is;
 }
 
-// Another value of the same kind, as little apart as can be kept.
+// Another value of the same kind, with the smallest difference that is kept.
 static json_t *other_value(const json_t *value)
 {
     char text[4096];
@@ -75,8 +75,8 @@ static json_t *other_value(const json_t *value)
     return json_is_null(value) ? json_integer(0) : json_null();
 }
 
-// Changes each value below `at` but for what is made anew, takes each out of its object, and says
-// how much was tried. `names`: what the line has to name.
+// Changes each value below `at` except derived ones, and takes each out of its object. Returns the
+// number of changes. `names`: text that the line has to contain.
 static int change_each(const json_t *document, json_t *at, const char *names)
 {
     const char *key;
@@ -124,7 +124,8 @@ static void test_each_field(void **state)
     json_decref(document);
 }
 
-// What follows from other fields can be wrong, or missing, as in what results/keep.py keeps.
+// Fields that follow from others can be wrong, or missing, as in the tables that results/keep.py
+// keeps.
 static void test_made_anew(void **state)
 {
     (void)state;
@@ -142,9 +143,9 @@ static void test_made_anew(void **state)
     json_decref(document);
 }
 
-// --- what is written in another way ---
+// --- other writers ---
 
-// Whole numbers without a point, and others with all digits that they have in memory.
+// Writes whole numbers without a point, as another program may; the others keep all their digits.
 static void rewrite(json_t *at)
 {
     const char *key;
@@ -177,7 +178,8 @@ static void test_other_writers(void **state)
     char *text = json_dumps(document, JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
     json_t *again = json_loads(text, 0, NULL);
     assert_taken(again);
-    // The first number of a row is its axis, and passes stand as they run.
+    // The order of fields counts: the first number of a row is its axis, and passes are in the
+    // order in which they run.
     json_t *sorted;
     free(text);
     text = json_dumps(document, JSON_SORT_KEYS);
@@ -186,7 +188,7 @@ static void test_other_writers(void **state)
     free(text);
     json_decref(sorted);
     json_decref(again);
-    // What rounding makes whole when it is written was not before.
+    // Rounding may make a number whole only when it is written.
     json_object_set_new(json_object_get(document, "passport"), "else", json_real(2 - 1e-12));
     assert_true(rg_cells_seal(document));
     text = json_dumps(document, RG_JSON_FLAGS);
@@ -197,14 +199,14 @@ static void test_other_writers(void **state)
     json_decref(document);
 }
 
-// --- what is moved ---
+// --- moved cells ---
 
 static void test_moved(void **state)
 {
     (void)state;
     json_t *document = make_document(), *other = make_document();
     json_t *cells = json_object_get(document, "cells");
-    // What was measured of a cell, over that of another variant; what was counted, of another row.
+    // One cell's measurements put over another variant's, and its counted work over another row's.
     static const char *const fields[] = {"measured", "counted"};
     for (size_t i = 0; i < 2; i++) {
         json_t *cell = cell_of(document, i ? 8 : 2), *first = cell_of(document, 0);
@@ -215,12 +217,12 @@ static void test_moved(void **state)
         json_object_set_new(cell, fields[i], kept);
     }
     assert_taken(document);
-    // A cell whole, with the names of the one that it is put over.
+    // A whole cell, with the names of the one that it replaces.
     json_t *copied = json_deep_copy(cell_of(document, 0));
     json_object_set_new(copied, "device", json_string("gl"));
     json_array_set_new(cells, 1, copied);
     assert_refused(document, "cells[1] (row 2, paper, full, on gl) has a wrong checksum");
-    // A cell of another machine's.
+    // A cell of another machine's table.
     json_object_set_new(json_object_get(other, "passport"), "else", json_string("is another"));
     assert_true(rg_cells_seal(other));
     assert_taken(other);
@@ -230,7 +232,7 @@ static void test_moved(void **state)
     json_decref(document);
 }
 
-// Before there were checksums no cell had one.
+// A table from before there were checksums has none in any cell.
 static void test_missing(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Medians, their intervals and slopes, against what tables print and against known truths.
+// Medians, their intervals and slopes, compared with printed tables and with known truths.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,15 +13,14 @@
 
 #define assert_near(value, due, within) assert_true(fabs((value) - (due)) <= (within))
 
-// The numbers from 1 to count in an order that is none: ranks are their own values.
+// The numbers from 1 to count, unsorted: ranks are their own values.
 static void fill(double *samples, int count)
 {
     for (int i = 0; i < count; i++)
         samples[i] = (double)((i * 7 + 3) % count) + 1;
 }
 
-// Ranks of the sign test's interval of 95 %, as its tables print them (no count is a multiple of
-// 7).
+// Ranks of the sign test's 95 % interval, from its printed tables (no count is a multiple of 7).
 static void test_ranks(void **state)
 {
     (void)state;
@@ -54,7 +53,7 @@ static void test_few(void **state)
 
 // --- slopes ---
 
-// Sums of squares by hand: (1, 2, 4) has mean 7/3 and squares 42/9.
+// Sums of squares, by hand: (1, 2, 4) has mean 7/3 and squares 42/9.
 static void test_weights(void **state)
 {
     (void)state;
@@ -79,7 +78,7 @@ static void test_weights(void **state)
 
 enum { ROWS = 4, MOST = 15, TRIALS = 400 };
 
-// Rows whose true medians go with x to the power 0.7, with scatter that is skewed as times are.
+// Rows whose true medians follow x to the power 0.7, with scatter that is skewed like times.
 static void scatter(double samples[ROWS][MOST], int count, double width, int trial)
 {
     for (int r = 0; r < ROWS; r++)
@@ -98,9 +97,8 @@ static struct rg_interval slope_of(double samples[ROWS][MOST], int count)
     return rg_slope_resampled(points, ROWS);
 }
 
-// The interval holds the truth in 95 % of all trials or more. It is wider than 3.5 standard
-// deviations of the slopes that are found, for a normal distribution's has four, and less than
-// half as wide again.
+// The interval holds the truth in at least 95 % of trials. Its width is above 3.5 standard
+// deviations of the slopes, since a normal distribution's has four, and below six.
 static void test_coverage(void **state)
 {
     (void)state;
@@ -125,7 +123,10 @@ static void test_coverage(void **state)
 }
 
 // A machine that got slower along the axis, to the power 0.1, may have made the slope steeper by
-// that, or would have, had it got faster. One row whose load is unknown says nothing of the others.
+// that, and one that got faster may have hidden as much. A row without a load says nothing about
+// A machine that got slower along the axis, to the power 0.1, may have made the slope steeper by
+// that. One that got faster may have hidden as much. A row without a load says nothing about the
+// others.
 static void test_drift(void **state)
 {
     (void)state;
@@ -147,7 +148,7 @@ static void test_drift(void **state)
     assert_near(rg_slope_resampled(points, ROWS).low, still.low, 1e-12);
 }
 
-// A row of five samples leaves no interval; of constant samples it is the slope itself.
+// A row of five samples gives no interval; with constant samples the interval is the slope itself.
 static void test_no_interval(void **state)
 {
     (void)state;

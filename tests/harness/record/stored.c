@@ -1,5 +1,5 @@
-// Results on disk: what is read back is what was written, and what is none is refused in one line
-// that says where.
+// Results on disk are read back as they were written. A file that is no result is refused in one
+// line that says where.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "tests/harness/record/made.h"
 #include "tests/tools/expect.h"
 
-// Each record is the same to the last bit, but for what a file does not hold.
+// Each record is the same to the last bit, except for fields that a file does not hold.
 static void assert_same_records(const struct rg_result *a, const struct rg_result *b)
 {
     for (struct rg_place at = rg_result_start(a); rg_result_next(a, &at);) {
@@ -58,8 +58,8 @@ static void test_round_trip(void **state)
     rg_result_free(&found);
 }
 
-// What a budget chose comes back; a row that it left out is not missing, and one that it did not
-// is.
+// A budget's choices are read back. A row that the budget left out is not missing; another row
+// without a record is.
 static void test_budget(void **state)
 {
     (void)state;
@@ -82,7 +82,7 @@ static void test_budget(void **state)
     assert_true(!found.left_out[0] && found.left_out[1] && !found.left_out[2]);
     assert_same_records(&made, &found);
     assert_prints_same(&made, &found);
-    // Rows that are kept take their marks with them.
+    // Rows that are kept keep their marks.
     assert_true(rg_result_keep_rows(&found, 2, 3));
     assert_true(found.left_out[0] && !found.left_out[1]);
     rg_result_free(&found);
@@ -95,7 +95,7 @@ static void test_budget(void **state)
     rg_result_free(&found);
 }
 
-// So does what quick mode chose, where there is no budget.
+// Quick mode's choice of rows is read back, too.
 static void test_quick_choice(void **state)
 {
     (void)state;
@@ -117,7 +117,7 @@ static void test_quick_choice(void **state)
     rg_result_free(&found);
 }
 
-// --- what is refused ---
+// --- refusals ---
 
 static json_t *document_of_test(void)
 {
@@ -127,7 +127,7 @@ static json_t *document_of_test(void)
     return document;
 }
 
-// Of "cells.3.status", the object or array that holds the last name.
+// The object or array that holds the last name of a path such as "cells.3.status".
 static json_t *holder_of(json_t *document, const char *path, const char **last)
 {
     json_t *at = document;
@@ -223,8 +223,8 @@ static bool read_path(int expected_results)
     return ok;
 }
 
-// Several results one after the other are a file's; a file that is none, or is not there, is told
-// of.
+// A file may hold several results, one after the other. A file that is no result, or is missing, is
+// reported.
 static void test_files(void **state)
 {
     (void)state;

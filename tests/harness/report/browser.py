@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """How a browser shows the page of `raingauge report`: browser.py RAINGAUGE [FOLDER] [--axe FILE].
 
-FOLDER gets pictures of it. FILE is axe.min.js of axe-core (`npm pack axe-core`), which then looks for what keeps people out. The browser is Debian's chromium, without a network, and Debian's Python, for which python3-selenium is. Without either the test is skipped.
+FOLDER gets pictures of the page. FILE is axe.min.js of axe-core (`npm pack axe-core`), which looks for barriers to people. The
+browser is Debian's chromium, without a network, and the Python is Debian's, for which python3-selenium is made. Without either
+the test is skipped.
 """
 import copy
 import json
@@ -73,7 +75,7 @@ class Browser:
 
 
 def older_table():
-    """A table of before, in which gl took half as long, vulkan had another driver and took a tenth, and cpu failed in its first row."""
+    """An older table: gl took half as long, vulkan had another driver and took a tenth, and cpu failed in its first row."""
     record = json.loads((made.TABLES / "stuppacher-2.json").read_text(encoding="utf-8"))
     for device in record["passport"]["devices"]:
         device["key"] = "0" * 16 if device["name"] == "vulkan" else device["key"]
@@ -176,7 +178,7 @@ def check_links(browser, page):
 
 
 def check_keyboard(browser, page):
-    """what a pointer does keys do: skipping, going to a view, choosing, moving the divider; the focus stays where it was"""
+    """the keyboard does all that a pointer does: skipping, going to a view, choosing, moving the divider; the focus stays in its place"""
     browser.open(page, "#gate?gate=1&case=flow%2Fpane.new")
     problems = []
     browser.driver.execute_script("document.body.focus(); document.getElementById('skip').focus()")
@@ -200,7 +202,7 @@ def check_keyboard(browser, page):
 
 
 def check_plots(browser, page):
-    """a plot has a name, and a table with the number of each of its points, which are those of the table on top of it"""
+    """a plot has a name, and a table with the number of each of its points, which are those of the table above it"""
     problems = []
     for place in ("#table?id=creus-5.4", "#table?id=stuppacher-1", "#table?id=creus-5.3&scale=first"):
         browser.open(page, place)
@@ -221,7 +223,7 @@ def check_plots(browser, page):
 
 
 def check_hostile(browser, page):
-    """texts of records stay texts: nothing of them runs, and a reader sees them"""
+    """texts of records stay texts: no part of them runs, and a reader sees them"""
     browser.open(page, "#gate")
     text = browser.find(".cases")[0].text
     problems = [] if browser.ask("window.hacked") is None and "<script>window.hacked = 1" in text else [text[:500]]
@@ -230,7 +232,7 @@ def check_hostile(browser, page):
 
 
 def places(value, path=()):
-    """The paths of all values in a document, of arrays the first three."""
+    """The paths of all values in a document, and of the first three elements of each array."""
     inner = value.items() if isinstance(value, dict) else enumerate(value[:3]) if isinstance(value, list) else ()
     for key, part in inner:
         yield path + (key,)
@@ -238,7 +240,7 @@ def places(value, path=()):
 
 
 def changed(document, chance):
-    """A record, three of whose values are others, of other kinds too."""
+    """A record with three values changed, also to other kinds."""
     document = copy.deepcopy(document)
     for _ in range(3):
         *path, last = chance.choice([path for path in places(document) if path != ("format",)])
@@ -250,7 +252,7 @@ def changed(document, chance):
 
 
 def check_broken(browser, page):
-    """records whose values are changed by chance are shown as far as they go: no view fails, and nothing is on the console"""
+    """records with randomly changed values are shown as far as possible: no view fails, and the console stays empty"""
     documents = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in page.parent.glob("*.json")}
     documents["gate-1"]["gated"] = documents["gate-1"]["gated"][:9]
     documents["bisect"] = {"format": 1, "candidates": 3, "end": "found", "first_bad": ["a"], "judged": [{"candidate": "a", "verdict": "bad", "seconds": 1}]}
@@ -260,7 +262,7 @@ def check_broken(browser, page):
             folder, chance = pathlib.Path(name), random.Random(seed)
             for kind, document in documents.items():
                 other = changed(document, chance)
-                # Each kind is told by one field of one type, without which it is no record.
+                # A field of one type marks each kind; without it, the record is none.
                 mark = {"gate": "gated", "verify": "checks", "diff": "pairs", "doctor": "warnings", "baseline": "baseline", "bisect": "candidates"}[kind.split("-")[0]]
                 if not isinstance(other.get(mark), type(document[mark])):
                     other[mark] = document[mark]
@@ -279,7 +281,7 @@ def check_broken(browser, page):
 
 
 def check_gate(browser, page):
-    """of a gate one sees the verdict, the worst case first, an ending of tomorrow, the pixel that differs, and of many cases the worst"""
+    """a gate's view has the verdict, the worst case first, an unknown ending, the pixel that differs, and the worst of many cases"""
     browser.open(page, "#ci")
     rows = [row.text for row in browser.find(".cases tbody tr")[:5]]
     problems = [] if "4 cases of 205 fail" in browser.find(".lead")[0].text and len(browser.find(".cases tbody tr")) == 60 else [browser.find(".lead")[0].text]
@@ -294,7 +296,7 @@ def check_gate(browser, page):
 
 
 def check_changes(browser, page):
-    """against earlier records one sees which verdicts, endings and statuses are others, and which times, where they can be compared"""
+    """compared with earlier records, changed verdicts, endings and statuses are shown, and changed times if they can be compared"""
     browser.open(page, "#changes")
     cells = browser.ask("changedCells().filter(c => c.change).map(c => [c.cell.device, c.change])")
     slower, status = [c for c in cells if c[1] == "slower"], [c for c in cells if c[1] == "status"]
@@ -306,7 +308,7 @@ def check_changes(browser, page):
 
 
 def check_looks(browser, page):
-    """dark where the reader prefers it, and a print has all rows, whole tables and no controls"""
+    """the page is dark if the reader prefers it, and a print has all rows, whole tables and no controls"""
     browser.open(page)
     paper = lambda: browser.ask("getComputedStyle(document.documentElement).backgroundColor")
     browser.prefer("dark")

@@ -1,4 +1,4 @@
-"""Records and pictures that the tests of the page make, and how they run `raingauge report`."""
+"""Records and pictures for the tests of the page, and how these run `raingauge report`."""
 import json
 import pathlib
 import struct
@@ -7,7 +7,7 @@ import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 TABLES = ROOT / "results" / "tables"
-# What would end an element, begin one, or run, if a text were taken for more than a text.
+# Text that would end an element, begin one, or run, if it were taken for markup.
 HOSTILE = "</script><script>window.hacked = 1</script><img src=x onerror=\"window.hacked = 2\"><!--'\"&amp;\u2028\u202e${1}`"
 
 
@@ -16,7 +16,7 @@ def report(raingauge, folder, *words):
 
 
 def data_of(page):
-    """What a page holds, as its script reads it."""
+    """The data of a page, as its script reads it."""
     text = pathlib.Path(page).read_text(encoding="utf-8")
     begin = '<script type="application/json" id="data">'
     assert text.count(begin) == 1

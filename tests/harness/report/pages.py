@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `raingauge report` puts into its page, and what it refuses: pages.py RAINGAUGE. No browser is needed."""
+"""The contents of the page that `raingauge report` makes, and the records that it refuses: pages.py RAINGAUGE. It needs no browser."""
 import base64
 import hashlib
 import json
@@ -72,7 +72,7 @@ def check_hostile(raingauge, folder):
 
 
 def check_kinds(raingauge, folder):
-    """each kind of record is told apart, and fields that are not known are kept"""
+    """each kind of record is recognized, and unknown fields are kept"""
     records = {"gate": made.gate(), "verify": JUST, "diff": {"format": 1, "devices": [], "pairs": [], "failures": []},
                "doctor": {"format": 1, "passport": {}, "devices": [], "missing": [], "warnings": []},
                "baseline": {"format": 1, "devices": [], "baseline": []}, "claims": {"format": 1, "tables": [], "claims": [], "launches": 7},
@@ -85,7 +85,7 @@ def check_kinds(raingauge, folder):
 
 
 def check_older(raingauge, folder):
-    """a record from before there were checksums is read, and one with newer fields too"""
+    """a record from before there were checksums is read, and so is one with newer fields"""
     record = json.loads((made.TABLES / "stuppacher-2.json").read_text(encoding="utf-8"))
     for cell in record["cells"]:
         del cell["checksum"]
@@ -96,7 +96,7 @@ def check_older(raingauge, folder):
     return [] if data["records"][0]["document"]["table"] == "stuppacher-2" and data["claims"]["claims"] else [data]
 
 
-# What is refused: the files, the arguments, and what the one line matches.
+# Refused records: the files, the arguments, and a pattern of the one line.
 TABLE = (made.TABLES / "raster-1.json").read_text(encoding="utf-8")
 REFUSED = [
     ({}, [], r"report: names no records; name files or folders, such as results/tables"),
@@ -119,7 +119,7 @@ REFUSED = [
 
 
 def check_refused(raingauge, folder):
-    """what is no record, is damaged or of a newer format ends with 2 and one line, and leaves no page"""
+    """a file that is no record, is damaged or has a newer format ends with 2 and one line, and leaves no page"""
     problems = []
     for files, words, line in REFUSED:
         for name in list(folder.iterdir()):
@@ -133,7 +133,7 @@ def check_refused(raingauge, folder):
 
 
 def check_pictures(raingauge, folder):
-    """pictures stand in the page once, and come from the record's folder, the current one and below alone; other files do not"""
+    """pictures stand in the page once, and come only from the record's folder, the current one and those below; other files do not"""
     inside, outside = folder / "in", folder / "out"
     (inside / "pictures").mkdir(parents=True)
     outside.mkdir()
@@ -166,7 +166,7 @@ def brief(raingauge, folder, form, *records):
 
 
 def check_markdown(raingauge, folder):
-    """Markdown has what was found, the three worst first, is below 60 kB, and takes no text for a mark; of gates it tells the last"""
+    """Markdown has the findings, the three worst first, is below 60 kB, and takes no text for markup; the last gate stands for all"""
     endings = ["pass"] * 400 + ["regressed"] * 400 + ["differs", "crash", "inconclusive", "set-up"]
     cases = [made.case(f"{ending} {i}", ending, message="a" * 200) for i, ending in enumerate(endings)]
     made.write(folder / "a.json", made.gate(made.case("of an earlier run", "crash")))
@@ -183,7 +183,7 @@ def check_markdown(raingauge, folder):
 
 
 def check_many(raingauge, folder):
-    """of a thousand gates the last thirty are in the page, which says how many are not"""
+    """the page has the last thirty of a thousand gates, and says how many it leaves out"""
     for i in range(1000):
         made.write(folder / f"{i:04}.json", made.gate(made.case(str(i), "pass", 1.0)))
     data = page_of(raingauge, folder, ".")
@@ -192,7 +192,7 @@ def check_many(raingauge, folder):
 
 
 def check_stands(raingauge, folder):
-    """claims are counted by how they stand: verdicts go before figures of one launch, which are no verdict"""
+    """claims are counted by their standing: verdicts go before figures of one launch, which are no verdict"""
     def claim(*verdicts):
         return {"id": str(verdicts), "table": "a", "paper": "b", "words": "c", "part": None, "verdicts": [
             {"device": str(i), "verdict": verdict, "figures": figures} for i, (verdict, figures) in enumerate(verdicts)]}

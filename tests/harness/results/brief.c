@@ -1,4 +1,4 @@
-// Brief tables: what stands in their cells, how wide they are, and what stands below.
+// Brief tables: the text of their cells, their width, and the lines below them.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,8 +21,8 @@
 
 enum { ROWS = 4 };
 
-// A table of Creus, which has claims, with two works and five devices whose frame rates are those
-// of print times the device's own factor; work `ours` takes half the time.
+// A table of Creus, which has claims, with two works and five devices. A device's frame rates are
+// the printed ones times its own factor; work `ours` takes half the time.
 static const double factors[] = {2, 0.5, 0.123, 1, 0.04};
 
 static void fill(struct rg_result *result, struct rg_place at)
@@ -76,7 +76,7 @@ static void make(struct rg_result *result)
     make_of(result, 5);
 }
 
-// What is printed, until the next is.
+// The printed table, until the next one is printed.
 static const char *print(const struct rg_result *result)
 {
     static char text[1 << 16];
@@ -135,17 +135,18 @@ static void cells_are_beside_print(void **state)
     expect(text, "### paper: two textures a light\n");
     expect(text, "| culling radius, m | print | drawn |        cpu |  reference |");
     expect(text, "|                 5 |  80.0 |  0.99 |  160  2.0x | 40.0 0.50x | 9.84 0.12x |");
-    // A row that draws too many, and a cell that shows another image.
+    // A row that draws too many particles, and a cell with another image.
     expect(text, "|                20 |  20.0 |  1.30 | 40.0 other | 10.0 other |");
     expect(text, "|       fail |");
-    // What saves work is beside the printed work.
+    // Work that saves something is compared with the printed work.
     expect(text, "### ours, times paper\n");
     expect(text, "|  320  2.0x | 80.0  2.0x | 19.7  2.0x |  160  2.0x | 6.40  2.0x |");
     assert_null(strstr(text, "\033"));
     rg_result_free(&result);
 }
 
-// Noise and others stand at the number: as text where the page has room, else as one character.
+// Noise and other processes' load are marked at the number: as text if the page has room, else as
+// one character.
 static void uncertain_numbers_are_marked(void **state)
 {
     (void)state;
@@ -259,7 +260,7 @@ static void claims_and_five_lines_stand_below(void **state)
     rg_result_free(&result);
 }
 
-// Of two axes of choices each has its column.
+// Each of two axes of choices has its column.
 static void choices_tell_rows_apart(void **state)
 {
     (void)state;

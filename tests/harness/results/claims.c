@@ -1,4 +1,4 @@
-// Claims about tables: launches whose truth is known are judged so, and noise is left undecided.
+// Claims about tables: launches with a known truth get the right verdict, and noise leaves it open.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,7 +22,7 @@ static double chance(uint32_t *x)
 
 // --- made-up tables ---
 
-// A result of one device, whose row i has launches about ms[i], off by up to `noise` of it.
+// A result of one device. Row i has launches about ms[i], off by up to `noise` of it.
 static void make_result(struct rg_result *result, const double ms[ROWS],
                         const double other_ms[ROWS], double noise, uint32_t *x)
 {
@@ -67,7 +67,7 @@ static struct rg_claim claim_of(enum rg_claim_test test)
                              .last = ROWS};
 }
 
-// How often each verdict is given where rows truly take these times.
+// Counts each verdict over trials with these true times.
 static void count_verdicts(const struct rg_claim *claim, const double ms[ROWS], double noise,
                            int counts[RG_CLAIM_VERDICTS])
 {
@@ -97,7 +97,7 @@ static void test_rows_that_fall(void **state)
     (void)state;
     const struct rg_claim falls = claim_of(RG_CLAIM_FALLS), order = claim_of(RG_CLAIM_ORDER);
     EXPECT(falls, rising, 0.05, RG_CLAIM_REPRODUCED, 1);
-    EXPECT(falls, turned, 0.01, RG_CLAIM_NOT_REPRODUCED, 1); // 1.15 where 1.1 is allowed
+    EXPECT(falls, turned, 0.01, RG_CLAIM_NOT_REPRODUCED, 1); // 1.15, but 1.1 is allowed
     EXPECT(order, rising, 0.05, RG_CLAIM_REPRODUCED, 1);
     EXPECT(order, turned, 0.05, RG_CLAIM_NOT_REPRODUCED, 1);
     EXPECT(order, level, 0.05, RG_CLAIM_AT_BOUND, 0.98);
@@ -106,12 +106,12 @@ static void test_rows_that_fall(void **state)
                         deep[ROWS] = {10, 13, 11.1, 13.3, 14.6};
     EXPECT(falls, dip, 0.01, RG_CLAIM_REPRODUCED, 1);
     EXPECT(falls, deep, 0.01, RG_CLAIM_NOT_REPRODUCED, 1);
-    // The whole fall is what counts, however small a slope many launches would find.
+    // The whole fall counts, however small a slope many launches would find.
     static const double faint[ROWS] = {10, 10, 10.01, 10.01, 10.02},
                         climbs[ROWS] = {11, 10.8, 10.6, 10.4, 10.2};
     EXPECT(falls, faint, 0.001, RG_CLAIM_NOT_REPRODUCED, 1);
     EXPECT(falls, climbs, 0.01, RG_CLAIM_NOT_REPRODUCED, 1);
-    // Noise hides the order: nothing is decided wrongly.
+    // Noise hides the order, but no verdict is wrong.
     int counts[RG_CLAIM_VERDICTS];
     count_verdicts(&falls, rising, 0.9, counts);
     assert_int_equal(counts[RG_CLAIM_NOT_REPRODUCED], 0);
@@ -126,7 +126,7 @@ static void test_ratios(void **state)
     struct rg_claim ratio = claim_of(RG_CLAIM_RATIO), alike = claim_of(RG_CLAIM_ALIKE);
     ratio.least = 1.3;
     EXPECT(ratio, rising, 0.05, RG_CLAIM_REPRODUCED, 1);
-    ratio.least = 1.46; // as it is
+    ratio.least = 1.46; // the true ratio
     EXPECT(ratio, rising, 0.05, RG_CLAIM_AT_BOUND, 0.98);
     ratio.least = 1.6;
     EXPECT(ratio, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 1);
@@ -137,7 +137,7 @@ static void test_ratios(void **state)
     apart.least = 1.1;
     EXPECT(apart, level, 0.05, RG_CLAIM_NOT_REPRODUCED, 1);
     EXPECT(apart, rising, 0.05, RG_CLAIM_REPRODUCED, 1);
-    // One equivalence has two bounds.
+    // TIMES is one equivalence with two bounds.
     struct rg_claim times = claim_of(RG_CLAIM_TIMES);
     times.least = 1.4;
     times.most = 1.52;
@@ -153,7 +153,7 @@ static void test_ratios(void **state)
 
 // --- launches ---
 
-// Disturbed launches do not count, whatever they took; the reason says how many there were.
+// Disturbed launches do not count, whatever their times. The reason gives their number.
 static void test_disturbed_launches(void **state)
 {
     (void)state;
@@ -164,7 +164,7 @@ static void test_disturbed_launches(void **state)
     make_result(&result, rising, level, 0.01, &x);
     struct rg_record *last = rg_result_at(&result, (struct rg_place){.row = ROWS - 1});
     for (int i = 0; i < 12; i++)
-        last->launches[i].ms = 1; // as fast as no other
+        last->launches[i].ms = 1; // faster than any other
     assert_int_equal(rg_claim_judge(&ratio, &result, 0).verdict, RG_CLAIM_UNDECIDED);
     for (int i = 0; i < 12; i++)
         last->launches[i].others = 0.051;
@@ -179,7 +179,7 @@ static void test_disturbed_launches(void **state)
     rg_result_free(&result);
 }
 
-// A launch counts if it has all cells of the claim.
+// A launch counts only if it has all cells of the claim.
 static void test_launches_that_are_not_whole(void **state)
 {
     (void)state;
@@ -194,14 +194,14 @@ static void test_launches_that_are_not_whole(void **state)
     assert_int_equal(j.verdict, RG_CLAIM_UNDECIDED);
     assert_int_equal(j.launches, 23);
     assert_int_equal(j.more, 1);
-    last->launches[22].number = LAUNCHES; // the other row's 192nd goes with it
+    last->launches[22].number = LAUNCHES; // the other row's launch 192 counts with it
     last->launch_count = 24;
     last->launches[23].number = LAUNCHES + 1;
     assert_int_equal(rg_claim_judge(&ratio, &result, 0).more, 1);
     rg_result_free(&result);
 }
 
-// An open verdict says how many more launches would probably decide it, and how long they take.
+// An open verdict says how many more launches would probably decide it, and how long these take.
 static void test_what_an_open_verdict_would_take(void **state)
 {
     (void)state;
@@ -225,7 +225,7 @@ static void test_what_an_open_verdict_would_take(void **state)
     rg_result_free(&result);
 }
 
-// Without launches there is no verdict, but what the medians say.
+// Without launches there is no verdict, only what the medians show.
 static void test_one_launch(void **state)
 {
     (void)state;
@@ -250,7 +250,7 @@ static void test_one_launch(void **state)
     }
 }
 
-// A bound of ours stands in the reason with the value at which the verdict turns.
+// If a bound is our own, the reason says so and at which value the verdict turns.
 static void test_bounds_of_ours(void **state)
 {
     (void)state;
@@ -277,7 +277,7 @@ static void test_variants_rates_and_powers(void **state)
     EXPECT(faster, level, 0.05, RG_CLAIM_AT_BOUND, 0.98);
     rate.least = 60;
     EXPECT(rate, rising, 0.05, RG_CLAIM_REPRODUCED, 1);
-    rate.least = 1000 / 14.6; // as it is
+    rate.least = 1000 / 14.6; // the true rate
     EXPECT(rate, rising, 0.05, RG_CLAIM_AT_BOUND, 0.98);
     rate.least = 75;
     EXPECT(rate, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 1);
@@ -285,7 +285,7 @@ static void test_variants_rates_and_powers(void **state)
     static const double valley[ROWS] = {12, 11, 9, 9, 12};
     optimum.knee = 3;
     EXPECT(optimum, valley, 0.05, RG_CLAIM_AT_BOUND, 0.98); // row 4 is as fast
-    optimum.until = 4;                                      // either of the two
+    optimum.until = 4;                                      // either row may be the fastest
     EXPECT(optimum, valley, 0.05, RG_CLAIM_REPRODUCED, 1);
     optimum.knee = optimum.until = 2;
     EXPECT(optimum, valley, 0.05, RG_CLAIM_NOT_REPRODUCED, 1);
@@ -293,7 +293,7 @@ static void test_variants_rates_and_powers(void **state)
     struct rg_claim crosses = claim_of(RG_CLAIM_CROSSES); // the other variant takes 10
     static const double falling[ROWS] = {12, 11, 9, 9, 9};
     crosses.knee = 3;
-    EXPECT(crosses, falling, 0.05, RG_CLAIM_NOT_SEEN, 1); // print has both alike, and says neither
+    EXPECT(crosses, falling, 0.05, RG_CLAIM_NOT_SEEN, 1); // in print they are alike
     struct rg_claim slowest = claim_of(RG_CLAIM_SLOWEST);
     static const double peak[ROWS] = {10, 11, 14, 11, 12};
     slowest.knee = 3;
@@ -306,11 +306,11 @@ static void test_variants_rates_and_powers(void **state)
     power.most = -1.8;
     EXPECT(power, square, 0.05, RG_CLAIM_REPRODUCED, 1);
     EXPECT(power, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 1);
-    power.least = -2; // as it is
+    power.least = -2; // the true power
     EXPECT(power, square, 0.02, RG_CLAIM_AT_BOUND, 0.98);
 }
 
-// --- what is not judged ---
+// --- claims that are not judged ---
 
 static void draw_particles(struct rg_record *r, double printed, double drawn)
 {
@@ -329,15 +329,15 @@ static void test_rows_that_are_missing(void **state)
                     ratio = claim_of(RG_CLAIM_RATIO);
     make_result(&result, rising, level, 0.01, &x);
     assert_int_equal(rg_claim_judge(&falls, &result, 0).rows, ROWS);
-    rate.least = 99; // does not hold in any row
+    rate.least = 99; // holds in no row
     ratio.least = 1.3;
     rg_result_drop_row(&result, 2);
-    // Rows that are left out leave no verdict, even where those that are there would refute it.
+    // A claim with missing rows gets no verdict, even if the others would refute it.
     assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_NOT_SEEN);
     assert_int_equal(rg_claim_judge(&rate, &result, 0).verdict, RG_CLAIM_NOT_SEEN);
     assert_int_equal(rg_claim_judge(&rate, &result, 0).figures, RG_FIGURES_NONE);
     assert_int_equal(rg_claim_judge(&ratio, &result, 0).verdict,
-                     RG_CLAIM_REPRODUCED); // of two rows
+                     RG_CLAIM_REPRODUCED); // it needs two rows only
     falls.other = "none";
     assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_NOT_SEEN);
     rg_result_at(&result, (struct rg_place){.row = 0})->outcome = RG_ERROR;
@@ -357,8 +357,8 @@ static void test_other_work(void **state)
     struct rg_result result;
     uint32_t x = 5;
     const struct rg_claim falls = claim_of(RG_CLAIM_FALLS);
-    // A row between that is other work is left out, however slow it is; one that the claim needs
-    // is not.
+    // A row in between with other work is left out, however slow it is. A row that the claim needs
+    // makes the whole claim other work.
     make_result(&result, rising, level, 0.01, &x);
     struct rg_record *between = rg_result_at(&result, (struct rg_place){.row = 3});
     slow_down(between, 100);
@@ -384,7 +384,7 @@ static void test_other_work(void **state)
     rg_result_free(&result);
 }
 
-// A rate is claimed of the whole work: not of smaller pictures, nor of quick settings.
+// A rate is claimed for the whole work, not for smaller pictures or quick settings.
 static void test_rates_of_less_work(void **state)
 {
     (void)state;
@@ -427,9 +427,9 @@ static void test_a_knee_and_print(void **state)
     rg_result_drop_row(&result, 1);
     assert_int_equal(rg_claim_judge(&knee, &result, 0).verdict, RG_CLAIM_NOT_SEEN);
     struct rg_claim alike = claim_of(RG_CLAIM_ALIKE);
-    alike.most = 1.02; // print says 1.04
+    alike.most = 1.02; // print has 1.04
     assert_true(rg_claim_judge(&alike, &result, 0).print_contradicts);
-    // However the rows were measured, or not.
+    // Print does not depend on how the rows were measured.
     rg_result_at(&result, (struct rg_place){.row = 0})->outcome = RG_ERROR;
     assert_true(rg_claim_judge(&alike, &result, 0).print_contradicts);
     alike.most = 1.2;
@@ -448,7 +448,7 @@ static void test_a_knee_and_print(void **state)
     assert_true(rg_claim_judge(&slowest, &result, 0).print_contradicts);
     struct rg_claim crosses = claim_of(RG_CLAIM_CROSSES);
     crosses.knee = 3;
-    assert_false(rg_claim_judge(&crosses, &result, 0).print_contradicts); // it is alike throughout
+    assert_false(rg_claim_judge(&crosses, &result, 0).print_contradicts); // print is alike
     rg_result_at(&result, (struct rg_place){.row = 2, .variant = 1})->published[0].number = 200;
     assert_true(rg_claim_judge(&crosses, &result, 0).print_contradicts);
     rg_result_free(&result);

@@ -1,5 +1,5 @@
-// The thesis's two cameras: how many particles the rows of its tables draw from where ours stand.
-// What is counted is what a frame selects, without a device.
+// The thesis's two cameras: how many particles the rows of its tables draw from where our cameras
+// stand. The test counts the particles that a frame selects, without a device.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@
 #include "core/techniques/technique.h"
 #include "harness/tables/papers/papers.h"
 
-// No particle's splash reaches farther across the fall than this, in the tables.
+// In the tables no particle's splash reaches farther than this across the fall.
 #define REACH_M 0.046
 
 static struct streaks_settings *settings_of(const struct rg_table *table, int row)
@@ -40,7 +40,7 @@ static struct rg_rain_space space_of(const struct streaks_settings *set)
     return space;
 }
 
-// Rows that follow each other may have the same particles: they are kept.
+// The packets of the last row: the next row may have the same ones.
 static struct streaks_packets *kept;
 static double kept_height_m;
 static int kept_size;
@@ -103,7 +103,8 @@ static int64_t count_of(const struct rg_table *table, int row)
     return particles;
 }
 
-// Rows with an x in `others` cannot be met from this camera, and are other work.
+// Rows with an x in `others` are other work: from this camera they cannot draw as many particles as
+// printed.
 static void check_table(const char *id, const char *others)
 {
     const struct rg_table *table = rg_table_find(id);

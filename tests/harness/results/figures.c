@@ -1,4 +1,4 @@
-// Figures: each has a name of its own, a caption, and settings that its technique takes.
+// Figures: each has its own name, a caption, and settings that its technique takes.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +10,7 @@
 #include "harness/tables/figures/figures.h"
 #include "tests/tools/expect.h"
 
-// Those that are to be drawn anew.
+// The figures to be drawn anew.
 static const char *const creus[] = {"4.1", "4.4", "4.11", "4.13", "4.14", "4.15", "4.16", "5.2",
                                     "5.3", "5.4", "5.5",  "5.6",  "5.7",  "5.8",  NULL};
 

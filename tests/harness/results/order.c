@@ -1,5 +1,5 @@
-// The probabilities behind verdicts: orders of two sets are those of an enumeration, or of a count
-// of all ways, and what print does not tell is its rounding and its scatter.
+// The probabilities in verdicts: orders of two sets match an enumeration or a count of all ways.
+// Print's margin is its rounding and its scatter.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,8 +16,8 @@
 
 // --- the order of two sets ---
 
-// Of all ways to choose which of m + n ranks are the first set's: the share in which at least
-// `pairs` pairs have the first below.
+// The probability that at least `pairs` pairs have the first set's value below the second's, over
+// all ways to give m of m + n ranks to the first set.
 static double enumerated(int m, int n, int pairs)
 {
     int ways = 0, as_far = 0;
@@ -25,7 +25,7 @@ static double enumerated(int m, int n, int pairs)
         int size = 0, below = 0;
         for (int i = 0; i < m + n; i++) {
             size += set >> i & 1;
-            below += set >> i & 1 ? 0 : size; // this one of the other set has these below it
+            below += set >> i & 1 ? 0 : size; // this rank of the other set has these below it
         }
         ways += size == m;
         as_far += size == m && below >= pairs;
@@ -54,14 +54,13 @@ static void test_order_by_enumeration(void **state)
     for (int m = 1; m <= 6; m++)
         for (int n = 1; n <= 6; n++)
             check_drawn(m, n);
-    // What is kept from the question before is of other counts, in turn of the first or the second
-    // set.
+    // The kept counts of the last question are of another m or another n, in turn.
     for (int n = 1; n <= 6; n++)
         for (int m = 1; m <= 6; m++)
             check_drawn(m, n);
 }
 
-// A pair that is equal counts half, and half of a pair is none.
+// An equal pair counts half, and half of a pair is rounded down.
 static void test_ties(void **state)
 {
     (void)state;
@@ -70,8 +69,8 @@ static void test_ties(void **state)
     assert_below(fabs(rg_order_probability(same, 2, 1, same, 2) - enumerated(2, 2, 2)), 1e-12);
 }
 
-// Beyond 20 samples the normal distribution stands in: of samples that are alike, as many are as
-// far apart by chance as it says.
+// Beyond 20 samples the normal distribution is used: equal samples are as far apart as often as it
+// says.
 static void test_many_samples(void **state)
 {
     (void)state;
@@ -91,8 +90,8 @@ static void test_many_samples(void **state)
     assert_in_range(often, 1900, 2100);
 }
 
-// In how many ways m of m + n ranks can be chosen so that so many pairs are in order, by m - 1 and
-// n or m and n - 1: the highest rank is of the one set or of the other.
+// The number of ways to choose m of m + n ranks with a given number of pairs in order. The highest
+// rank belongs to one set or the other, which leaves m - 1 and n, or m and n - 1.
 enum { MANY = 21, MOST_PAIRS = MANY * MANY };
 
 static double ways[MANY + 1][MANY + 1][MOST_PAIRS + 1];
@@ -107,7 +106,7 @@ static void count_ways(void)
                                                (u >= m ? ways[m][n - 1][u - m] : 0);
 }
 
-// Within 0.003 of the exact probability, of which half a pair is 0.005 in the middle.
+// Within 0.003 of the exact probability; half a pair is 0.005 in the middle.
 static void test_many_are_nearly_exact(void **state)
 {
     (void)state;
@@ -139,7 +138,7 @@ static void test_a_factor(void **state)
     assert_above(rg_order_probability(low, 5, 3, high, 5), 0.99);
 }
 
-// --- what print does not tell ---
+// --- the margin of print ---
 
 static void test_rounding(void **state)
 {
@@ -153,29 +152,29 @@ static void test_rounding(void **state)
                 !rg_margin_orders(1, NAN));
 }
 
-// Print that is a line but for one row off by `off` among five, whose neighbours see half of it.
+// The margin of printed numbers on a line, with one of five rows off by `off`. Its neighbours see
+// half of that.
 static double margin_of_line(double off)
 {
     struct rg_slope_point points[5];
     double weights[5], printed[5];
     for (int i = 0; i < 5; i++) {
         points[i] = (struct rg_slope_point){.x = i};
-        printed[i] =
-            123.4567 * exp(-i + (i == 2 ? off : 0)); // seven digits: no rounding to speak of
+        printed[i] = 123.4567 * exp(-i + (i == 2 ? off : 0)); // seven digits: hardly any rounding
     }
     rg_slope_weights(points, 5, weights);
     return rg_margin_slope(points, weights, printed, 5);
 }
 
-// Rows 2 to 4 are off by 0.1, 0.2 and 0.1 of a line, each seen with 1 + 1/4 + 1/4: the middle is
-// 0.1 / 1.5^0.5, and weights have squares that add up to 1/10.
+// Rows 2 to 4 are off by 0.1, 0.2 and 0.1 of a line, each seen with 1 + 1/4 + 1/4. So the median is
+// 0.1 / 1.5^0.5, and the squares of the weights add up to 1/10.
 static void test_scatter_of_print(void **state)
 {
     (void)state;
     const double sigma = 0.1 / sqrt(1.5) / 0.6745;
     assert_below(fabs(margin_of_line(0.2) - 1.96 * sigma / sqrt(10)), 1e-4);
     assert_below(margin_of_line(0), 1e-4);
-    // Rounding alone, of two rows: half of 10 and of 20 either way, evenly.
+    // Rounding alone, of two rows: up to half a unit of 10 and of 20 either way, uniformly.
     const struct rg_slope_point two[] = {{.x = 0}, {.x = 1}};
     const double printed[] = {20, 10}, weights[] = {-1, 1};
     assert_below(fabs(rg_margin_slope(two, weights, printed, 2) -

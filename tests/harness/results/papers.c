@@ -1,5 +1,5 @@
-// Published tables: their numbers are those of the papers' CSV files, and their settings are taken.
-// papers FOLDER reads the files there.
+// Published tables: their numbers are those of the papers' CSV files, and their techniques take
+// their settings. `papers FOLDER` reads the files there.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -52,7 +52,7 @@ static void compare_value(const struct rg_table *table, int row, const char *nam
                  text);
 }
 
-// A field of the file is in the table under the same name, and nothing else is.
+// Each field of the file is in the table under the same name, and the table has no others.
 static void compare_row(const struct rg_table *table, int row, char *names[], char *fields[],
                         int count)
 {
@@ -105,7 +105,7 @@ static void check_print(const struct rg_record *record)
     assert_at_most(low, high);
 }
 
-// A key that is a parameter's name is what the row sets it to, in full.
+// If a key has a parameter's name, its value is the row's setting of it, at full length.
 static void check_keys(const struct rg_table *table, int row, const void *settings)
 {
     const struct rg_technique *technique = rg_technique_find(table->technique);
@@ -123,8 +123,8 @@ static void check_keys(const struct rg_table *table, int row, const void *settin
     }
 }
 
-// Every cell's assignments are ones that its technique takes, in either length, the truth's over
-// them; and its record holds them whole.
+// A cell's technique takes its assignments, in either length, with the truth's added. Its record
+// holds all of them.
 static void check_cells(const struct rg_table *table, bool full)
 {
     static struct rg_device device = {.info = {.name = "cpu"}};
@@ -171,8 +171,8 @@ static void test_settings(void **state)
     }
 }
 
-// Works are those that --work chooses among: what was printed, another reading of that, what saves
-// work and says so, and what was printed by the API's queries, which some devices cannot do.
+// The works that --work chooses among: the printed work, another reading of it, and work that saves
+// something and says so. Printed work by the API's queries, which some devices lack, is one, too.
 static void check_work(const struct rg_table_work *work)
 {
     const bool is_ours = !strcmp(work->name, "ours"), is_first = !strcmp(work->name, "paper");
@@ -197,15 +197,15 @@ static void test_works(void **state)
             assert_int_equal(w == 0, !strcmp(works[w].name, "paper"));
             for (int k = 0; k < w; k++)
                 assert_string_not_equal(works[w].set, works[k].set);
-            if (!strcmp(works[w].name, "reading")) // of several, each says which it is
+            if (!strcmp(works[w].name, "reading")) // each of several says which it is
                 assert_true(works[0].reading && strcmp(works[0].reading, works[w].reading) != 0);
         }
     }
     assert_above(found, 0);
 }
 
-// Work `paper` of each published table of which something can be saved is whole: no row of it has a
-// setting that saves work.
+// Work `paper` of each published table with possible savings is whole: no row has a setting that
+// saves work.
 static void test_work_of_print(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Tables from their settings to their results, and what the tables of a command keep.
+// Tables from their settings to their results, and the sessions and pictures that a command keeps.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -61,14 +61,14 @@ static void keep_quiet(enum rg_log_level level, const char *line, void *user)
     (*(int *)user)++;
 }
 
-// A table that is measured on cpu.
+// A table measured on cpu.
 struct rig {
     struct rg_devices devices;
     struct rg_kept kept;
     struct rg_result result;
 };
 
-// The device's own functions; and what reads images in place of its own, NULL: nothing.
+// The device's own functions, and the one that reads images instead of its own; NULL: its own.
 static const struct rg_backend *honest;
 static struct rg_backend changed;
 static bool (*image_read)(struct rg_image *image, int layer, int level, void *texels);
@@ -80,7 +80,7 @@ static bool read_another_image(struct rg_image *image, int layer, int level, voi
     return ok;
 }
 
-// Returns how many messages there were.
+// Returns the number of messages.
 static int measure(struct rig *rig, const struct rg_table *of, int count)
 {
     int messages = 0;
@@ -111,7 +111,7 @@ static const struct rg_record *record_at(const struct rig *rig, int row, int var
     return rg_result_at(&rig->result, (struct rg_place){.row = row, .variant = variant});
 }
 
-// A cell that shows another image than cpu:reference is not timed.
+// A cell whose image differs from cpu:reference's is not timed.
 static void test_another_image(void **state)
 {
     (void)state;
@@ -127,7 +127,7 @@ static void test_another_image(void **state)
     finish(&rig);
 }
 
-// How many frames come before the image is compared, where the table says so, and where not.
+// The number of frames before the image is compared, with and without a number in the table.
 static void test_check_frames(void **state)
 {
     (void)state;
@@ -143,7 +143,7 @@ static void test_check_frames(void **state)
     }
 }
 
-// A row whose file is missing takes no other row with it.
+// A row with a missing file does not end other rows.
 static void test_table(void **state)
 {
     (void)state;
@@ -153,7 +153,7 @@ static void test_table(void **state)
     for (int row = 0; row < 3; row++) {
         for (int variant = 0; variant < 2; variant++) {
             const struct rg_record *record = record_at(&rig, row, variant);
-            // The variant's sky goes over the row's file.
+            // The variant's sky replaces the row's file.
             const bool broken = row == 1 && variant == 1;
             assert_int_equal(record->outcome, broken ? RG_ERROR : RG_OK);
             assert_int_equal(record->truth_error.outcome, broken ? RG_ERROR : RG_OK);
@@ -163,7 +163,7 @@ static void test_table(void **state)
     const struct rg_record *broken = record_at(&rig, 1, 1);
     if (!strstr(broken->detail, "/nonexistent.exr"))
         fail_msg("the file is not named: %s", broken->detail);
-    // Both assignments of a row are taken, the number of texels and that of drops.
+    // Both assignments of a row are taken: the number of texels and that of drops.
     const int64_t small = record_at(&rig, 0, 1)->counters[0].value;
     const int64_t few = record_at(&rig, 2, 1)->counters[0].value;
     assert_equals(small, 40);
@@ -171,8 +171,8 @@ static void test_table(void **state)
     finish(&rig);
 }
 
-// Of a row without drops the variant into which none fall shows nothing, and is not timed; the
-// other is.
+// A row has no drops: the variant without rain shows nothing and is not timed; the other variant is
+// timed.
 static void test_no_rain(void **state)
 {
     (void)state;
@@ -188,15 +188,15 @@ static void test_no_rain(void **state)
     finish(&rig);
 }
 
-// --- the rows of a table that are measured ---
+// --- the measured rows of a table ---
 
-// Of settings that no cell can be opened with, so that nothing takes time.
+// No cell can be opened with these settings, so nothing takes time.
 #define ROW                                                                                        \
     {                                                                                              \
         "resolution_px=nonsense", {0}, "environment"                                               \
     }
 static const struct rg_table_row many[] = {ROW, ROW, ROW, ROW, ROW, ROW, ROW, ROW};
-// Its name is that of a table whose claims need row 7.
+// A table of this name has claims that need row 7.
 static const struct rg_table long_table = {
     .id = "feng-1",
     .technique = "flow",
@@ -213,7 +213,7 @@ static const struct rg_table long_table = {
     .note = "a note",
 };
 
-// Those that there are, a digit each.
+// The rows that the result has, a digit each.
 static int keep_rows(const struct rg_result *result, const void *user)
 {
     char *had = *(char *const *)user;
@@ -224,7 +224,7 @@ static int keep_rows(const struct rg_result *result, const void *user)
     return 1;
 }
 
-// Asks for these rows, 0: for none, and expects others.
+// Asks for these rows, 0: for none, and expects `due`.
 static void expect_rows(int first, int last, bool full, const char *due)
 {
     const struct rg_table *const tables[] = {&long_table};
@@ -251,7 +251,7 @@ static void test_quick_rows(void **state)
     expect_rows(0, 0, true, "12345678");
 }
 
-// --- tables of textures, and what a device cannot hold ---
+// --- tables of textures, and sizes that a device cannot hold ---
 
 static const struct rg_table_row levels[] = {
     {"", {0, 16, 16}, "environment"},
@@ -309,7 +309,7 @@ static void test_unsupported(void **state)
     finish(&rig);
 }
 
-// --- what the cells of a table share ---
+// --- the common objects of a table's cells ---
 
 static void test_kept(void **state)
 {
@@ -323,7 +323,7 @@ static void test_kept(void **state)
     assert_ptr_equal(rg_kept_device(&kept, "cpu:reference"), reference);
     void *settings = settings_of(CHEAP " drops=20"), *others = settings_of(CHEAP " drops=30");
     struct rg_subject subject = {rg_technique_find("flow"), settings, 32, 32};
-    // One session a device, for as long as the same is asked for.
+    // Each device has one session, as long as the same subject is asked for.
     struct rg_session *first = rg_kept_open(&kept, cpu, &subject);
     const int64_t bytes = rg_device_work(cpu)->live_bytes;
     assert_ptr_equal(rg_kept_open(&kept, cpu, &subject), first);

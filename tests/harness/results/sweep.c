@@ -1,4 +1,4 @@
-// Sweeps: what axes say, and the rows that they make.
+// Sweeps: the values of axes, and the rows that they make.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Verdicts on launches whose truth is known: writes results as raingauge stores them, and has `raingauge table` judge them.
+"""Verdicts on launches with a known truth: writes results as raingauge stores them, and lets `raingauge table` judge them.
 
-    verdicts.py RAINGAUGE    results/tables of the source are what results are made after
+    verdicts.py RAINGAUGE    the results are made after results/tables of the source
 
-Times scatter as those of machines do: most are a little longer than the shortest, and a few much longer. A verdict is wrong
-where it says the opposite of the truth. launching/courses.c counts wrong verdicts by the ten thousand; this looks
-whether all of it reaches the command line. Prints TAP.
+Times scatter like those of machines: most are a little longer than the shortest, and a few much longer. A verdict is wrong if it
+says the opposite of the truth. launching/courses.c counts wrong verdicts by the ten thousand; this script checks that all of it
+reaches the command line. Prints TAP.
 """
 import copy
 import csv
@@ -27,7 +27,7 @@ YES, NO, OPEN, BOUND = "reproduced", "not reproduced", "undecided", "at the boun
 
 
 class Made:
-    """A table's results on devices that there are not, every row at the given times, and what is said of them."""
+    """A table's results on made-up devices, with every row at the given times, and the verdicts on them."""
 
     def __init__(self, raingauge, table):
         self.raingauge, self.table = raingauge, table
@@ -46,7 +46,7 @@ class Made:
                 cell["facts"]["particles"] = cell["published"]["particles"]
 
     def extend(self, rows):
-        """Has so many rows, those that were not measured like the last that was."""
+        """Adds rows up to this number, as copies of the last measured one."""
         last = max(cell["row_number"] for cell in self.record["cells"])
         self.record["cells"] += [dict(copy.deepcopy(cell), row_number=row) for row in range(last + 1, rows + 1)
                                  for cell in self.record["cells"] if cell["row_number"] == last]
@@ -58,7 +58,7 @@ class Made:
         middle = math.log(2)  # median of the exponential noise
         for cell in self.record["cells"]:
             ms = ms_of(cell["row_number"], cell["variant"])
-            # Some are five times as far from the median, on the same side, so the median stays.
+            # Some are five times as far from the median, on the same side, so that the median stays.
             offs = [noise * (chance.expovariate(1) - middle) * (5 if chance.random() < 0.05 else 1) for _ in range(samples + LAUNCHES)]
             cell["measured"]["samples_ms"] = [ms * math.exp(off) for off in offs[:samples]]
             cell["measured"]["launches"] = [[i + 1, ms * math.exp(off), 0, 0, 0.5] for i, off in enumerate(offs[samples:])]
@@ -78,14 +78,14 @@ class Made:
         return done.stdout
 
     def verdicts(self, words):
-        """Of the claim that begins so, by device."""
+        """The verdicts on the claim that begins with these words, by device."""
         for row in csv.DictReader(io.StringIO(self.run("--claims", "--format", "csv"))):
             if row["claim"].strip('"').startswith(words):
                 return list(row.values())[3:]
         raise RuntimeError("no claim '%s'" % words)
 
     def count(self, words, ms_of, noise, samples=15, files=FILES):
-        """How often each verdict is given."""
+        """Counts each verdict."""
         told = []
         for seed in range(files):
             self.times(ms_of, noise, samples, "%s %s %d" % (words, noise, seed))
@@ -94,17 +94,17 @@ class Made:
 
 
 def settled(counts, verdict):
-    """Problems where a truth that noise does not hide is not found nearly always."""
+    """Problems if a truth that noise does not hide is not found nearly always."""
     return [] if counts[verdict] >= TRIALS - MOST_WRONG else ["settled, of %d due %s: %s" % (TRIALS, verdict, counts)]
 
 
 def hidden(counts, wrong):
-    """Problems where noise hides the truth, and one verdict of 200 or more is wrong."""
+    """Problems if noise hides the truth, and more than one verdict of 200 is wrong."""
     return [] if sum(counts[verdict] for verdict in wrong) <= TRIALS / 200 else ["hidden, of %d wrong are %s: %s" % (TRIALS, wrong, counts)]
 
 
 def at_bound(counts):
-    """Problems where the truth is the bound itself, and that is not said of nearly all."""
+    """Problems if the truth is the bound itself, and nearly all verdicts do not say so."""
     return [] if counts[BOUND] >= TRIALS - MOST_WRONG else ["at the bound, of %d: %s" % (TRIALS, counts)]
 
 
@@ -116,7 +116,7 @@ FALLING, TURNED, LEVEL = [10, 11, 12.1, 13.3, 14.6], [10, 12, 10, 13.3, 14.6], [
 
 
 def check_falls(raingauge):
-    """rows that get slower do, rows of which one does not do not, and what noise hides is left open"""
+    """rows that get slower confirm the claim, rows of which one does not refute it, and noise leaves it open"""
     made, words = Made(raingauge, "feng-2"), "varies with ... system"
     return (settled(made.count(words, by_row(FALLING), 0.02), YES) + settled(made.count(words, by_row(TURNED), 0.02), NO) +
             hidden(made.count(words, by_row(FALLING), 0.5), [NO]) + hidden(made.count(words, by_row(TURNED), 1), [YES]) +
@@ -124,16 +124,16 @@ def check_falls(raingauge):
 
 
 def check_order(raingauge):
-    """rows in the order of print are, others are not, and what noise hides is left open; rows that print has equal are in none"""
+    """rows in the order of print confirm the claim, others refute it, and noise leaves it open; rows equal in print have no order"""
     made, words = Made(raingauge, "stuppacher-1"), "rates by model"
-    ordered, turned = [10, 13, 13.1, 12.5, 11], [10, 13, 13.1, 12.5, 9]  # the paper prints equal values for Buddha and the dragon
+    ordered, turned = [10, 13, 13.1, 12.5, 11], [10, 13, 13.1, 12.5, 9]  # print has Buddha and the dragon equal
     return (settled(made.count(words, by_row(ordered), 0.005), YES) + settled(made.count(words, by_row(turned), 0.02), NO) +
             hidden(made.count(words, by_row(ordered), 0.5), [NO]) + hidden(made.count(words, by_row(turned), 1), [YES]) +
             at_bound(made.count(words, by_row(LEVEL), 0.02)))
 
 
 def check_ratio(raingauge):
-    """a ratio that is more than claimed, less, or just that"""
+    """a ratio that is above the claimed one, below it, or equal to it"""
     made, words = Made(raingauge, "feng-2"), "20,000 drops"
     of = lambda ratio: by_row([10, 15, 20, 30, 10 * ratio])
     return (settled(made.count(words, of(3.8), 0.02), YES) + settled(made.count(words, of(3.2), 0.02), NO) +
@@ -142,7 +142,7 @@ def check_ratio(raingauge):
 
 
 def check_rate(raingauge):
-    """a frame rate that is more than claimed, less, or just that"""
+    """a frame rate that is above the claimed one, below it, or equal to it"""
     made, words = Made(raingauge, "chin-timing"), "The simulation runs"
     of = lambda fps: lambda row, variant: 1000 / fps
     return (settled(made.count(words, of(32), 0.02), YES) + settled(made.count(words, of(28), 0.02), NO) +
@@ -151,7 +151,7 @@ def check_rate(raingauge):
 
 
 def check_size(raingauge):
-    """a frame rate of smaller pictures bears out none of whole ones, and how rows compare is judged at any size"""
+    """a frame rate of smaller pictures confirms no claim about whole ones, and comparisons of rows are judged at any size"""
     rate, ratio = Made(raingauge, "chin-timing"), Made(raingauge, "feng-2")
     problems = []
     for divisor, told in ((1, {YES}), (2, {"other work"}), (4, {"other work"})):
@@ -165,12 +165,12 @@ def check_size(raingauge):
 
 
 def check_variants(raingauge):
-    """one variant that is a fifth faster in all rows, one that is not in the last, and both just so; rows that are missing bear out nothing"""
+    """one variant a fifth faster in all rows, one that is not in the last row, and one exactly at the bound; missing rows confirm nothing"""
     made, words = Made(raingauge, "ye-1"), "generated much faster"
     of = lambda last: lambda row, variant: 10 if variant == "heap" else 7.75 if row < 2 else last
     level = lambda row, variant: 10 if variant == "heap" else 10 / 1.2
     some = made.count(words, of(7.75), 0.02)
-    missing = ["two of five rows: %s" % some] if any(some.values()) else []  # all are not seen
+    missing = ["two of five rows: %s" % some] if any(some.values()) else []  # not all rows are there
     made.extend(5)
     return (missing + settled(made.count(words, of(7.75), 0.02), YES) + settled(made.count(words, of(8.92), 0.02), NO) +
             hidden(made.count(words, of(7.75), 0.5), [NO]) + hidden(made.count(words, of(8.92), 0.7), [YES]) +
@@ -178,7 +178,7 @@ def check_variants(raingauge):
 
 
 def check_crossing(raingauge):
-    """one variant that is faster from a row on and slower before it, one that is slower again in the first of these or in the last, and both alike"""
+    """one variant that is faster from a row on and slower before it, one that is slower in the first or last of these rows, and equal ones"""
     made, words = Made(raingauge, "creus-5.6"), "with geometry faster"
     of = lambda first, last: lambda row, variant: 10 if variant == "no_geometry" else {4: first, 5: 9.3, 6: last}.get(row, 10.7)
     level = lambda row, variant: 10
@@ -188,7 +188,7 @@ def check_crossing(raingauge):
 
 
 def check_slowest(raingauge):
-    """a row that is slower than all others, one that another is slower than, and all alike"""
+    """a row that is slower than all others, one with a slower row beside it, and equal rows"""
     made, words = Made(raingauge, "creus-5.5"), "the first row"
     of = lambda first: lambda row, variant: {1: first, 4: 10.7}.get(row, 10)
     level = lambda row, variant: 10
@@ -197,7 +197,7 @@ def check_slowest(raingauge):
 
 
 def check_optimum(raingauge):
-    """a row that is faster than all others, one that another is faster than, and all alike"""
+    """a row that is faster than all others, one with a faster row beside it, and equal rows"""
     made, words = Made(raingauge, "creus-5.5"), "packets of 1,000"
     of = lambda third: lambda row, variant: {2: 9.3, 3: third}.get(row, 10)
     level = lambda row, variant: 10
@@ -206,7 +206,7 @@ def check_optimum(raingauge):
 
 
 def check_knee(raingauge):
-    """an error that falls to 20 m and flattens there has its best compromise there, and a straight line has not"""
+    """an error that falls up to 20 m and is flat from there confirms the best compromise there, and a straight line refutes it"""
     made, words = Made(raingauge, "creus-5.4"), "20 meters come"
     told = []
     for error_of in (lambda row: 0.1 + 0.5 * math.exp(-row), lambda row: 0.5 - 0.05 * row):
@@ -216,7 +216,7 @@ def check_knee(raingauge):
 
 
 def check_few(raingauge):
-    """five samples a row print no interval; without launches there is no verdict, whatever the samples say; eleven launches leave it open"""
+    """five samples a row print no interval; without launches there is no verdict, whatever the samples show; eleven launches leave it open"""
     made = Made(raingauge, "feng-2")
     problems = []
     for samples in (5, 15):
@@ -245,7 +245,7 @@ def shapes(made, ms_of, noise, samples=15):
 
 
 def check_slope(raingauge):
-    """a slope's interval holds the truth, and a shape is print's where the slope is, however few samples settle that"""
+    """a slope's interval holds the truth, and a shape is print's if the slope is, however few samples settle it"""
     made = Made(raingauge, "feng-2")
     axis, printed = [6000, 8000, 10000, 15000, 20000], [45.96, 39.44, 33.41, 22.09, 11.33]
     as_printed = by_row([1000 / fps for fps in printed])

@@ -1,5 +1,5 @@
-// A bisect's search against every list that is short: where the first bad one is, what cannot be
-// judged. And the list itself.
+// A bisect's search over every short list: the first bad candidate, and candidates that cannot be
+// judged. Then the list itself.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,8 @@
 
 enum { LONGEST = 11 };
 
-// Searches where `first_bad` and all behind it are bad, and the bits of `skipped` cannot be judged.
+// Searches a list in which `first_bad` and all after it are bad, and the set bits of `skipped`
+// cannot be judged.
 static struct rg_search search(int count, int first_bad, uint64_t skipped, int *judged)
 {
     enum rg_judgement verdicts[64] = {[0] = RG_JUDGED_GOOD};
@@ -43,7 +44,7 @@ static void finds_what_can_be_known(void **state)
             for (unsigned skipped = 0; skipped < 1u << count; skipped += 2) {
                 int judged, good = first_bad - 1, bad = first_bad;
                 if (skipped >> (count - 1) & 1)
-                    continue; // the ends are judged
+                    continue; // the ends can be judged
                 while (good > 0 && skipped >> good & 1)
                     good--;
                 while (bad < count - 1 && skipped >> bad & 1)
@@ -68,7 +69,7 @@ static void halves(void **state)
         }
 }
 
-// 20 of 60 in a row cannot be judged, in the very middle: it is left in leaps.
+// The middle 20 of 60 cannot be judged: the search leaves them in leaps.
 static void leaves_a_stretch_in_leaps(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Blame: each kind of difference is told by a planted one, and the first stage, asset and place of
-// two devices that part are named.
+// Blame: planted differences of each kind are recognized, and the first stage, asset and place are
+// named at which two devices differ.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,7 +22,7 @@ static struct rg_contents contents, expected, earlier;
 static struct rg_differing differing;
 static struct rg_state words; // floats, unless a test says otherwise
 
-// Floats 1 to 16 in both, and 100 to 115 before.
+// Floats 1 to 16 on both sides, and 100 to 115 before the stage.
 static int setup(void **state)
 {
     (void)state;
@@ -42,7 +42,7 @@ static enum rg_difference found(void)
     return rg_difference_of(&contents, &expected, &earlier, &words, &differing);
 }
 
-// A picture of 4 x 4 texels of floats.
+// An image of side x side texels.
 static void make_image(enum rg_format format, int side)
 {
     contents.desc = expected.desc = earlier.desc = (struct rg_image_desc){
@@ -68,7 +68,8 @@ static void the_first_word_and_their_number(void **state)
     assert_int_equal(differing.count, 2);
 }
 
-// Of one side alone; where both are NaN with other bits it is no matter of NaN.
+// One side alone has a NaN or an infinity. Two NaNs with different bits are another kind of
+// difference.
 static void a_nan_is_told(void **state)
 {
     (void)state;
@@ -88,7 +89,7 @@ static void a_nan_is_told(void **state)
     assert_int_equal(found(), RG_DIFFERENCE_NAN);
 }
 
-// Integers may have the bits of any float, and are no last bits from each other.
+// Integers may have the bits of any float, and have no last bits.
 static void integers_are_no_floats(void **state)
 {
     (void)state;
@@ -107,11 +108,11 @@ static void integers_are_no_floats(void **state)
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     words.words = "f";
     assert_int_equal(found(), RG_DIFFERENCE_LAST_BITS);
-    words.words = "uf"; // the first word of each element
+    words.words = "uf"; // the first word of each element is an integer
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
-// A difference of one word, as it is told.
+// The text about a difference of one word.
 static void assert_told(uint32_t is, uint32_t should, const char *says)
 {
     char text[400];
@@ -165,7 +166,8 @@ static void texels_are_told_as_what_they_hold(void **state)
                 "(2, 0.5) (0x38004000), off by 4; 1 of 8 words differ");
 }
 
-// NaN where a small float has all ones in its exponent, and a step of its last bit.
+// A small float is NaN if its exponent is all ones; a step of its last bit is a difference in last
+// bits.
 static void small_floats_are_told(void **state)
 {
     (void)state;
@@ -181,7 +183,7 @@ static void small_floats_are_told(void **state)
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
-// All of it is missing, or all is surplus; a part is neither.
+// All differing words must be missing, or all surplus; if only some are, the kind is neither.
 static void what_the_stage_left_out_is_told(void **state)
 {
     (void)state;
@@ -197,7 +199,7 @@ static void what_the_stage_left_out_is_told(void **state)
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
-// Elements of two words: words that changed places alone are no other order.
+// Elements of two words: swapped words within elements are not another order.
 static void another_order_is_told(void **state)
 {
     (void)state;
@@ -211,7 +213,7 @@ static void another_order_is_told(void **state)
     now[4]++;
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     setup(NULL);
-    now[0] = due[4]; // three in turn
+    now[0] = due[4]; // three elements in turn
     now[4] = due[10];
     now[10] = due[0];
     assert_int_equal(found(), RG_DIFFERENCE_ORDER);
@@ -222,7 +224,7 @@ static void last_bits_are_told(void **state)
     (void)state;
     now[6] = nextafterf(due[6], 0);
     assert_int_equal(found(), RG_DIFFERENCE_LAST_BITS);
-    due[8] = 1e-44f; // either side of zero
+    due[8] = 1e-44f; // on either side of zero
     now[8] = -1e-44f;
     assert_int_equal(found(), RG_DIFFERENCE_LAST_BITS);
     now[7] = due[7] * 1.001f;
@@ -236,7 +238,7 @@ static void last_bits_are_told(void **state)
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
-// A step that lies a texel to the right; one that lies two does not count.
+// A step one texel to the right is an edge; a step two texels away is not.
 static void an_edge_is_told(void **state)
 {
     (void)state;
@@ -251,9 +253,9 @@ static void an_edge_is_told(void **state)
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     for (int i = 0; i < WORDS; i++)
         due[i] = now[i] = i < 12 ? 1.0f : 9.0f;
-    now[0] = 9.0f; // which is three rows below
+    now[0] = 9.0f; // a value that is three rows away
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
-    now[0] = 5.0f; // which is nowhere
+    now[0] = 5.0f; // a value that is nowhere
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
@@ -265,9 +267,9 @@ static void names_are_read_back(void **state)
     assert_int_equal(rg_difference_find("?"), RG_DIFFERENCE_NONE);
 }
 
-// --- devices that part ---
+// --- devices that differ ---
 
-// From the second step on, `cpu` has one word more in the state.
+// From the second step on, a word of the state differs on `cpu`.
 static bool step_off_on_cpu(struct rg_instance *instance)
 {
     struct rg_buf *buf = instance->state[0].asset->buf;
@@ -318,8 +320,8 @@ static void where_devices_part_is_found(void **state)
     json_decref(json);
 }
 
-// Behind the drawing of frame 2 the host changes a texel of the target on `cpu`; or on both, each
-// to another value.
+// After the drawing of frame 2 the host changes a texel of the target on `cpu`, or on both devices,
+// to different values.
 static bool changes_both;
 
 static bool draw_off(struct rg_instance *instance)

@@ -41,7 +41,7 @@ static void write_rain(const char *path, int width, int channels, int streaks)
     rg_picture_destroy(&picture);
 }
 
-// Runs with stdout sent to a file, whose text is left in `text`.
+// Runs with stdout in a file, whose text it puts into `text`.
 static int run(const struct rg_diff_request *request)
 {
     fflush(stdout);
@@ -66,7 +66,7 @@ static void the_same_files(void **state)
     assert_non_null(strstr(text, "PSNR                         inf dB"));
 }
 
-// A name may not steer the terminal.
+// A name may not control the terminal.
 static void names_are_plain(void **state)
 {
     (void)state;
@@ -133,7 +133,7 @@ static void bad_input_is_one_line(void **state)
     assert_non_null(strstr(last_error, "120 x 80 pixels but"));
 }
 
-// An alpha of 1 shows nothing, and grey is red, green and blue alike.
+// An alpha of 1 makes no difference, and grey equals red, green and blue alike.
 static void channels_that_show_the_same(void **state)
 {
     (void)state;
@@ -163,7 +163,7 @@ static void channels_that_show_the_same(void **state)
     unlink(other);
 }
 
-// Of EXR files light is compared, and HDR-FLIP is there; of PNG files light and codes.
+// EXR files are compared by light, and with HDR-FLIP; PNG files by light and by codes.
 static void what_figures_are_of(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static void what_figures_are_of(void **state)
     unlink(png[1]);
 }
 
-// The maps are as large as the picture and a scale: dark where nothing differs.
+// A map is the picture's height and is wider by a scale. It is dark if nothing differs.
 static void heat_maps_are_written(void **state)
 {
     (void)state;
@@ -236,7 +236,7 @@ static void heat_colours_are_magma(void **state)
     static const float values[3] = {0.0f, 0.5f, NAN};
     struct rg_picture heat;
     assert_true(rg_heatmap_draw(values, 3, 1, 1.0f, &heat));
-    // sRGB (183, 55, 121) in the middle; NaN as the top, (252, 253, 191).
+    // sRGB (183, 55, 121) in the middle; NaN has the top colour, (252, 253, 191).
     const float *middle = heat.texels + 3 * 85, *last = heat.texels + 3 * 255; // of 3 x 85 pixels
     assert_true(fabsf(middle[0] - 0.4735f) < 1e-3f && fabsf(middle[1] - 0.0382f) < 1e-3f);
     assert_memory_equal(middle + 3 * 84, middle, 3 * sizeof(float));
@@ -274,7 +274,7 @@ static int remove_files(void **state)
     const char *const files[] = {a, b, background, small, three, output};
     for (int i = 0; i < 6; i++)
         unlink(files[i]);
-    return rmdir(folder); // empty: nothing else was left behind
+    return rmdir(folder); // empty: nothing else is left
 }
 
 int main(void)

@@ -1,5 +1,5 @@
-// What differs is told: a state, a law, an image without rain, cpu:reference itself; and in every
-// run of it.
+// Differences are reported: in a state, a law, a stage, an image without rain, cpu:reference
+// itself, and in every run.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@ static bool is_on(const struct rg_instance *instance, const char *device)
     return !strcmp(instance->device->info.name, device);
 }
 
-// The last word of the last buffer of the state.
+// Changes the last word of the last buffer of the state.
 static bool change_last_word(struct rg_instance *instance)
 {
     struct rg_buf *buf = instance->state[instance->state_count - 1].asset->buf;
@@ -43,7 +43,8 @@ static void assert_says(const struct rg_checks *checks, const char *check, const
         fail_msg("'%s' does not say '%s'", detail, says);
 }
 
-// One word of the state is enough, on a device that owes T0; the others' images are judged alone.
+// One word of the state is enough on a device that owes T0; other devices are judged by the image
+// alone.
 static void a_state_that_differs_fails(void **state)
 {
     (void)state;
@@ -62,7 +63,7 @@ static void a_state_that_differs_fails(void **state)
     rg_checks_free(&checks);
 }
 
-// The first element that differs is named as its buffer's layout has it: without the margin.
+// The first differing element is named by its buffer's layout, without the margin.
 static void an_element_is_named(void **state)
 {
     (void)state;
@@ -89,14 +90,14 @@ static void an_element_is_named(void **state)
 
 // --- stages ---
 
-// The last frame's.
+// Draws no last frame.
 static bool draw_less_on_cpu(struct rg_instance *instance)
 {
     return (is_on(instance, "cpu") && instance->frame == 2) ||
            rg_technique_find("flow")->draw(instance);
 }
 
-// The same stages, over other drops.
+// The same stages with other drops.
 static bool open_another_on_cpu(struct rg_instance *instance)
 {
     return (!is_on(instance, "cpu") ||
@@ -104,7 +105,7 @@ static bool open_another_on_cpu(struct rg_instance *instance)
            rg_technique_find("flow")->open(instance);
 }
 
-// The first stage behind which something differs is named, and so is one that did not run.
+// The first stage after which something differs is named, and so is one that did not run.
 static void a_stage_that_differs_is_named(void **state)
 {
     (void)state;
@@ -143,7 +144,7 @@ static bool always_holds(const struct rg_instance *instance, char *detail, size_
     return true;
 }
 
-// Of the second seed on cpu alone.
+// The law fails for the second seed, on cpu alone.
 static int asked_on_cpu;
 
 static bool fails_once(const struct rg_instance *instance, char *detail, size_t size)
@@ -188,7 +189,7 @@ static void an_image_without_rain_proves_nothing(void **state)
 
 // --- seeds ---
 
-// The seeds of instances that have stepped on cpu, in order.
+// The seeds of instances that have begun on cpu, in order.
 static char seeds[64];
 
 static bool note_seed(struct rg_instance *instance)
@@ -221,7 +222,7 @@ static bool fail_on_reference(struct rg_instance *instance)
     return rg_unsupported("device 'cpu:reference': is too small");
 }
 
-// Where it fails, nothing is proven, though another check is ok.
+// If the reference fails, nothing is proven, though another check is ok.
 static void a_reference_that_fails_proves_nothing(void **state)
 {
     (void)state;

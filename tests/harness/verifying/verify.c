@@ -1,4 +1,4 @@
-// What `verify` makes of work that could not be done: whose error it was decides how it ends.
+// The outcome of `verify` for work that could not be done depends on whose error it was.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,8 +29,8 @@ static bool fail_on_cpu(struct rg_instance *instance)
     return rg_driver_error("kernel 'rain': its driver is tired");
 }
 
-// How far one texel that `cpu` draws is from what the others draw, in steps of a half: 1 is a
-// rounding, 80 some 4 codes of 255.
+// How far one texel of `cpu` is from the other device's, in steps of a half: 1 is a rounding, 80
+// some 4 codes of 255.
 static int steps_off;
 
 static bool draw(struct rg_instance *instance)
@@ -93,7 +93,7 @@ static void a_drivers_failure_fails(void **state)
     rg_checks_free(&checks);
 }
 
-// What an image on a device of this tier comes to.
+// The outcome of an image on a device of this tier.
 static enum rg_outcome judge(enum rg_tier tier, const char *says)
 {
     enum { SIDE_PX = 64 };
@@ -137,7 +137,8 @@ static const struct rg_pose uncommon_poses[] = {
 static const struct rg_proof long_proof = {
     .poses = long_poses, .dry = "drops=0 rain_drops_s=0", .laws = rig_no_laws};
 
-// Verifies these poses: so many steps are taken with all seeds, and the line says how many.
+// Verifies these poses: all seeds together take `with_all` steps, and the line says how many a run
+// has.
 static void expect_steps(enum rg_verify_length length, int asked, int with_all, const char *says)
 {
     struct rg_checks checks;
@@ -166,8 +167,8 @@ static void poses_say_how_long(void **state)
     expect_steps(RG_VERIFY_USUAL, 4, 3 * 4 + 8, "5 runs of 4 steps, identical to cpu:reference");
 }
 
-// Else a fifth of the full steps, but no fewer than the quick ones, without which it may not rain,
-// and no more than the full ones.
+// Usual runs take a fifth of the full steps, but no more than all of these, and no fewer than the
+// quick ones, without which it may not rain.
 static void usual_runs_are_shorter(void **state)
 {
     (void)state;
@@ -178,7 +179,7 @@ static void usual_runs_are_shorter(void **state)
     assert_int_equal(rg_verify_steps(&v, &uncommon_poses[3]), RG_POSE_LEFT_OUT);
 }
 
-// Poses that say nothing take what verify takes of its own; the bar knows them all.
+// Poses without numbers of steps take verify's own; the progress bar counts them all.
 static void poses_need_not_say(void **state)
 {
     (void)state;
@@ -198,7 +199,7 @@ static void poses_need_not_say(void **state)
     assert_int_equal(rg_verify_stage_work(&v), 2);
 }
 
-// Of all but full runs the first pose has every seed, and the others take turns.
+// Except in full runs, the first pose has every seed, and the others take turns.
 static void poses_take_turns_with_seeds(void **state)
 {
     (void)state;
@@ -214,7 +215,7 @@ static void poses_take_turns_with_seeds(void **state)
     }
 }
 
-// Draws mutants of flow in this scene, which comes to that.
+// Draws mutants of flow in this scene, and expects this outcome.
 static void verify_mutants(const char *scene, const struct rg_mutant *mutants,
                            enum rg_outcome outcome, const char *says)
 {
@@ -241,7 +242,7 @@ static void verify_mutants(const char *scene, const struct rg_mutant *mutants,
     rg_checks_free(&checks);
 }
 
-// flow in a scene where its seed shows and its model does not.
+// flow in a scene where another seed shows, but another model does not.
 static void a_mutant_that_lives_fails(void **state)
 {
     (void)state;
@@ -253,7 +254,7 @@ static void a_mutant_that_lives_fails(void **state)
                    "killed 1/3; T1 accepts: a model behind, a rounding");
 }
 
-// A mutant that cannot be drawn is a fault of the list, though all that can be are killed.
+// A mutant that cannot be drawn is a fault of the list, even if all the others are killed.
 static void a_mutant_that_is_none_fails(void **state)
 {
     (void)state;
@@ -273,7 +274,7 @@ static void a_mutant_that_is_none_fails(void **state)
                    "0.02, of 0 to 1; mend the list of flow");
 }
 
-// Whether the instance has the seed behind the default one.
+// Whether the instance has the seed after the default one.
 static bool has_another_seed(const struct rg_instance *instance)
 {
     char text[16];
@@ -289,7 +290,7 @@ static bool fail_on_another_seed(struct rg_instance *instance)
     return rg_driver_error("kernel 'rain': its driver is tired");
 }
 
-// An error is one, though the others of a list are killed.
+// One error is an error, even if the others of the list are killed.
 static void a_mutant_that_fails_is_an_error(void **state)
 {
     (void)state;
@@ -300,7 +301,7 @@ static void a_mutant_that_fails_is_an_error(void **state)
                    "kernel 'rain': its driver is tired");
 }
 
-// And so is one run of several.
+// One failed run of several is an error, too.
 static void a_run_that_fails_is_an_error(void **state)
 {
     (void)state;
@@ -313,8 +314,8 @@ static void a_run_that_fails_is_an_error(void **state)
     rg_checks_free(&checks);
 }
 
-// What is a little wrong is wrong among the few pixels where it rains, not among all: the dry
-// picture shows the mutants' own scene.
+// A small error shows among the few pixels with rain, not among all. The dry picture is of the
+// mutants' own scene.
 static void a_mutant_is_judged_where_it_rains(void **state)
 {
     (void)state;
@@ -323,7 +324,7 @@ static void a_mutant_is_judged_where_it_rains(void **state)
     verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=60", mutants, RG_OK, "killed 1/1");
 }
 
-// Whose error it was decides how all ends.
+// Whose error it was decides the exit status.
 static void errors_are_somebodys(void **state)
 {
     (void)state;

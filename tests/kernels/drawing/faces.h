@@ -1,4 +1,4 @@
-// A mesh whose pixels say which face they show, and where on it: for tests.
+// For tests: a mesh whose pixels hold the face that they show, and the place on it.
 #include "kernels/dialect/mesh/mesh.h"
 #include "kernels/raster/mesh_params.h"
 
@@ -29,7 +29,7 @@ RG_DRAW_RECORD(test_faces)
     return r;
 }
 
-// The face's number and one more, so that 0 is none; the weights of its second and third corner.
+// The face's number plus one, since 0 is none; the weights of its second and third corner.
 RG_DRAW_FRAGMENT(test_faces)
 {
     rg_weights k = rg_planes_weights(r.planes, px, py);

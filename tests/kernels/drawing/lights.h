@@ -1,5 +1,4 @@
-// Quads of quads.h in the light of points and suns, which fall through maps of depth and of
-// halves: for tests.
+// For tests: quads of quads.h in the light of points and suns, through maps of depth and of halves.
 #include "tests/kernels/drawing/lights_params.h"
 #include "tests/kernels/drawing/quads_params.h"
 
@@ -19,8 +18,8 @@ RG_STRUCT(test_lit_quad)
 };
 #define RG_RECORD test_lit_quad
 
-// What a light needs of a quad alone. With TEST_LIGHT_RECORDS devices keep it, else each pixel
-// makes it anew: pictures are the same.
+// The part of a light that depends on a quad alone. With TEST_LIGHT_RECORDS devices keep it,
+// otherwise each pixel calculates it anew; the pictures are the same.
 RG_STRUCT(test_quad_light)
 {
     float near; // 0 for a sun
@@ -54,7 +53,7 @@ RG_FN float test_depth(test_lit_quad r, int px, int py)
     return r.depth + r.slope * rg_to_float(px - py);
 }
 
-// How much of a light its maps let through.
+// The share of a light that its maps let through.
 RG_FN float test_let_through(rg_ctx rg, test_light l, v3 at)
 {
     rg_corner c = m4_project(l.to_map, at);

@@ -1,5 +1,5 @@
-// Quads of which some are plain. Fragments tell whether they were taken for plain, which they are
-// not to do: tests see by it where.
+// Quads, some of them plain. Fragments show whether they were drawn as plain ones, which real
+// programs must not show: tests see by it where that is so.
 #include "tests/kernels/drawing/quads_params.h"
 
 #define RG_PARAMS  test_quads_params

@@ -1,5 +1,5 @@
-// Quads of a buffer as items: included behind kernels/dialect/draw/draw.h by programs with IN(1,
-// float, quads), of TEST_QUAD_WORDS words each.
+// Quads of a buffer as items. Programs with IN(1, float, quads), of TEST_QUAD_WORDS words each,
+// include it after kernels/dialect/draw/draw.h.
 #ifndef RG_TESTS_KERNELS_QUAD_ITEM_H
 #define RG_TESTS_KERNELS_QUAD_ITEM_H
 

@@ -1,4 +1,4 @@
-// Quads of given corners in clip space, in given colours: for tests.
+// For tests: quads of given corners in clip space, in given colours.
 #include "tests/kernels/drawing/quads_params.h"
 
 #define RG_PARAMS  test_quads_params

@@ -8,8 +8,8 @@
 
 RG_STRUCT(test_quads_params)
 {
-    float gradient; // how far a colour changes a pixel: fragments depend on their place
-    float slope_x;  // depth a pixel
+    float gradient; // the change of a colour a pixel: fragments depend on their place
+    float slope_x;  // the change of depth a pixel
     float slope_y;
 };
 RG_STRUCT_SIZE(test_quads_params, 3)

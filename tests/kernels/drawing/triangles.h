@@ -1,5 +1,5 @@
-// The first three corners of quads.h's quads, bright where they are nearer than an image of
-// depth: for tests.
+// For tests: the first three corners of quads.h's quads, bright where they are nearer than an image
+// of depth.
 #include "tests/kernels/drawing/quads_params.h"
 #include "tests/kernels/drawing/triangles_params.h"
 

@@ -1,5 +1,5 @@
-// Quads in groups, each of which has a word: where an item's bit is set it says that it is unseen,
-// though it may not be. Tests see by it who asks.
+// Quads in groups. Each group has a word: an item whose bit is set says that it is unseen, even if
+// it is not. Tests see by it which devices ask.
 #include "tests/kernels/drawing/quads_params.h"
 
 #define RG_PARAMS  test_quads_params

@@ -1,4 +1,4 @@
-// The parameters of what fetches and stores texels.
+// The parameters of kernels that fetch and store texels.
 #ifndef RG_TESTS_KERNELS_TEXELS_PARAMS_H
 #define RG_TESTS_KERNELS_TEXELS_PARAMS_H
 

@@ -1,4 +1,4 @@
-"""Parameters of techniques, options of commands and what they may be."""
+"""Parameters of techniques, options of commands, and their bounds."""
 from fault import Fault
 
 TESTS = ("parameters", "command line, parsing", "options of all commands", "command line, cases", "command line, wrong",

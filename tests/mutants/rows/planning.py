@@ -1,4 +1,4 @@
-"""Budgets of time: in which order cells are measured, what is skipped, and how long the rest takes."""
+"""Budgets of time: the order in which cells are measured, the skipped ones, and the time left."""
 from fault import Fault
 
 TESTS = ("priority", "within a budget", "time left", "foreseen")

@@ -1,4 +1,4 @@
-"""Records: journals, stored results, numbers and names, what is written to disk."""
+"""Records: journals, stored results, numbers and names, files on disk."""
 from fault import Fault
 
 TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sealed", "sheets, cells", "sheets, json", "sheets, parts", "measure", "machine", "command line, tables", "command line, stored", "command line, cases")

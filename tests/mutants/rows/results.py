@@ -1,4 +1,4 @@
-"""Tables and claims: which rows are heard, how orders are judged, trends, costs and what is prepared."""
+"""Tables and claims: the rows that count, how orders are judged, trends, costs and preparations."""
 from fault import Fault
 
 TESTS = ("claims by launches", "claims", "launches", "courses of claims", "order", "printed", "stats", "verdicts", "papers", "figures", "sheets, cells", "sheets, json", "sheets, notes", "sheets, parts", "sheets, trends", "regenerate", "journal", "command line, tables", "command line, results")

@@ -1,4 +1,4 @@
-"""Workers: how they are asked, how they end, and what is made of it; names of devices."""
+"""Workers: requests to them, their ends and what follows; names of devices."""
 from fault import Fault
 
 TESTS = ("workers that end", "damaged replies", "damaged findings", "messages", "workers that lie, 20000", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates", "command line, named", "command line, sides")
@@ -12,7 +12,7 @@ D = "harness/devices/drivers/"
 CACHES, CHOICE, APART, SIDE, PREFIX = (D + name + ".c" for name in ("caches", "choice", "apart", "side", "prefix"))
 PLAN, DOCTOR, EXAMINE = "harness/tables/sweep/plan.c", "harness/commands/doctor.c", "harness/doctor/examine.c"
 
-# Tables of fields hold constants, and no switch: what one of them might say amiss is planted where they are followed.
+# Tables of fields hold constants, which cannot have a switch: their faults are planted in the code that uses them.
 LEAST = "return «integer_of(value, field) >= field->least» &&"
 MOST = "&& «integer_of(value, field) <= field->most»;"
 NUMBER = "return «number >= (double)field->least && number <= (double)field->most»;"

@@ -46,8 +46,8 @@ static struct vec ray_of(const struct scene_oracle *o, double x_px, double y_px)
     return plus(plus(o->ahead, u, o->right), v, o->down);
 }
 
-// How far along a ray a face lies, with the weights of its second and third corner; below 0: it
-// is not met (Moeller and Trumbore, 1997).
+// The distance of a face along a ray, with the weights of its second and third corner (Moeller and
+// Trumbore, 1997). Below 0 the ray misses the face.
 static double meet(const struct scene_oracle *o, struct vec ray, int face, double weights[2])
 {
     const uint32_t *k = o->indices + 3 * (uint64_t)face;
@@ -105,7 +105,7 @@ struct scene_hit scene_cast(const struct scene_oracle *o, double x_px, double y_
 bool scene_cast_pixel(const struct scene_oracle *o, int px, int py, struct scene_hit *hit)
 {
     static const double beside[4][2] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
-    const double x = px + 0.5, y = py + 0.5, off = 0.03; // a grid of 1/256 pixel, and some more
+    const double x = px + 0.5, y = py + 0.5, off = 0.03; // more than a grid of 1/256 pixel
     *hit = scene_cast(o, x, y);
     for (int i = 0; i < 4; i++)
         if (scene_cast(o, x + off * beside[i][0], y + off * beside[i][1]).face != hit->face)
@@ -159,7 +159,7 @@ struct vec tones_colour(const struct surface *s, const struct look *l, const str
                         clamped(mix(s->colour.z * tone + t->shadow_blue * (1 - tone), 1, glint))};
 }
 
-// A byte of a level at whole texels, which repeat.
+// A byte of a level at a whole texel; levels repeat.
 static double stroke(const struct hatching *h, int level, int x, int y, int tone)
 {
     const int size = h->size_px >> level;
@@ -194,7 +194,8 @@ struct vec hatching_colour(const struct surface *s, const struct look *l, const 
     const struct vec view = plus(s->at, -1, l->eye);
     const double distance_m = sqrt(dot(view, view));
     const double slant = fmax(fabs(dot(view, s->normal)) / distance_m, 0.05);
-    // Texels in a pixel: the mean of how many it is wide, and long where the surface slants.
+    // Texels in a pixel: the geometric mean of its width and its length, which grows with the
+    // slant.
     const double texels = h->size_px / h->tile_m * distance_m / h->focal_px / sqrt(slant);
     const double fine = fmin(fmax(log2(texels), 0), h->levels - 1);
     const int level = fine >= h->levels - 1 ? h->levels - 2 : (int)fine;

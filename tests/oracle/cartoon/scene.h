@@ -10,8 +10,8 @@ struct vec {
     double x, y, z;
 };
 
-// A mesh as files have it, and a pinhole camera: a picture's pixel looks along ahead + right * u +
-// down * v with u, v from -1 to 1 across the picture.
+// A mesh as in files, and a pinhole camera: a pixel looks along ahead + right * u + down * v, with
+// u, v from -1 to 1 across the picture.
 struct scene_oracle {
     int face_count;
     const float *positions, *normals;
@@ -21,21 +21,21 @@ struct scene_oracle {
     double near_m, far_m;
 };
 
-// What a ray through a place of the picture, in pixels, meets first.
+// The first face that a ray meets through a place of the picture, in pixels.
 struct scene_hit {
     int face; // -1: nothing
     double ahead_m, depth;
-    struct vec at, normal; // of unit length, on the side that is seen
+    struct vec at, normal; // of unit length, on the visible side
 };
 struct scene_hit scene_cast(const struct scene_oracle *o, double x_px, double y_px);
-// The same at a pixel's centre; false where places beside it meet another face, so that it is not
-// sure which face a device draws there.
+// The same at a pixel's centre; false if places around it meet another face, so that a device may
+// draw either.
 bool scene_cast_pixel(const struct scene_oracle *o, int px, int py, struct scene_hit *hit);
 
-// Where a depth of the picture lies.
+// The place in the world of a depth of the picture.
 struct vec scene_place(const struct scene_oracle *o, int px, int py, double depth);
 
-// A surface as a style sees it, all colours as display values.
+// A surface as a style gets it, all colours as display values.
 struct surface {
     struct vec normal, at, colour;
     double shine;
@@ -44,7 +44,7 @@ struct look {
     struct vec eye, to_light;
 };
 
-double surface_highlight(const struct surface *s, const struct look *l); // (r . v)^32, shine apart
+double surface_highlight(const struct surface *s, const struct look *l); // (r . v)^32 without shine
 
 struct gooch {
     double blue, yellow, alpha, beta;
@@ -56,14 +56,14 @@ struct tones {
 };
 struct vec tones_colour(const struct surface *s, const struct look *l, const struct tones *t);
 
-// Strokes as bytes of paper, 0 ink to 255: `levels` squares of side `size_px` and half as large and
-// so on, each texel a byte for each of seven tones, the last of which is blank.
+// Strokes as bytes of paper, 0 (ink) to 255: `levels` squares, the first of side `size_px`, each
+// next half as large. Each texel has a byte for each of seven tones, the last of which is blank.
 struct hatching {
     int size_px, levels;
     const uint8_t *bytes[8];
     struct vec paper, ink;
     double ambient, lit, wash, tile_m;
-    double focal_px; // pixels that something as wide as it is distant takes
+    double focal_px; // the pixels of an object that is as wide as it is distant
 };
 struct vec hatching_colour(const struct surface *s, const struct look *l, const struct hatching *h);
 

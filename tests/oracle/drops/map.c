@@ -13,7 +13,7 @@ static int most(int a, int b)
     return a > b ? a : b;
 }
 
-// --- where the pane is wet ---
+// --- the wet part of the pane ---
 
 static void grow_wet(struct oracle_drops *o, int row0, int row1, int column0, int column1)
 {
@@ -44,7 +44,7 @@ static void shrink_wet(struct oracle_drops *o)
     while (r0 < r1 && !any_wet(o, r0, r1, c1 - 1, c1))
         c1--;
     o->wet.row0 = r0, o->wet.row1 = r1, o->wet.column0 = c0, o->wet.column1 = c1;
-    if (r0 == r1) // the first hemisphere shall make it anew
+    if (r0 == r1) // empty, so that the first hemisphere sets it anew
         o->wet.row0 = o->settings.rows, o->wet.row1 = 0, o->wet.column0 = o->settings.columns,
         o->wet.column1 = 0;
 }
@@ -99,7 +99,7 @@ void oracle_drops_place(struct oracle_drops *o, uint32_t id, double x, double y,
 
 // --- smoothing ---
 
-// Each cell of a row and its neighbours beside it.
+// Sums each cell of a row and its neighbours on both sides.
 static void sum_row(const struct oracle_drops *o, int row, double *sums)
 {
     const int last = o->settings.columns - 1;
@@ -132,8 +132,8 @@ static void smooth_heights(struct oracle_drops *o)
     }
 }
 
-// Cells without an ID take that of the row beside theirs, else that of the next cell in their own,
-// which is not yet changed when the cells are taken in this order.
+// Cells without an ID take that of the neighbouring row, else that of the next cell in their row.
+// In this order of cells, the next cell has not changed yet.
 static void take_right(uint32_t *restrict id, const uint32_t *restrict below, int begin, int end)
 {
     for (int j = begin; j < end; j++) {

@@ -3,7 +3,7 @@
 #include "tests/oracle/drops/map.h"
 #include "tests/oracle/drops/particles.h"
 
-// The cells of two IDs that are connected with a cell, through the sides of cells, get another ID.
+// Gives another ID to the cells of two IDs that are connected with a cell, through their sides.
 static void fill(struct oracle_drops *o, int cell, uint32_t a, uint32_t b, uint32_t to)
 {
     const int columns = o->settings.columns, rows = o->settings.rows;
@@ -24,7 +24,7 @@ static void fill(struct oracle_drops *o, int cell, uint32_t a, uint32_t b, uint3
     }
 }
 
-// The one drop that two become. Its ID.
+// Makes one drop of two. Returns its ID.
 static uint32_t unite(struct oracle_drops *o, struct oracle_drop *a, struct oracle_drop *b)
 {
     const uint32_t parents[2] = {a->id, b->id};
@@ -66,7 +66,7 @@ static void meet(struct oracle_drops *o, int cell, int neighbour)
     }
 }
 
-// Whether a row has neighbours to look at: most rows have none, and are soon seen through.
+// Whether a row has different neighbours: most rows have none, and this scan is quick.
 static bool any_meet(const uint32_t *row, const uint32_t *below, int begin, int end)
 {
     uint32_t any = 0;

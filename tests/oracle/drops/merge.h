@@ -4,7 +4,7 @@
 
 #include "tests/oracle/drops/state.h"
 
-// One pass over the ID map.
+// Merges in one pass over the ID map.
 void oracle_drops_merge(struct oracle_drops *drops);
 
 #endif

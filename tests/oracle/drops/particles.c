@@ -93,7 +93,7 @@ void oracle_drops_generate(struct oracle_drops *o)
     }
 }
 
-// Equation 6. Drops that have left in this step no longer count.
+// Equation 6. Drops that have left in this step do not count.
 static void leave_residue(struct oracle_drops *o, int index, int *living)
 {
     const struct oracle_drops_settings *s = &o->settings;
@@ -122,7 +122,7 @@ static void leave_residue(struct oracle_drops *o, int index, int *living)
 
 // --- movement ---
 
-// A map's mean over the 3 x 3 cells around one.
+// A map's mean over the 3 x 3 cells around a cell.
 static double region(const struct oracle_drops *o, const double *map, int row, int column)
 {
     if (!oracle_drops_on_pane(o, (struct oracle_drops_cell){row, column}))
@@ -140,8 +140,8 @@ static double region(const struct oracle_drops *o, const double *map, int row, i
     return sum / cells;
 }
 
-// Which way a map draws a drop: -1, 0 or 1 for south-west, south or south-east. `any`: whether the
-// map is not 0 there.
+// The way in which a map draws a drop: -1, 0 or 1 for south-west, south or south-east. `any`:
+// whether the map is not 0 there.
 static int drawn(const struct oracle_drops *o, const double *map, struct oracle_drops_cell at,
                  bool *any)
 {
@@ -155,7 +155,7 @@ static int drawn(const struct oracle_drops *o, const double *map, struct oracle_
     return east > west ? 1 : -1;
 }
 
-// A unit vector.
+// Chooses a drop's way, a unit vector.
 static void choose_way(struct oracle_drops *o, const struct oracle_drop *drop, double way[2])
 {
     const struct oracle_drops_cell at = oracle_drops_cell_at(o, drop->x_mm, drop->y_mm);
@@ -175,7 +175,7 @@ static void choose_way(struct oracle_drops *o, const struct oracle_drop *drop, d
     way[1] = -cos(angle);
 }
 
-// Equations 2 to 5, then the water on the pane.
+// Equations 2 to 5, then wets the pane.
 static void move_drop(struct oracle_drops *o, struct oracle_drop *drop, double dt)
 {
     const struct oracle_drops_settings *s = &o->settings;
@@ -204,7 +204,7 @@ static bool has_left(const struct oracle_drops *o, const struct oracle_drop *dro
 void oracle_drops_move(struct oracle_drops *o)
 {
     const struct oracle_drops_settings *s = &o->settings;
-    const int count = o->count; // residual drops come behind these, and rest
+    const int count = o->count; // residual drops come after these, and rest
     int living = count;
     for (int i = 0; i < count; i++) {
         o->drops[i].is_static = !oracle_drops_runs(o, o->drops[i].mass_mg);

@@ -44,7 +44,7 @@ double oracle_random_uniform(struct oracle_random *random, double low, double hi
     return low + (high - low) * ldexp((double)(next(random) >> 11), -53);
 }
 
-// Box and Muller's, of which the sine is thrown away.
+// Box and Muller's method, without its sine.
 double oracle_random_normal(struct oracle_random *random, double mean, double deviation)
 {
     const double radius = sqrt(-2 * log(1 - oracle_random_uniform(random, 0, 1)));

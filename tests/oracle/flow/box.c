@@ -28,8 +28,9 @@ static void turn(double v[3], const double k[3], double degrees)
 void box_oracle_turn(struct box_oracle *box, double pitch_deg, double yaw_deg, double roll_deg)
 {
     static const double right[3] = {1, 0, 0}, up[3] = {0, 1, 0}, out[3] = {0, 0, 1};
-    // Before it turns: each pane's normal, and what is up on it for who stands before it. On the
-    // top and the bottom that is away from and towards the front, as on a sheet that folds around.
+    // The box before it turns: each pane's normal, and the way up for a viewer before it. On the
+    // top that points away from the front, on the bottom towards it, as on a sheet that folds
+    // around.
     static const double normals[BOX_PANES][3] = {{0, 0, 1},  {0, 0, -1}, {1, 0, 0},
                                                  {-1, 0, 0}, {0, 1, 0},  {0, -1, 0}};
     static const double ups[BOX_PANES][3] = {{0, 1, 0}, {0, 1, 0},  {0, 1, 0},
@@ -57,7 +58,7 @@ void box_oracle_centre(const struct box_oracle *box, int size, struct box_texel 
         point[i] = f[2][i] + u * f[0][i] + v * f[1][i];
 }
 
-// The pane that this normal points out of.
+// The pane whose outside this normal points to.
 static int pane_towards(const struct box_oracle *box, const double normal[3])
 {
     for (int pane = 0; pane < BOX_PANES; pane++)
@@ -80,7 +81,7 @@ bool box_oracle_walk(const struct box_oracle *box, int size, struct box_texel fr
     *to = (struct box_texel){from.pane, from.x + dx, from.y + dy};
     if (fabs(u) < 1 && fabs(v) < 1)
         return true;
-    // Over the edge: what lies beyond it goes down the other side.
+    // Beyond an edge the way goes down the other side.
     double out[3], point[3];
     const int across = fabs(v) > 1 ? 1 : 0, beside = 1 - across;
     const double way = across ? v : u, past = fabs(way) - 1;

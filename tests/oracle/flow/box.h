@@ -1,6 +1,6 @@
-// An independent model of the box: how its panes stand in the world, and where water comes out that
-// crosses an edge. Written from docs/flow.md in double precision, without anything of kernels/ or
-// core/techniques/: points in space, not tables of neighbours.
+// An independent model of the box: the places of its panes in the world, and where water that
+// crosses an edge comes out. Written from docs/flow.md in double precision, without anything of
+// kernels/ or core/techniques/: points in space, not tables of neighbours.
 //
 // The box is a cube of half side 1 about the origin; x runs right, y up, z towards the viewer.
 #ifndef RG_TESTS_ORACLE_FLOW_BOX_H
@@ -11,7 +11,7 @@
 enum { BOX_FRONT, BOX_BACK, BOX_RIGHT, BOX_LEFT, BOX_TOP, BOX_BOTTOM, BOX_PANES };
 
 struct box_oracle {
-    // right, down and out of each pane, as a viewer sees it who stands before it
+    // right, down and out of each pane, for a viewer before it
     double frames[BOX_PANES][3][3];
 };
 
@@ -23,9 +23,9 @@ struct box_texel {
     int pane, x, y;
 };
 
-// The texel (dx, dy) from another, over an edge if need be, as if the two panes that meet there
-// were one plane. Over a corner the way leads over the upper or the lower edge, at its end. False
-// where the pane beyond the edge faces down by 30 degrees or more: what goes there falls off.
+// The texel (dx, dy) from another, over an edge if needed, as if the two panes there were one
+// plane. Over a corner the way leads over the end of the upper or lower edge. False if the pane
+// beyond the edge faces down by 30 degrees or more, so that water falls off.
 bool box_oracle_walk(const struct box_oracle *box, int size, struct box_texel from, int dx, int dy,
                      struct box_texel *to);
 

@@ -25,13 +25,13 @@ void oracle_frame(const struct oracle_settings *s, double frame[3][3])
     static const double right[3] = {1, 0, 0}, up[3] = {0, 1, 0}, out[3] = {0, 0, 1};
     for (int i = 0; i < 3; i++) {
         memcpy(frame[i], rest[i], sizeof(rest[i]));
-        turn(frame[i], out, -s->roll_deg);    // clockwise, as one sees it who looks along -z
+        turn(frame[i], out, -s->roll_deg);    // clockwise for a viewer along -z
         turn(frame[i], right, -s->pitch_deg); // 90 turns the normal up
         turn(frame[i], up, s->yaw_deg);
     }
 }
 
-// Where water goes: one or two of the eight neighbours, and how fast.
+// The water's way: one or two of the eight neighbours, and its speed.
 struct descent {
     int count, dx[2], dy[2];
     double share; // of the second
@@ -43,7 +43,7 @@ static struct descent descent_of(const struct oracle_settings *s)
 {
     double frame[3][3];
     oracle_frame(s, frame);
-    // Equation 1, the matrix of tangent, binormal and normal times gravity.
+    // Equation 1: the matrix of tangent, binormal and normal, times gravity.
     const double g[3] = {0, -1, 0};
     double tangent[3];
     for (int i = 0; i < 3; i++)
@@ -105,7 +105,7 @@ void oracle_land(struct oracle *o, double x, double y, double radius, double hei
     }
 }
 
-// A map's texel under a point of a window that scrolls over it and wraps.
+// The texel of a map under a point of a window that scrolls over the map and wraps.
 static int wrapped(double scrolled, double window, int i, int size, int map_size)
 {
     double begin = (scrolled - floor(scrolled)) * map_size;
@@ -129,7 +129,7 @@ static double remainder_at(const struct oracle_settings *s, double water)
     return (double)s->remainder[entry > last ? last : (int)entry];
 }
 
-// Puts droplets down, or counts them where they leave the pane.
+// Puts droplets down, or counts them if they leave the pane.
 static void put(struct oracle *o, int64_t *moved, int x, int y, int64_t droplets)
 {
     const int n = o->settings.size;
@@ -139,7 +139,7 @@ static void put(struct oracle *o, int64_t *moved, int x, int y, int64_t droplets
         o->drained += droplets;
 }
 
-// What a texel gives by equation 3.
+// The droplets that a texel gives, by equation 3.
 static int64_t given_by(const struct oracle *o, double speed, int x, int y)
 {
     const struct oracle_settings *s = &o->settings;
@@ -153,7 +153,7 @@ static int64_t given_by(const struct oracle *o, double speed, int x, int y)
     return given < spilled ? spilled : given;
 }
 
-// What it gives goes to the next texel and the one after, as figure 13 has it, of each direction.
+// The given droplets go to the next texel and the one after, as in figure 13, in each direction.
 static void push(struct oracle *o, const struct descent *d, int64_t *moved, int x, int y,
                  int64_t given)
 {
@@ -175,7 +175,7 @@ static void push(struct oracle *o, const struct descent *d, int64_t *moved, int 
 static const int around[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                  {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
-// A way in 2048ths of a turn leads between two of the eight neighbours.
+// A way, in 2048ths of a turn, leads between two of the eight neighbours.
 static struct descent descent_along(int way)
 {
     struct descent d = {.count = 2, .share = way % 256 / 256.0};
@@ -186,7 +186,8 @@ static struct descent descent_along(int way)
     return d;
 }
 
-// The sum of the unit vectors of a texel and its neighbours that moved by themselves, and how many.
+// The sum of the unit vectors of a texel and its neighbours that moved by themselves; returns their
+// number.
 static int sum_movers(const struct oracle *o, int x, int y, double sum[2])
 {
     const int n = o->settings.size;
@@ -220,7 +221,8 @@ static int way_of(const struct oracle_settings *s, const struct descent *d, cons
     return (parts + 2048) % 2048;
 }
 
-// A texel turns to where it and its neighbours went, and is swept along by those that moved.
+// Turns a texel towards the ways of itself and its neighbours; those that moved also sweep its
+// water along.
 static void sweep_from(struct oracle *o, const struct descent *d, int64_t *moved, int *next, int x,
                        int y)
 {

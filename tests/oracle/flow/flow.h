@@ -1,8 +1,8 @@
 // An independent model of water on a pane, in double precision and whole droplets.
 //
 // Written from the equations of Stuppacher & Supan (2007) and the rules of docs/flow.md, without
-// anything of kernels/ or core/techniques/: it pushes water where the kernels pull it, has no
-// margins, counts droplets in integers, and turns the pane by rotating vectors. What both share are
+// anything of kernels/ or core/techniques/. It pushes water where the kernels pull it, has no
+// margins, counts droplets in integers, and turns the pane by rotating vectors. Both share only
 // inputs: the maps' values and the list of drops.
 #ifndef RG_TESTS_ORACLE_FLOW_FLOW_H
 #define RG_TESTS_ORACLE_FLOW_FLOW_H
@@ -20,10 +20,10 @@ struct oracle_settings {
     double far_share; // r
     double capacity;
     bool split;   // between two directions, or all into the nearest
-    bool keeps;   // texels keep directions of their own, split likewise
-    double sweep; // the neighbours' share in them
+    bool keeps;   // texels keep their own directions, split likewise
+    double sweep; // the neighbours' share in these directions
     double pitch_deg, yaw_deg, roll_deg;
-    const float *remainder; // borrowed: evenly spaced over 0 to remainder_max_height
+    const float *remainder; // borrowed: for heights evenly spaced from 0 to remainder_max_height
     int remainder_entries;
     double remainder_max_height;
     const float *noise; // borrowed: noise_size x noise_size
@@ -33,17 +33,17 @@ struct oracle_settings {
 
 struct oracle {
     struct oracle_settings settings;
-    int64_t *water; // size x size, droplets
-    int *kept;      // by texel: the way it moved by itself, 2048ths of a turn; -1: it did not
+    int64_t *water;           // size x size, droplets
+    int *kept;                // a texel's own way, in 2048ths of a turn; -1: it did not move
     int64_t sourced, drained; // droplets since the start
     int64_t frame;
 };
 
-// A dry pane at frame 0. The caller calls oracle_close.
+// Opens a dry pane at frame 0. The caller calls oracle_close.
 void oracle_open(struct oracle *oracle, const struct oracle_settings *settings);
 void oracle_close(struct oracle *oracle);
 
-// A drop lands: a cap whose profile is a half ellipse, centre and radius in texels.
+// Lands a drop: a cap whose profile is a half ellipse, centre and radius in texels.
 void oracle_land(struct oracle *oracle, double x, double y, double radius, double height);
 
 // Moves the water by one frame.

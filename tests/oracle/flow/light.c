@@ -13,7 +13,7 @@ static double face_value(const struct light_cube *cube, int face, int x, int y, 
                     (size_t)channel];
 }
 
-// OpenGL's table of cube map faces.
+// By OpenGL's table of cube map faces.
 void light_from_cube(const struct light_cube *cube, const double d[3], double light[3])
 {
     static const struct {

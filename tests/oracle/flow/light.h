@@ -1,12 +1,12 @@
-// What lights water and what water does to light, in double precision: environments, normals of a
-// height map, the Fresnel model. Written from docs/flow.md without anything of kernels/.
+// Light on water and its bending, in double precision: environments, normals of a height map, the
+// Fresnel model. Written from docs/flow.md without anything of kernels/.
 #ifndef RG_TESTS_ORACLE_FLOW_LIGHT_H
 #define RG_TESTS_ORACLE_FLOW_LIGHT_H
 
 #include <stdint.h>
 
-// A cube map, borrowed: [face][y][x][rgb], faces +x -x +y -y +z -z as in OpenGL, the outermost
-// texels' centres on the cube's edges.
+// A cube map, borrowed: [face][y][x][rgb], faces +x -x +y -y +z -z as in OpenGL. The outermost
+// texels' centres are on the cube's edges.
 struct light_cube {
     const float *light;
     int size;
@@ -15,7 +15,7 @@ struct light_cube {
 // The light from a direction of any length, between four texels.
 void light_from_cube(const struct light_cube *cube, const double direction[3], double light[3]);
 
-// A pane's water, borrowed: size x size droplets of 2^-16 of a unit.
+// A pane's water, borrowed: size x size droplets of 2^-16 of a unit each.
 struct light_surface {
     const int64_t *water;
     int size;
@@ -24,15 +24,15 @@ struct light_surface {
 
 // The mean of a texel and its neighbours, in units; beyond the edge the pane is dry.
 double light_blurred(const struct light_surface *surface, int x, int y);
-// The normal's x and y and the wetness at a point of the pane, 0 to 1 from left to right and from
-// top to bottom, between four texels of the normal map.
+// The normal's x and y and the wetness at a point of the pane, between four texels of the normal
+// map. The point is 0 to 1 from left to right and from top to bottom.
 void light_normal(const struct light_surface *surface, double u, double v, double normal[3]);
 
 struct light_fresnel {
     double bias, scale, power;
 };
 
-// How much is reflected of a view onto a surface whose unit normal looks at the viewer.
+// The reflected share of a view onto a surface whose unit normal faces the viewer.
 double light_reflectance(const struct light_fresnel *fresnel, const double view[3],
                          const double normal[3]);
 

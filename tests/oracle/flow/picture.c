@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The picture behind a pane is displaced by a fifth of the view's height for a normal that lies in
-// the pane; bars reflect this share of the light.
+// A normal in the pane's plane displaces the picture behind the pane by a fifth of the view's
+// height; bars reflect this share of the light.
 static const double LENS_REACH = 0.2, BAR_LIGHT = 0.06;
 
 static double dot(const double a[3], const double b[3])
@@ -30,7 +30,7 @@ static void direction_of(double azimuth_deg, double elevation_deg, double d[3])
 
 struct camera {
     double eye[3], right[3], down[3], ahead[3]; // of unit length
-    double half;                                // height of the view at distance 1, halved
+    double half;                                // half of the view's height at distance 1
     int width, height;
 };
 
@@ -85,7 +85,8 @@ static void mirrored(const double ray[3], const double normal[3], double to[3])
 
 // --- the model ---
 
-// The blurred water where the way from a point inside the box to the lamp leaves it.
+// The blurred water at the place where the way from a point inside the box to the lamp leaves the
+// box.
 static double water_before(const struct picture_oracle *p, const double at[3], const double lamp[3])
 {
     double nearest = INFINITY, hit[3];
@@ -106,7 +107,7 @@ static double water_before(const struct picture_oracle *p, const double at[3], c
     return light_blurred(&p->panes[pane], x, y);
 }
 
-// Matt, with half the sheen of water.
+// The model is matt, with half the sheen of water.
 static void shade_model(const struct picture_oracle *p, const double at[3], const double ray[3],
                         double light[3])
 {
@@ -124,7 +125,7 @@ static void shade_model(const struct picture_oracle *p, const double at[3], cons
         light[i] = (around[i] + lit) * p->grey * (1 - reflectance) + sheen[i] * reflectance;
 }
 
-// Whether a ray meets the model; then `light` is what comes from there.
+// Whether a ray meets the model; if so, `light` is the model's light.
 static bool see_model(const struct picture_oracle *p, const struct camera *c, const double ray[3],
                       double light[3])
 {
@@ -166,7 +167,7 @@ static bool meet(const struct picture_oracle *p, const struct camera *c, const d
     return false;
 }
 
-// The water's surface: what of its normal lies in the pane, and the normal that looks at the
+// The water's surface: the part of its normal in the pane's plane, and the normal that faces the
 // viewer.
 static double surface_at(const struct picture_oracle *p, const struct crossing *at, double bend[3],
                          double normal[3])
@@ -199,7 +200,7 @@ static double picture_value(const double *picture, const struct camera *c, int x
     return picture[(y * c->width + x) * 3 + i];
 }
 
-// A picture between its pixels, whose centres lie at halves.
+// A picture's light between pixels, whose centres are at halves.
 static void look_up(const double *picture, const struct camera *c, double x, double y,
                     double light[3])
 {
@@ -215,7 +216,7 @@ static void look_up(const double *picture, const struct camera *c, double x, dou
                        (y - j);
 }
 
-// A pane of glass over what is there already.
+// Draws a pane of glass over the light so far.
 static void cover(const struct picture_oracle *p, const struct camera *c, const double *behind,
                   const struct crossing *at, const double ray[3], const double pixel[2],
                   double light[3])
@@ -235,7 +236,7 @@ static void cover(const struct picture_oracle *p, const struct camera *c, const 
     }
 }
 
-// Water on a mirror, over the picture of the dry one.
+// Draws water on a mirror over the picture of the dry one.
 static void show_mirror(const struct picture_oracle *p, const struct camera *c,
                         const double *behind, const struct crossing *at, const double ray[3],
                         const double pixel[2], double light[3])
@@ -253,7 +254,7 @@ static void show_mirror(const struct picture_oracle *p, const struct camera *c,
                    (on_bar(p, at) ? BAR_LIGHT : 1);
 }
 
-// What is seen of all that does not refract: `around` without the model, `behind` with it.
+// Pictures of everything that does not refract: `around` without the model, `behind` with it.
 struct pictures {
     double *around, *behind;
 };
@@ -283,7 +284,7 @@ static void draw_pixel(const struct picture_oracle *p, const struct camera *c,
         cover(p, c, behind, &near_pane, ray, pixel, light);
 }
 
-// The sky, and dry mirrors before it.
+// The sky, and dry mirrors in front of it.
 static void see_around(const struct picture_oracle *p, const struct camera *c, int pixel,
                        double light[3])
 {

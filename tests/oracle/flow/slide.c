@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A map of n x n values, 0 beyond.
+// A value of a map of n x n, 0 outside.
 static double at(const double *map, int n, int x, int y)
 {
     return x >= 0 && y >= 0 && x < n && y < n ? map[y * n + x] : 0;
@@ -18,7 +18,7 @@ static double between(const double *map, int n, double u, double v)
            (at(map, n, x, y + 1) * (1 - fx) + at(map, n, x + 1, y + 1) * fx) * fy;
 }
 
-// Widens a map by a variance of 0.69 mm2 a side: w, 1 - 2 w, w has one of 2 w cells.
+// Widens a map by a variance of 0.69 mm2 a side. The weights w, 1 - 2 w, w have one of 2 w cells.
 static void smooth(double *map, int n, double cell_mm)
 {
     const double w = 0.69 / (2 * cell_mm * cell_mm);
@@ -47,7 +47,7 @@ static double pressure(double mm)
     return mm < 0.8 ? mm * mm / 1.6 : mm - 0.4;
 }
 
-// One run of levelling, from each texel to those to the right and below, or back.
+// One run of levelling, between each texel and those to the right and below.
 static void level(struct slide_oracle *o, const double *pull, double share)
 {
     const int n = o->n;
@@ -73,7 +73,7 @@ static void level(struct slide_oracle *o, const double *pull, double share)
     free(next);
 }
 
-// The pace of a cell: by the most water within 3.7 mm.
+// The pace of a cell, from the most water within 3.7 mm.
 static int pace_of(const struct slide_oracle *o, const double *wide, int x, int y)
 {
     const double around_mm2 = 2 * 3.14159265358979 * 4 * 0.69;
@@ -90,7 +90,7 @@ static int pace_of(const struct slide_oracle *o, const double *wide, int x, int 
     return pace;
 }
 
-// How much more water there is on the axis of a drop than on its flanks, 2 mm beside it.
+// How much more water a drop has on its axis than on its flanks, 2 mm beside it.
 static double ridge_of(const struct slide_oracle *o, const double *wide, int x, int y)
 {
     const double aside = 2 / o->cell_mm, here = at(wide, o->cells, x, y);

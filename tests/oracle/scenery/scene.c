@@ -4,7 +4,7 @@
 
 #include "tests/oracle/vectors.h"
 
-// --- what a ray meets ---
+// --- the face that a ray meets ---
 
 static bool meet_triangle(const float *a, const float *b, const float *c, const double from[3],
                           const double way[3], bool behind, double *t)
@@ -119,8 +119,8 @@ static int wrapped(int at, int size)
     return ((at % size) + size) % size;
 }
 
-// Linear light and, last, the share of the lamp's behind: eight-bit roots of light between four
-// texels.
+// Linear light and, last, the share of the lamp behind, filtered between four texels: textures keep
+// eight-bit roots of light.
 static void read_texture(const struct scene *scene, int texture, int level, double u, double v,
                          double value[4])
 {
@@ -163,7 +163,7 @@ static void paint(const struct scene *scene, const struct surface *s, const doub
 
 // --- light on it ---
 
-// How much of the sky is seen: between the eight points of a grid of 4 m.
+// The visible share of the sky, between eight points of a grid of 4 m.
 static double openness(const struct scene *scene, const double at[3])
 {
     const double x = clamped((at[0] + 200) / 4, 0, 100), z = clamped((at[2] + 200) / 4, 0, 100),
@@ -178,7 +178,7 @@ static double openness(const struct scene *scene, const double at[3])
     return sum;
 }
 
-// Whether a light reaches a point; unsure where that changes within three texels of its map.
+// 1 if a light reaches a point, else 0; unsure if that changes within three texels of its map.
 static double reached(const struct scene *scene, const struct scene_light *light,
                       const double at[3], const double normal[3], double distance, bool *unsure)
 {
@@ -206,7 +206,8 @@ static double cone(const struct scene_light *light, double cosine)
         clamped((cosine - light->cos_outer) / (light->cos_inner - light->cos_outer), 0, 1));
 }
 
-// The light's share that a surface throws to the eye: by the cosine, and from wet ground in a lobe.
+// The share of a light that a surface reflects to the eye: by the cosine, and on wet ground in a
+// lobe.
 static double thrown(const struct scene *scene, const struct scene_light *light,
                      const struct surface *s, const double at[3], const double way[3],
                      struct scene_pixel *pixel)

@@ -1,6 +1,6 @@
-// What a pixel of the scene shows (docs/city.md), in double precision, for one ray at a time. It
-// shares nothing with kernels/: it meets the faces themselves, and reads surfaces' words, texels
-// and points of the openness as the documents say that they lie.
+// The light of a pixel of the scene (docs/city.md), in double precision, one ray at a time. It
+// shares nothing with kernels/: it intersects the faces themselves, and reads surfaces' words,
+// texels and points of the openness as the documents describe them.
 #ifndef RG_TESTS_ORACLE_SCENERY_SCENE_H
 #define RG_TESTS_ORACLE_SCENERY_SCENE_H
 
@@ -11,16 +11,16 @@ enum { ORACLE_POINT = 1, ORACLE_SPOT, ORACLE_SUN };
 
 struct scene_light {
     int kind;
-    double place_m[3], way[3]; // way: that it shines, of unit length
+    double place_m[3], way[3]; // way: in which it shines, of unit length
     double colour[3];
     double cos_inner, cos_outer;
-    double texel_m; // of its shadow map; of points and spots, at 1 m
+    double texel_m; // of its shadow map; for points and spots, at 1 m
 };
 
 // A texel of a level of a texture: RGBA8, red lowest.
 typedef uint32_t (*scene_texel_fn)(void *user, int texture, int level, int x, int y);
 
-// The caller's.
+// The caller owns all of it.
 struct scene {
     int face_count;
     const float *corners;       // 12 floats a face
@@ -34,25 +34,25 @@ struct scene {
     double ambient, bounced, glow, wet;
     int light_count;
     const struct scene_light *lights;
-    bool shadows; // faces stand between lights and what is seen
+    bool shadows; // faces block lights
 };
 
-// The face that a ray meets first, and how far away in lengths of `way`; -1 where it meets none.
-// Faces that turn away are met only where `behind`.
+// The face that a ray meets first, or -1; `distance` is in lengths of `way`. Faces that turn away
+// are met only with `behind`.
 int scene_meet(const struct scene *scene, const double from[3], const double way[3], bool behind,
                double *distance);
 
 struct scene_pixel {
     double light[3];
-    double slack[3]; // what one and a half codes of the texture are worth: it is filtered in 8 bits
+    double slack[3];    // one and a half codes of the texture, since it is filtered in 8 bits
     bool sky, shadowed; // shadowed: from a light that it faces
-    // Not to be compared: the level of the texture, or a shadow, is another one within the
-    // precision of floats and shadow maps.
+    // Not to be compared: within the precision of floats and shadow maps, the level of the texture
+    // or a shadow may change.
     bool unsure;
 };
 
-// What a ray of unit length shows; a pixel is `pixel_m` wide 1 m ahead, and `ahead` is the length
-// of 1 m ahead along the ray.
+// The light along a ray of unit length. A pixel is `pixel_m` wide 1 m ahead, where the ray has the
+// length `ahead`.
 struct scene_pixel scene_see(const struct scene *scene, const double from[3], const double way[3],
                              double pixel_m, double ahead);
 

@@ -5,7 +5,7 @@
 
 static const double pi = 3.14159265358979323846;
 static const double diameter_px = 23.744, fall_diameters = 42.5;
-// Of a picture, above and below the drop's way: docs/streaks.md.
+// The part of a picture above and below the drop's way: docs/streaks.md.
 static const double rim_px = 19.6;
 static const int starts[] = {0, 1050, 2038, 2848, 3392, 3606};
 
@@ -22,7 +22,7 @@ static double way_px(int view)
     return diameter_px * fall_diameters * cos(view * pi / 9);
 }
 
-// A column's rows, and what lies left and right between them.
+// A column's rows, and the texels left and right of a place between them.
 struct strip {
     const uint16_t *texels;
     int pitch, rows, left, right;

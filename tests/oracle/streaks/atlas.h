@@ -1,4 +1,4 @@
-// The streak atlas as docs/atlas.md lays it out, read in double precision without kernels/. Its
+// The streak atlas as docs/atlas.md describes it, read in double precision without kernels/. Its
 // texels and factors are an input.
 #ifndef RG_TESTS_ORACLE_STREAKS_ATLAS_H
 #define RG_TESTS_ORACLE_STREAKS_ATLAS_H
@@ -13,8 +13,8 @@ enum {
     STREAK_LEVELS = 6
 };
 
-// Borrowed halves: by oscillation and level of the full size, NULL where the atlas has no such
-// level. Rows are 90 cells wide for points, and one for the sky.
+// Borrowed halves, by oscillation and level of the full size; NULL: the atlas lacks that level.
+// Rows are 90 cells wide for points, and one for the sky.
 struct streak_atlas {
     const uint16_t *points[STREAK_OSCILLATIONS][STREAK_LEVELS];
     const uint16_t *skies[STREAK_OSCILLATIONS][STREAK_LEVELS];
@@ -22,14 +22,14 @@ struct streak_atlas {
     double sky_factors[STREAK_OSCILLATIONS][STREAK_VIEWS];
 };
 
-enum { STREAK_SKY = -1 }; // in place of a column
+enum { STREAK_SKY = -1 }; // instead of a column
 
-// A texture between its four nearest texels: u from left to right, 0 to 1, and where the drop is in
-// its swing, 0 to 1. The picture goes on beyond the exposure's ends as in a longer one.
+// A texture between its four nearest texels: u is 0 to 1 from left to right, `swing` is the drop's
+// phase, 0 to 1. Beyond the exposure's ends the picture goes on like a longer one.
 double streak_texture(const struct streak_atlas *atlas, int oscillation, int level, int view,
                       int column, double u, double swing);
 
-// For how much of the atlas' exposure a drop covers a place on its way, seen from an elevation
+// The share of the atlas' exposure in which a drop covers a place on its way, from an elevation
 // between those of the atlas.
 double streak_atlas_share(double view);
 

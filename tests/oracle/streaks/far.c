@@ -29,10 +29,10 @@ void streak_means_find(const struct streak_atlas *atlas, struct streak_means *me
     }
 }
 
-// A ray of length 1, and the elevation from which it shows drops, in steps of the atlas.
+// A ray of length 1, and the elevation at which it sees drops, in steps of the atlas.
 struct ray {
     double of[3];
-    double per_m; // its way across the squares, a metre
+    double per_m; // its way across the squares in a metre
     int axis;
     double elevation;
 };
@@ -49,7 +49,7 @@ static void find_ray(const struct streak_view *view, const struct streak_far *fa
     ray->elevation = asin(clamped(-dot(ray->of, view->up), -1, 1)) * 9 / pi;
 }
 
-// What a streak shows from an elevation, between two views.
+// The light of a streak from an elevation, between two views.
 static double seen_from(double elevation, const double *first, int pitch)
 {
     const double view = fmin(fabs(elevation), STREAK_VIEWS - 1);
@@ -57,7 +57,7 @@ static double seen_from(double elevation, const double *first, int pitch)
     return first[lower * pitch] * (lower + 1 - view) + first[(lower + 1) * pitch] * (view - lower);
 }
 
-// Radiance of the lights' light on drops at a place.
+// Adds the radiance of the lights on drops at a place.
 static void add_lights(const struct streak_view *view, const struct streak_means *means,
                        const struct ray *ray, const double at[3], double share, double light[3])
 {
@@ -75,13 +75,13 @@ static void add_lights(const struct streak_view *view, const struct streak_means
     }
 }
 
-// A slab's part of a ray, in metres along it.
+// Draws a slab's part of a ray, in metres along it.
 static void draw_part(const struct streak_view *view, const struct streak_far *far,
                       const struct streak_means *means, const struct ray *ray, double first,
                       double last, double light[3])
 {
-    // All that drops cover of the ray, times how much longer a drop covers a place than the atlas'
-    // does: a cell of the atlas is 32 texels wide, a drop 23.744.
+    // The share of the ray that drops cover, times the ratio of a drop's time at a place to the
+    // atlas' time there. A cell of the atlas is 32 texels wide, a drop 23.744.
     const double shown = fmin(fabs(ray->elevation), STREAK_VIEWS - 1);
     const double covers = far->drops_m3 * (last - first) * 2 * far->radius_m *
                           (2 * far->radius_m * 32 / 23.744) / streak_atlas_share(shown);

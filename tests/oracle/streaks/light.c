@@ -28,7 +28,8 @@ double streak_reach(const struct streak_light *light, const double at[3], double
     return cone / fmax(squared, 0.01);
 }
 
-// The two samples that a value lies between and the share of the second; one if it is not blended.
+// The two samples around a value and the share of the second; without blending, the nearest sample
+// alone.
 static void between(double value, int count, bool blended, int at[2], double *share)
 {
     at[0] = (int)(blended ? fmin(floor(value), count - 2) : floor(value + 0.5));

@@ -90,7 +90,7 @@ static void cross(const double a[3], const double b[3], double c[3])
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// s along the fall; x as much of the world's x axis as lies across it; y so that x cross y is s.
+// s is along the fall, x is the world's x axis projected across it, and x cross y is s.
 struct oracle_frame oracle_frame_at(const double origin[3], const double fall[3])
 {
     struct oracle_frame frame;

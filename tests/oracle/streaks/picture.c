@@ -11,7 +11,7 @@ static const double cell_radii = 32 / 23.744; // half of a cell's width
 
 // --- the billboard ---
 
-// Lengths in radii are as the eye sees them.
+// Lengths in radii are as seen from the eye.
 struct board {
     double corner[3], across[3], along[3]; // u from left to right, v upwards
     double middle[3];
@@ -64,7 +64,7 @@ static bool outline(struct board *board, const struct streak_view *view)
     return seen;
 }
 
-// No streak is drawn thinner or shorter than a pixel, but fainter by as much.
+// A streak is never drawn thinner or shorter than a pixel; it is fainter instead.
 static bool make_board(struct board *board, const struct streak_view *view,
                        const struct streak_drop *drop)
 {
@@ -105,7 +105,7 @@ static void ray_through(const struct streak_view *view, int x, int y, double ray
     add(ray, view->above, -(y + 0.5 - view->height / 2.0) / view->focal_px, ray);
 }
 
-// Where a ray from the eye meets the billboard's plane.
+// Finds where a ray from the eye meets the billboard's plane.
 static void meet(const struct streak_view *view, const struct board *board, struct place *place)
 {
     double normal[3], from[3], out[3], turned[3];
@@ -121,8 +121,8 @@ static void meet(const struct streak_view *view, const struct board *board, stru
     place->v = clamped(dot(turned, normal) / area, 0, 1);
 }
 
-// A drop passes a place for as long as its chord there takes; at the ends of the exposure a part of
-// the chord passes.
+// A drop passes a place during its chord there. At the ends of the exposure only a part of the
+// chord passes.
 static void find_moment(const struct board *board, const struct streak_drop *drop,
                         struct place *place)
 {
@@ -150,8 +150,8 @@ static double texture(const struct streak_atlas *atlas, const struct board *boar
     return a * (lower + 1 - view) + b * (view - lower);
 }
 
-// The radiance for an irradiance of 1 from a light (figure 4.6). A billboard has one set of angles:
-// those of the light and of the eye at its middle.
+// The radiance for an irradiance of 1 from a light (figure 4.6). A billboard has one set of angles,
+// of the light and the eye at its middle.
 static double streak_radiance(const struct streak_view *view, const struct streak_atlas *atlas,
                               const struct board *board, const struct streak_drop *drop,
                               const struct place *place, const struct streak_light *light)
@@ -168,7 +168,7 @@ static double streak_radiance(const struct streak_view *view, const struct strea
     return sum;
 }
 
-// A pixel's light and opacity; false where the streak is cut off.
+// A pixel's light and opacity; false if the streak is cut off there.
 static bool shade(const struct streak_view *view, const struct streak_atlas *atlas,
                   const struct board *board, const struct streak_drop *drop, int x, int y,
                   double light[3], double *opacity)
@@ -207,7 +207,7 @@ static int64_t least_of(const int64_t v[4])
     return least;
 }
 
-// The pixels, from `first` up to before `end`, that corners in 1/256 pixel may cover.
+// The pixels, from `first` to before `end`, that corners in 1/256 pixel may cover.
 static void span(int64_t a, int64_t b, int64_t c, int64_t d, int size, int *first, int *end)
 {
     const int64_t least = least_of((int64_t[]){a, b, c, d}),
@@ -216,7 +216,7 @@ static void span(int64_t a, int64_t b, int64_t c, int64_t d, int size, int *firs
     *end = most < 0 ? 0 : most >= 256 * (int64_t)size ? size : (int)(most / 256) + 1;
 }
 
-// The most that a streak adds to a pixel and hides of it.
+// The most that a streak adds to a pixel plus hides of it.
 static double change_of(const double light[3], double opacity, const double behind[3])
 {
     double most = 0;

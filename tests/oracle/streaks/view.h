@@ -1,4 +1,4 @@
-// Who looks at rain, and the lights on it.
+// A viewer of rain, and the lights on it.
 #ifndef RG_TESTS_ORACLE_STREAKS_VIEW_H
 #define RG_TESTS_ORACLE_STREAKS_VIEW_H
 
@@ -8,8 +8,8 @@ enum streak_light_kind { STREAK_LAMP, STREAK_SPOT, STREAK_SUN };
 
 struct streak_light {
     enum streak_light_kind kind;
-    double at[3], direction[3]; // the direction has a length of 1, and is the way light travels
-    double colour[3];           // of a white matt surface that faces it, 1 m away
+    double at[3], direction[3]; // direction: of length 1, the way of the light
+    double colour[3];           // on a white matt surface that faces it, 1 m away
     double inner_deg, outer_deg;
 };
 

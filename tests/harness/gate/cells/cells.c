@@ -1,4 +1,4 @@
-// The cells of a gate are read from a text, and what is wrong with one is said with its line.
+// Cells of a gate are read from text, and an error names its line.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -101,11 +101,11 @@ static void what_is_wrong_is_said_with_its_line(void **state)
         if (strncmp(logged, rows[i].said, strlen(rows[i].said)) != 0)
             fail_msg("'%s' said: %s", rows[i].text, logged);
     }
-    rg_error("elsewhere"); // the place is left behind
+    rg_error("elsewhere"); // later errors do not name the place
     assert_string_equal(logged, "elsewhere");
 }
 
-// A name of as many bytes stands before what a raster is told.
+// Reads a raster's cell whose name has `length` bytes.
 static bool read_named(size_t length)
 {
     char *text = malloc(length + 32);

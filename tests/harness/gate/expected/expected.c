@@ -1,4 +1,4 @@
-// What is expected is read from text, and results are judged by it on a day that is given.
+// Expectations are read from text, and judge results on a given day.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -122,7 +122,7 @@ static const char own[] = "# known\n"
 struct judged {
     struct rg_known_result result;
     const char *today;
-    const char *word; // of rg_judged_word
+    const char *word; // as rg_judged_word gives it
 };
 
 static void judge(const struct rg_known *expected, const struct judged *rows, size_t count)
@@ -222,7 +222,7 @@ static void mesas_files_are_read_as_they_are(void **state)
         {{"streaks.f", "gl", "", RG_CRASH, 5, 5, false}, "2026-12-31", ""},
         {{"an odd.copy here", "gl", "", RG_CRASH, 5, 5, false}, "2026-12-31", "flaky"},
         {{"x.streaks.s.y", "gl", "", RG_FAIL, 5, 5, false}, "2026-12-31", "skipped"},
-        {{"streaks.s", "gl", "", RG_FAIL, 5, 5, false}, "2026-12-31", "skipped"}, // before its fail
+        {{"streaks.s", "gl", "", RG_FAIL, 5, 5, false}, "2026-12-31", "skipped"}, // skip beats fail
         {{"raster.abc", "gl", "", RG_FAIL, 5, 5, false}, "2026-12-31", "skipped"},
         {{"raster.", "gl", "", RG_FAIL, 5, 5, false}, "2026-12-31", ""},
         {{"raster.d", "gl", "", RG_FAIL, 5, 5, false}, "2026-12-31", ""},
@@ -231,7 +231,7 @@ static void mesas_files_are_read_as_they_are(void **state)
     rg_known_free(&expected);
 }
 
-// --- what is wrong ---
+// --- errors in files ---
 
 #define REST "\n reason r\n since 2026-01-01\n until 2026-02-01\n"
 
@@ -334,7 +334,7 @@ static void large_files_are_read(void **state)
     assert_false(rg_glob(name, "nnnnnnnnnnnnnnnnnnnnnnnn"));
 }
 
-// Two cells, and files whose patterns are of one, both or none.
+// Two cells, and files whose patterns match one, both or none.
 static void an_expectation_of_no_cell_is_told(void **state)
 {
     (void)state;
@@ -367,7 +367,7 @@ static void an_expectation_of_no_cell_is_told(void **state)
     rg_gate_cells_free(&cells);
 }
 
-// A day to come and one that is far, in files of each form.
+// A day in the future, one more than a year ahead, and both, in files of either form.
 static void an_expectation_of_a_far_day_is_told(void **state)
 {
     (void)state;
@@ -394,7 +394,7 @@ static void an_expectation_of_a_far_day_is_told(void **state)
     }
 }
 
-// What begins later expects nothing yet, and stays as it is.
+// An expectation whose first day is in the future expects nothing yet.
 static void an_expectation_to_come_does_not_hold_yet(void **state)
 {
     (void)state;
@@ -409,7 +409,7 @@ static void an_expectation_to_come_does_not_hold_yet(void **state)
 #define DRIVER "skip *\n device vulkan*\n driver "
 #define VALUES "\n reason r\n since 2026-01-01\n until 2026-02-01\n"
 
-// Three devices, of which one is not there.
+// Three devices, one of them missing.
 static void an_expectation_of_no_device_or_driver_is_told(void **state)
 {
     (void)state;
@@ -428,8 +428,8 @@ static void an_expectation_of_no_device_or_driver_is_told(void **state)
         {"skip *\n device vulkan" REST DRIVER "x" VALUES, RG_FORM_OWN, 2,
          "my.txt:1: 'vulkan' is of no device of this gate, and 1 more"},
         {"skip *\n device cpu\n driver x" REST, RG_FORM_OWN, 1, "my.txt:1: 'cpu' is of no device"},
-        {"skip *\n device opencl\n driver x" REST, RG_FORM_OWN, 0, ""}, // who knows
-        {"skip a\n device cpu" REST, RG_FORM_OWN, 0, ""},               // told before
+        {"skip *\n device opencl\n driver x" REST, RG_FORM_OWN, 0, ""}, // its driver is unknown
+        {"skip a\n device cpu" REST, RG_FORM_OWN, 0, ""},               // reported with the cells
         {"streaks/rian,Fail", RG_FORM_FAILS, 0, ""},
     };
     struct rg_gate_cells cells;

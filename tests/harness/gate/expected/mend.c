@@ -1,4 +1,4 @@
-// A file of expectations that is mended is true: the same results meet what they ought to.
+// A mended file of expectations is true: it expects the results that it was mended by.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@ static int day(const char *text)
     return number;
 }
 
-// The text as it is mended, which the caller frees; a copy where it stays.
+// The mended text, which the caller frees; a copy if nothing changes.
 static char *mended(const char *text, enum rg_known_form form,
                     const struct rg_known_result *results, int64_t count, const char *today)
 {
@@ -31,7 +31,7 @@ static char *mended(const char *text, enum rg_known_form form,
     rg_known_free(&known);
     if (!now)
         return strdup(text);
-    // It is true: nothing is to be mended again.
+    // It is true: mending it again changes nothing.
     assert_string_not_equal(now, text);
     assert_true(rg_known_add_text(&known, "my.txt", now, strlen(now), form));
     assert_true(rg_known_mend(&known, 0, results, count, day(today), true, &again));
@@ -63,7 +63,7 @@ static void what_is_true_stays(void **state)
     expect(text, RG_FORM_OWN, results, 3, "2026-02-01", text);
 }
 
-// What failed is not the device that the file would blame.
+// Another side failed, not the device that the file would blame.
 static void what_fails_elsewhere_stands_in_no_file(void **state)
 {
     (void)state;
@@ -75,7 +75,8 @@ static void what_fails_elsewhere_stands_in_no_file(void **state)
     expect("fail [abc]\n  outcome fail\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n",
            RG_FORM_OWN, results, 1, "2026-01-15",
            "fail [abc]\n  outcome fail\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n");
-    // A row that fails otherwise here takes nothing of what failed there, and loses nothing by it.
+    // A row gets this device's new outcome; another side's failure adds nothing and removes
+    // nothing.
     expect("fail *\n  outcome timeout\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n",
            RG_FORM_OWN, results, 3, "2026-01-15",
            "fail *\n  outcome    fail timeout\n  reason r\n  since 2026-01-01\n"
@@ -94,7 +95,8 @@ static void what_is_fixed_goes(void **state)
            RG_FORM_OWN, results, 1, "2026-01-15",
            "# head\n" ROW("a", "1", "2026-02-01") "\n" ROW("c", "3", "2026-02-01"));
     expect(ROW("b", "2", "2026-02-01"), RG_FORM_OWN, results, 1, "2027-01-15", "");
-    // Of all that expect it, and of one that expects others too the part that is fixed.
+    // It goes from all rows that expect it; a pattern that also expects other cells loses only the
+    // fixed one.
     expect(ROW("b", "2", "2026-02-01") ROW("[b]", "1", "2026-02-01") ROW("b*", "2", "2026-02-01"),
            RG_FORM_OWN, results, 1, "2026-01-15", ROW("[b]", "1", "2026-02-01"));
     expect("b,Fail\nc,Fail\nb,Crash\n", RG_FORM_FAILS, results, 1, "2026-01-15", "c,Fail\n");
@@ -134,14 +136,14 @@ static void what_has_expired_gets_ninety_days(void **state)
            "fail a\n  outcome fail\n  pixels 10..20\n  # why\n  reason r\n  since 2026-01-01\n"
            "  until      2026-05-03\n");
     static const char rest[] = "skip a\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n";
-    expect(rest, RG_FORM_OWN, results, 0, "2026-02-02", rest); // no result: nothing is known of it
+    expect(rest, RG_FORM_OWN, results, 0, "2026-02-02", rest); // without a result nothing is known
     static const struct rg_known_result passes[] = {{"a", "gl", "M", RG_OK, 0, 0, false}};
     expect(rest, RG_FORM_OWN, passes, 1, "2026-02-02", "");
     expect("flake a\n  reason r\n  since 2026-01-01\n  until 2026-02-01", RG_FORM_OWN, passes, 1,
            "2026-02-02", "");
 }
 
-// One cell of a pattern passes: those that still fail get a row each.
+// One cell of a pattern passes: those that still fail each get a row.
 static void a_pattern_that_is_fixed_in_part_is_split(void **state)
 {
     (void)state;
@@ -160,7 +162,7 @@ static void a_pattern_that_is_fixed_in_part_is_split(void **state)
     "fail " cell "\n  device     " device "\n" driver "  outcome    fail\n  pixels     " pixels    \
     "\n  reason     r\n  since      2026-01-01\n  until      2026-02-01\n"
 
-// Unsupported, failed by another side, of a device that is not there or was not asked for.
+// Unsupported, failed by another side, or of a device that is missing or was not asked for.
 static void what_nothing_is_known_of_stays_expected(void **state)
 {
     (void)state;
@@ -174,14 +176,14 @@ static void what_nothing_is_known_of_stays_expected(void **state)
     expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results, 6, "2026-01-15",
            APART("a2", "gl", "", "10..20") "\n" APART("a3", "gl", "", "10..20") "\n" APART(
                "a1", "vulkan", "", "10..20") "\n" APART("a4", "gl", "", "10..25"));
-    // Also where nothing fails any more, of what is known.
+    // The same holds if no known cell fails any more.
     expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results, 2, "2026-01-15",
            APART("a2", "gl", "", "10..20"));
     expect(ROW("a1", "10..20", "2026-02-01"), RG_FORM_OWN, results, 4, "2026-01-15",
            APART("a1", "vulkan", "", "10..20"));
-    // Nothing else has the name: it goes.
+    // No other cell has the name, so the row goes.
     expect(ROW("b", "10..20", "2026-02-01"), RG_FORM_OWN, results + 5, 1, "2026-01-15", "");
-    // Of a driver that was not asked for its name any one may be meant.
+    // A device that did not tell its driver may have any.
     expect("fail a*\n  driver M*\n  outcome fail\n  reason r\n  since 2026-01-01\n"
            "  until 2026-02-01\n",
            RG_FORM_OWN, results, 4, "2026-01-15",
@@ -193,7 +195,7 @@ static void what_nothing_is_known_of_stays_expected(void **state)
            "  since      2026-01-01\n  until      2026-02-01\n");
 }
 
-// The same of what is in quarantine and has expired, and of Mesa's lines, which have no devices.
+// The same for expired quarantine, and for Mesa's lines, which name no device.
 static void other_rows_keep_what_nothing_is_known_of(void **state)
 {
     (void)state;
@@ -206,7 +208,7 @@ static void other_rows_keep_what_nothing_is_known_of(void **state)
            2, "2026-02-02",
            "flake a1\n  device     vulkan\n  reason     r\n  since      2026-01-01\n"
            "  until      2026-02-01\n");
-    // Nobody knows which of two drivers the device has.
+    // It is unknown which of the two drivers the device has.
     static const char *const rows[] = {"fail a1\n  device g*\n  outcome fail\n  reason r\n",
                                        "fail a1\n  driver M 1\n  outcome fail\n  reason r\n",
                                        "fail a1\n  driver M 2\n  outcome fail\n  reason r\n"};
@@ -238,19 +240,19 @@ static void what_is_new_is_added(void **state)
     expect("", RG_FORM_OWN, results, 2, "2026-01-15", added);
     char text[4096];
     snprintf(text, sizeof(text), "# head\n\n%s", added);
-    expect("# head", RG_FORM_OWN, results, 2, "2026-01-15", text); // its last line gets an end
-    // One that stays, or stays without anything new, keeps its end as it is.
+    expect("# head", RG_FORM_OWN, results, 2, "2026-01-15", text); // the last line gets its end
+    // A last line that stays, without new lines after it, keeps its missing end.
     expect("a,Fail\nb,Crash", RG_FORM_FAILS, results, 2, "2026-01-15", "a,Fail\nb,Crash");
     expect("c,Fail\nb,Crash", RG_FORM_FAILS, results + 1, 1, "2026-01-15", "c,Fail\nb,Crash");
     expect("c,Fail\na,Fail", RG_FORM_FAILS, results, 2, "2026-01-15", "c,Fail\na,Fail\nb,Crash\n");
-    // The last row goes, and others come in its place.
+    // The last row goes, and new ones replace it.
     static const struct rg_known_result both[] = {{"c", "gl", "M", RG_OK, 0, 0, false},
                                                   {"b", "gl", "M", RG_CRASH, NAN, NAN, false}};
     expect(ROW("c", "1", "2026-02-01"), RG_FORM_OWN, both, 2, "2026-01-15",
            NEW("b", "  outcome    crash\n"));
 }
 
-// Rows far from each other are mended, and lines keep their ends.
+// Rows far apart are mended, and lines keep their endings.
 static void long_files_and_foreign_line_ends_are_kept(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Regular expressions mean what they meant when the C library ran them, and none takes for ever.
+// Regular expressions mean what they meant to the C library, and none takes for ever.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -73,7 +73,7 @@ static void they_mean_what_they_meant(void **state)
             fail_msg("%s: %s, not %s", text, found, line);
     }
     fclose(in);
-    // The lines of a file have none of these.
+    // Lines of a file cannot contain these.
     snprintf(names[0], sizeof(names[0]), "a\nb");
     snprintf(names[1], sizeof(names[1]), "b\n");
     find_all(names, "^a.b$|b$", found);
@@ -82,7 +82,7 @@ static void they_mean_what_they_meant(void **state)
     assert_in_range(count, 700, 2000);
 }
 
-// `before`, `times` of a character, and `after`.
+// A text: `before`, a character `times` times, and `after`.
 static const char *written(const char *before, char c, int times, const char *after)
 {
     static char text[8192];
@@ -116,8 +116,8 @@ static void long_and_deep_ones_are_refused(void **state)
     rg_regex_free(regex);
 }
 
-// Backtracking would go 2^60 ways; and where too many stand side by side as well, a gate is told
-// before it begins.
+// Backtracking would try 2^60 ways. An expression with too many states side by side is reported as
+// too long instead.
 static void none_takes_for_ever(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every form of a report, with hostile texts, read back by parsers that share nothing with what wrote it."""
+"""Every form of a report, with hostile texts, read back by parsers that share nothing with the writers."""
 import json
 import os
 import re

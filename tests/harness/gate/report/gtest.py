@@ -54,7 +54,7 @@ def test_filters_are_gtests():
 
 
 def deqp_list(text):
-    """The tests of a list. A line with a point is a suite, as deqp-runner has it."""
+    """The tests of a list. deqp-runner takes a line with a point for a suite."""
     suite, found = None, []
     for line in text.decode().split("\n")[:-1]:
         is_suite, test = re.search(r"(\S*\.)", line), re.search(r"\s+(\S+)", line)
@@ -67,7 +67,7 @@ def deqp_list(text):
 
 
 def deqp_results(text):
-    """(name, word) of the results; what deqp-runner would refuse fails."""
+    """(name, word) of the results; fails where deqp-runner would refuse."""
     running, found = None, []
     for line in text.decode().split("\n"):
         status, run = re.search(r"\[\s*(\S*)\s*\]\s(\S*)", line), re.search(r"\[\sRUN\s*\]\s(.*)", line)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reports that exceed what a form may hold: what is cut or left out is said, and the worst stays."""
+"""Reports that exceed a form's limits say what they cut or leave out, and keep the worst."""
 import os
 import re
 import stat

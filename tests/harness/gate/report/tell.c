@@ -1,12 +1,15 @@
-// Writes the report that stdin tells in one form, so that a script can read it back.
+// Writes the report on stdin in one form, so that a script can read it back.
 //
-// tell FORM PATH     junit, bmf, json, text, coloured, annotations, gtest, summary; PATH "-":
-// stdout tell list FILTER   what --gtest_list_tests prints tell matches       pairs of filter and
-// name; prints 1 or 0 for each tell names         the names for gtest, one a line
+// tell FORM PATH      junit, bmf, json, text, coloured, annotations, gtest or summary;
+//                     PATH "-" is stdout
+// tell list FILTER    prints the list of --gtest_list_tests
+// tell matches        stdin: pairs of filter and name; prints 1 or 0 for each
+// tell names          prints the names for gtest, one a line
 //
-// stdin has fields that each end in a byte 0: the passport, then of each case its name, technique,
-// device, seconds, ending by number, message, details, picture, and value, low and high of the
-// ratio, the smallest visible change, and value, low and high of the time, and the baseline's.
+// stdin has fields that each end in a byte 0. The first is the passport. Each case then has its
+// name, technique, device, seconds, ending by number, message, details, picture, the ratio's value,
+// low and high, the smallest visible change, the time's value, low and high, and the baseline's
+// time.
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-"""Reports for the tests of their forms: cases with hostile texts, what becomes of these, and the program that tells them."""
+"""Reports for the tests of their forms: cases with hostile texts, what the texts become, and the program that writes reports."""
 import dataclasses
 import math
 import resource
@@ -8,7 +8,7 @@ import sys
 
 TELL, SCHEMA = sys.argv[1:3]
 NAN = math.nan
-# As docs/ci.md maps them: the word, JUnit's element, gtest's word, GitHub's command.
+# The endings as docs/ci.md maps them: the word, JUnit's element, gtest's word, GitHub's command.
 ENDINGS = [
     ("crash", "error", "FAILED", "error"),
     ("timeout", "error", "FAILED", "error"),
@@ -66,7 +66,7 @@ def hostile():
 
 
 def clean(text, line=True):
-    """What `harness/compare/gate/report/report.h` says that a text becomes, by Python's own decoder."""
+    """A text as `harness/compare/gate/report/report.h` cleans it, by Python's own decoder."""
     kept, at = [], 0
     while at < len(text):
         for size in (1, 2, 3, 4):
@@ -104,13 +104,13 @@ def names(cases):
 
 
 def fill_disk():
-    """Files of what is started now take no byte, as on a full disk."""
+    """From now on, files of new processes take no byte, as on a full disk."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
 
 
 def tell(form, cases, path="-", passport=b"cpu\n<passport>", status=0, is_full=False):
-    """What the program prints, in bytes; on a disk that is full."""
+    """The bytes that the program prints; is_full: on a full disk."""
     fields = [passport] + [field for case in cases for field in case.fields()]
     ran = subprocess.run([TELL, form, path], input=b"".join(field + b"\0" for field in fields), capture_output=True, check=False,
                          preexec_fn=fill_disk if is_full else None)

@@ -1,4 +1,4 @@
-// When a gate's time has no room for another launch, by a clock that only the test moves.
+// When a gate has no time left for another launch, by a clock that only the test moves.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,13 +11,13 @@
 
 static double now_ms;
 
-// In place of the program's.
+// Replaces the program's clock.
 double rg_now_ms(void)
 {
     return now_ms;
 }
 
-// A gate of 1000 ms after launch number `launch`, which took `took_ms` up to `at_ms`.
+// A gate of 1000 ms after launch number `launch`, which took `took_ms` and ended at `at_ms`.
 static struct rg_gate_times after(int launch, double took_ms, double at_ms)
 {
     now_ms = at_ms;
@@ -35,19 +35,19 @@ static void a_gate_ends_where_no_look_is_to_be_had(void **state)
         int launch;
         double took_ms, at_ms;
         bool is_over;
-        double look_ms; // when it is to be expected; 0: it was had
+        double look_ms; // when it is expected; 0: it has passed
     } rows[] = {
-        {0, 0, 100, false, 100},    // none was taken yet
+        {0, 0, 100, false, 100},    // no launch was taken yet
         {0, 0, 1000, true, 1000},   // no time is left
-        {0, 500, 700, false, 4200}, // the first of all is no measure, though it is told
+        {0, 500, 700, false, 4200}, // the first launch ends nothing; its look is given
         {1, 100, 300, false, 900},  // six more
         {1, 120, 300, true, 1020},
         {6, 100, 800, false, 900},
         {6, 100, 901, true, 1001},
-        {7, 100, 800, false, 0}, // behind the look each counts for itself
+        {7, 100, 800, false, 0}, // after the look each launch counts by itself
         {7, 100, 901, true, 0},
         {20, 100, 500, false, 0},
-        {3, 0, 999, false, 999}, // from a journal, which takes no time
+        {3, 0, 999, false, 999}, // from a journal: no launch took time
     };
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         struct rg_gate_times times = after(rows[i].launch, rows[i].took_ms, rows[i].at_ms);

@@ -1,4 +1,4 @@
-// Does so much of the work of raingauge-slower, for others to tell what it takes.
+// Does the given number of loops of raingauge-slower's work, so that others can time them.
 #include <stdlib.h>
 
 #include "tests/harness/gate/slower/work.h"

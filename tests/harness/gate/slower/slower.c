@@ -1,5 +1,5 @@
-// raingauge with real work beside each frame that it times, on the thread that simulates and draws:
-// RG_EXTRA_LOOPS of work.h.
+// raingauge with real work beside each timed frame, on the thread that simulates and draws:
+// RG_EXTRA_LOOPS loops of work.h.
 #include <stdbool.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@
 bool __real_rg_interrupted(void);
 bool __wrap_rg_interrupted(void);
 
-// A session asks once a frame (harness/devices/frames/local.c), within what is timed.
+// A session asks this once a frame (harness/devices/frames/local.c), within the timed part.
 bool __wrap_rg_interrupted(void)
 {
     static long loops = -1;

@@ -2,7 +2,7 @@
 #ifndef RG_TESTS_HARNESS_GATE_SLOWER_WORK_H
 #define RG_TESTS_HARNESS_GATE_SLOWER_WORK_H
 
-// So many multiplications, each of which waits for the one before it.
+// Does `loops` multiplications, each of which waits for the one before it.
 void rg_test_work(long loops);
 
 #endif

@@ -45,12 +45,13 @@ static void test_sheet(void **state)
     rg_result_sheet(&rig.result, &sheet);
     sheet_expect_text(&sheet, 0, "noise", "+-20%");
     sheet_expect_text(&sheet, 2, "noise", "busy");
-    assert_true(sheet_has_note(&sheet, "Marks: The 95 % interval of 1 of 5 cells spans over 1.1 times"));
+    assert_true(
+        sheet_has_note(&sheet, "Marks: The 95 % interval of 1 of 5 cells spans over 1.1 times"));
     rg_sheet_free(&sheet);
     rg_result_free(&rig.result);
 }
 
-// What every row tells is said once; rows are called by their names.
+// A fact that all rows share is printed once; rows are called by their names.
 static void test_sheet_of_names(void **state)
 {
     (void)state;
@@ -127,7 +128,7 @@ static const struct rg_table texture_table = {
     .note = "a note",
 };
 
-// Sizes stand beside those in print, and no columns of time.
+// Sizes stand next to the printed ones, and there are no columns of times.
 static void test_textures(void **state)
 {
     (void)state;
@@ -196,7 +197,7 @@ static void test_range(void **state)
     sheet_expect_text(&sheet, 0, "published ms_per_frame_min", "10");
     sheet_expect_text(&sheet, 0, "published ms_per_frame_max", "25");
     assert_null(sheet_text_at(&sheet, 0, "published fps"));
-    sheet_expect_text(&sheet, 0, "fps / published", "2.00 to 5.00"); // of 100 to 40 frames a second
+    sheet_expect_text(&sheet, 0, "fps / published", "2.00 to 5.00"); // print: 100 to 40 fps
     sheet_expect_text(&sheet, 1, "fps / published", "");
     sheet_expect_text(&sheet, 0, "drops_stepped a frame", "645");
     sheet_expect_text(&sheet, 1, "drops_stepped a frame", "");

@@ -1,4 +1,4 @@
-// Machine forms; and what was not measured, in them and in sheets.
+// Machine-readable forms, and how they and sheets show missing measurements.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -69,7 +69,7 @@ static void test_json(void **state)
     rg_result_free(&rig.result);
 }
 
-// Rows behind an interruption are left out, and no shape is told of those that are there.
+// Rows after an interruption are left out, and the others get no shape.
 static void test_missing_rows(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// What a sheet says of its table as a whole: costs, spread, growth.
+// The notes of a sheet about its whole table: costs, spread, growth.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 #include "tests/harness/results/forms/rig.h"
 #include "tests/tools/expect.h"
 
-// Named rows of no paper: the first has all on.
+// Named rows of no paper; the first row has all parts on.
 static const struct rg_table parts_table = {
     .id = "parts",
     .technique = "drops",
@@ -29,7 +29,7 @@ static const struct rg_table parts_table = {
     .note = "a note",
 };
 
-// What a part costs is what a frame takes without it.
+// A part's cost is a frame's time without it, as a share of the whole frame's.
 static void test_costs(void **state)
 {
     (void)state;
@@ -62,7 +62,7 @@ static const struct rg_table growth_table = {
     .note = "a note",
 };
 
-// The exponent of the time of a frame, which another program reckons, with its interval.
+// The exponent of a frame's time, as another program calculated it, with its interval.
 static void test_growth(void **state)
 {
     (void)state;
@@ -94,8 +94,8 @@ static void test_growth(void **state)
     rg_result_free(&rig.result);
 }
 
-// Two rows have a line, and an interval by their samples; a row without a time leaves nothing to
-// say.
+// Two rows give a slope, with an interval from their samples. A row without a time gives no slope
+// at all.
 static void test_growth_of_few_rows(void **state)
 {
     (void)state;
@@ -112,8 +112,8 @@ static void test_growth_of_few_rows(void **state)
                      RG_TREND_UNKNOWN);
 }
 
-// Over rows and variants, and the most over the rows of one. What saves work is not held against
-// print.
+// The spread over rows and variants, and the largest over the rows of one variant. Work that saves
+// something is not compared with print.
 static void test_spread(void **state)
 {
     (void)state;
@@ -137,8 +137,8 @@ static void test_spread(void **state)
     rg_result_free(&rig.result);
 }
 
-// Names and rates that are longer than what holds them are cut, and nothing is written behind it:
-// a record from elsewhere may have such.
+// Names and rates too long for their space are cut, without writing beyond it: a record from
+// elsewhere may have such.
 static void test_long_names_and_rates(void **state)
 {
     (void)state;

@@ -9,7 +9,7 @@
 #include "harness/tables/sheet/trend.h"
 #include "tests/harness/results/forms/rig.h"
 
-// Of each work the cells of one variant stay, those of the other leave.
+// In each work the cells of one variant stay, and the others go.
 static void test_keeping_a_variant(void **state)
 {
     (void)state;
@@ -64,7 +64,7 @@ static const struct rg_table works_table = {
     .note = "a note",
 };
 
-// What saves work stands beside what was printed, and is not held against it.
+// Work that saves something stands next to the printed work, and is not compared with print.
 static void test_works(void **state)
 {
     (void)state;
@@ -87,14 +87,14 @@ static void test_works(void **state)
     assert_string_equal(rg_result_at(&rig.result, ours)->set, "a=1 panes=mirror");
     assert_int_equal(rg_trend_of(&rig.result, ours).verdict, RG_TREND_OTHER_WORK);
     assert_string_equal(sheet_record_at(&rig, 1, 0)->set, "a=2 panes=mirror blocks=all");
-    // One of them alone.
+    // One work alone, kept after measuring.
     assert_false(rg_result_keep_work(&rig.result, "theirs"));
     assert_true(rg_result_keep_work(&rig.result, "ours"));
     assert_int_equal(rg_result_row_cells(&rig.result), 1);
     assert_float_equal(rg_record_fps(sheet_record_at(&rig, 2, 0)), 50, 1e-9);
     assert_string_equal(sheet_record_at(&rig, 2, 0)->work, "ours");
     rg_result_free(&rig.result);
-    // As it is measured.
+    // One work alone, chosen before measuring.
     const struct rg_table_part part = {.last_row = 2, .work = "paper"};
     rg_table_begin(&rig.result, &works_table, &part, &rig.devices);
     assert_int_equal(rig.result.work_count, 1);
@@ -102,13 +102,13 @@ static void test_works(void **state)
     rg_result_free(&rig.result);
 }
 
-// Rows and works that are left out, and what has none of them.
+// Rows and works are left out of a table without works.
 static void test_keeping(void **state)
 {
     (void)state;
     struct rig rig;
     sheet_measure(&rig, &sheet_axis_table, (double[]){40, 80, 20, 40, 10, 10});
-    assert_true(rg_result_keep_work(&rig.result, "paper")); // it tells no works apart
+    assert_true(rg_result_keep_work(&rig.result, "paper")); // the table tells no works apart
     assert_int_equal(rg_result_row_cells(&rig.result), 2);
     assert_true(rg_result_keep_rows(&rig.result, 1, 5));
     assert_int_equal(rig.result.first_row, 1);

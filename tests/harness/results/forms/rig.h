@@ -1,5 +1,5 @@
-// Tables of a few rows, and results of theirs as if they had been measured at chosen frame rates:
-// what tests of sheets and trends have them say.
+// Tables of a few rows, with results as if measured at chosen frame rates, from which tests make
+// sheets and trends.
 #ifndef RG_TESTS_HARNESS_RESULTS_FORMS_RIG_H
 #define RG_TESTS_HARNESS_RESULTS_FORMS_RIG_H
 
@@ -12,22 +12,22 @@
 // Named rows of a paper; rows of two variants and two works; rows along an axis, with two variants.
 extern const struct rg_table sheet_names_table, sheet_styles_table, sheet_axis_table;
 
-// What results are of: a software device.
+// The device of the results: a software device.
 extern struct rg_device sheet_device;
 
-// A result on one device as if it had been measured at these frame rates, of the table's rows in
-// turn and each row's works and variants; 0: the cell failed.
+// A result on one device, as if measured at these frame rates. They are in the order of the table's
+// rows, and within a row of its works and variants; 0: the cell failed.
 struct rig {
     struct rg_devices devices;
     struct rg_result result;
 };
 
-// `samples` of each cell, close to the frame rate. The caller frees rig->result.
+// Takes `samples` of each cell, close to the frame rate. The caller frees rig->result.
 void sheet_measure_few(struct rig *rig, const struct rg_table *table, const double *fps,
                        int samples);
-// Of eleven samples.
+// The same with eleven samples.
 void sheet_measure(struct rig *rig, const struct rg_table *table, const double *fps);
-// Of a variant of a table that is measured at these frame rates.
+// The trend of one variant of a table measured at these frame rates.
 struct rg_trend sheet_trend_of(const struct rg_table *table, int variant, const double *fps);
 
 // The record of a row and variant.

@@ -1,4 +1,4 @@
-// What is said of measured numbers: whether they keep the order and the slope of print.
+// Whether measured numbers keep the order and the slope of print.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@
 static void test_order_of_names(void **state)
 {
     (void)state;
-    // Equal in print: dragon and buddha may stand in any order.
+    // Dragon and Buddha are equal in print, so they may have any order.
     struct rg_trend s = sheet_trend_of(&sheet_names_table, 0, (double[]){50, 10, 11, 20});
     assert_int_equal(s.verdict, RG_TREND_ORDER);
     assert_int_equal(s.pairs, 5);
@@ -32,7 +32,7 @@ static void test_order_of_names(void **state)
     assert_int_equal(s.verdict, RG_TREND_UNKNOWN);
 }
 
-// Two cameras, each with three rows: no row is held against one of the other camera.
+// Two cameras, each with three rows: no row is compared with one of the other camera.
 static void test_groups(void **state)
 {
     (void)state;
@@ -50,7 +50,8 @@ static void test_groups(void **state)
     assert_int_equal(s.pairs, 6);
     assert_float_equal(s.slope, -1, 1e-6);
     assert_float_equal(s.published_slope, -1, 1e-9);
-    // Where each row has another value of the second key, that goes with the axis.
+    // If each row has another value of the second key, that key follows the axis and makes no
+    // groups.
     struct rg_table_row single[] = {rows[0], rows[1], rows[2]};
     for (int i = 0; i < 3; i++)
         single[i].values[1] = i;
@@ -61,7 +62,8 @@ static void test_groups(void **state)
     assert_float_equal(s.slope, -1, 1e-6);
 }
 
-// Of three pairs one is other than in print: the samples must settle that, or the verdict is open.
+// One of three pairs is in another order than in print: the samples must settle it, or the verdict
+// is open.
 static void test_unsettled_order(void **state)
 {
     (void)state;
@@ -92,14 +94,14 @@ static void test_slope_along_axis(void **state)
     assert_int_equal(s.verdict, RG_TREND_ONLY);
     assert_int_equal(sheet_trend_of(&sheet_axis_table, 0, (double[]){40, 1, 41, 1, 38, 1}).verdict,
                      RG_TREND_NOT);
-    // The other variant is held against its own column, in which two rows are equal.
+    // The other variant is compared with its own column, in which two rows are equal.
     s = sheet_trend_of(&sheet_axis_table, 1, (double[]){1, 80, 1, 39, 1, 41});
     assert_int_equal(s.verdict, RG_TREND_REPRODUCED);
     assert_int_equal(s.pairs, 2);
 }
 
-// A row that draws more than 1.2 times the particles in print takes no part; nor does anything
-// where settings were changed.
+// A row that draws more than 1.2 times the printed particles takes no part. With changed settings
+// no row does.
 static void test_other_work(void **state)
 {
     (void)state;
@@ -118,7 +120,7 @@ static void test_other_work(void **state)
     rg_result_free(&rig.result);
 }
 
-// Of fewer than six samples nothing is decided, and no interval is printed.
+// Fewer than six samples decide nothing, and print no interval.
 static void test_few_samples(void **state)
 {
     (void)state;
@@ -146,7 +148,7 @@ static void test_few_samples(void **state)
     }
 }
 
-// A row that was measured while the machine was a tenth slower may be slower for that.
+// A row measured while the machine was a tenth slower may be slower because of that.
 static void test_drift(void **state)
 {
     (void)state;
@@ -171,7 +173,7 @@ static void test_drift(void **state)
     rg_result_free(&rig.result);
 }
 
-// A budget may leave out the row that a choice of rows begins with.
+// A budget may leave out the first of the chosen rows.
 static void test_first_row_left_out(void **state)
 {
     (void)state;

@@ -1,7 +1,6 @@
 // Simulates courses of claims, 10,000 for each kind of claim and truth: at most 0.5 % of the
-// verdicts are false. A launch's noise is drawn in blocks from recorded launches of equal cells
-// (launches.txt), or it has two states 15 % apart that follow each other with a lag-1
-// autocorrelation of 0.5.
+// verdicts may be false. A launch's noise is either drawn in blocks from recorded launches of equal
+// cells (launches.txt), or has two states 15 % apart with a lag-1 autocorrelation of 0.5.
 //
 // courses LAUNCHES.TXT
 #include <setjmp.h>
@@ -18,10 +17,10 @@
 #include "tests/tools/expect.h"
 
 enum { ROWS = 6, COURSES = 10000, MOST_FALSE = COURSES / 200, BLOCK = 8, MOST_TRACES = 400 };
-// As many launches as a course can take.
+// The most launches that a course can take.
 enum { LAUNCHES = 192 };
 
-static double traces[MOST_TRACES][ROWS]; // logarithms, of cells that do the same
+static double traces[MOST_TRACES][ROWS]; // logarithms, of cells with equal work
 static int trace_count;
 
 static uint32_t state = 1;
@@ -60,12 +59,12 @@ static void draw_recorded(double logs[LAUNCHES][ROWS][2], int rows, int variants
     for (int l = 0; l < LAUNCHES; l++) {
         at = l % BLOCK ? (at + 1) % trace_count : (int)(chance() * trace_count);
         for (int row = 0; row < rows; row++)
-            for (int v = 0; v < variants; v++) // the other variant's noise is that of another row
+            for (int v = 0; v < variants; v++) // the other variant has another row's noise
                 logs[l][row][v] = traces[at][(row + 3 * v) % ROWS];
     }
 }
 
-// Each cell is slow in half of its launches, and stays as it is in three of four.
+// Each cell is slow in half of its launches, and keeps its state in three of four.
 static void draw_two_states(double logs[LAUNCHES][ROWS][2], int rows, int variants)
 {
     for (int row = 0; row < rows; row++) {
@@ -154,7 +153,7 @@ static void run(const struct truth *truth, void (*draw)(double[LAUNCHES][ROWS][2
 #define LEVEL {1, 1, 1, 1, 1, 1}
 #define YES RG_CLAIM_REPRODUCED
 #define NO  RG_CLAIM_NOT_REPRODUCED
-// Truths lie 0.5 % beside the bound, where a wrong verdict is most probable, or are equal.
+// Truths are 0.5 % from the bound, where a wrong verdict is most probable, or equal.
 static const struct truth truths[] = {
     {CLAIM("ratio, just less", RG_CLAIM_RATIO, 2, .least = 1.205), {1, 1.2}, 1, YES},
     {CLAIM("ratio, just more", RG_CLAIM_RATIO, 2, .least = 1.195), {1, 1.2}, 1, NO},
@@ -202,7 +201,7 @@ static void rates(void **user)
     run(&truth, draw_recorded, "recorded noise", counts);
 }
 
-// Of cells 10 and 30 % apart 95 % are decided, and of equal ones 90 % against a margin of 10 %.
+// 95 % of cells 10 and 30 % apart are decided, and 90 % of equal cells against a margin of 10 %.
 static void most_are_decided(void **user)
 {
     (void)user;

@@ -1,4 +1,5 @@
-// Which launches claims need, and what kept ones say beside figures of today: from records alone.
+// The launches that claims need, and how stored ones compare with figures of today, from records
+// alone.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +15,7 @@
 #include "harness/tables/papers/papers.h"
 #include "tests/tools/expect.h"
 
-// A table on one device of which claims need all cells, with launches that all take `ms`.
+// A table on one device, with the cells that claims need and launches that all take `ms`.
 static void make(struct rg_result *result, const char *id, int launches, double ms)
 {
     static struct rg_device device = {.info = {.name = "cpu"}};
@@ -49,11 +50,11 @@ static void rows_and_variants_that_claims_need(void **state)
     (void)state;
     struct rg_result result;
     make(&result, "ye-1", 0, 1);
-    assert_int_equal(result.variant_count, 8); // not the layers, nor the city
+    assert_int_equal(result.variant_count, 8); // neither the layers nor the city
     rg_result_free(&result);
     make(&result, "feng-2", 0, 1);
     assert_int_equal(rg_result_wants(&result, 4), true);
-    assert_int_equal(rg_result_wants(&result, 5), false); // the car's rows alone
+    assert_int_equal(rg_result_wants(&result, 5), false); // only the car's rows
     rg_result_free(&result);
 }
 
@@ -65,7 +66,7 @@ static int size_of_group(const struct rg_launch_cells *cells, int group)
     return size;
 }
 
-// Cells that a claim compares are open together, and others are not.
+// Cells that a claim compares are open together; others are not.
 static void groups(void **state)
 {
     (void)state;
@@ -74,17 +75,17 @@ static void groups(void **state)
     make(&result, "ye-1", 0, 1);
     assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 1);
     assert_int_equal(cells.count, 5 * 8);
-    assert_int_equal(cells.group_count, 2 * 5); // by row: those beside the heap's, and the others
+    assert_int_equal(cells.group_count, 2 * 5); // each row: with the heap, and the rest
     rg_result_free(&result);
     make(&result, "creus-5.3", 0, 1);
     assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 1);
     assert_int_equal(cells.count, 18);
-    assert_int_equal(cells.group_count, 2); // cameras
+    assert_int_equal(cells.group_count, 2); // one a camera
     assert_int_equal(size_of_group(&cells, 0), 9);
     rg_result_free(&result);
 }
 
-// What is decided is launched no more, and the next launch counts on.
+// A decided claim gets no more launches; otherwise the launches' numbers go on.
 static void a_course_ends(void **state)
 {
     (void)state;
@@ -97,7 +98,7 @@ static void a_course_ends(void **state)
     make(&result, "chin-timing", 192, 10);
     assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 0);
     assert_false(rg_launches_are_due(&result, rg_claims));
-    // Most launches were disturbed: the course is given up after 33 of them.
+    // If most launches are disturbed, the course ends after 33 of them.
     struct rg_record *record = rg_result_at(&result, rg_result_start(&result));
     record = rg_result_at(&result, (struct rg_place){.row = 0});
     record->launch_count = 33;
@@ -109,8 +110,8 @@ static void a_course_ends(void **state)
     rg_result_free(&result);
 }
 
-// Kept launches give the verdict; today's figures agree with it, are near the bound, differ, or do
-// not show it.
+// Stored launches give the verdict. Today's figures agree with it, even near the bound, or differ,
+// or are missing.
 static void kept_launches_beside_today(void **state)
 {
     (void)state;
@@ -139,7 +140,7 @@ static void kept_launches_beside_today(void **state)
     assert_int_equal(outcomes.outcomes[0].agreement, RG_AGREEMENT_NOT_SEEN);
     rg_claims_free(&outcomes);
     rg_result_free(&today);
-    // A result with launches of its own is judged by them.
+    // A result with its own launches is judged by these.
     outcomes = (struct rg_claim_outcomes){0};
     make(&today, "chin-timing", 192, 50);
     assert_true(rg_claims_add(&outcomes, &today, &stored, &shown));
@@ -166,7 +167,7 @@ static void launches_are_stored(void **state)
     rg_result_free(&read);
     json_t *cell = json_array_get(json_object_get(document, "cells"), 0);
     json_t *launches = json_object_get(json_object_get(cell, "measured"), "launches");
-    json_array_set_new(json_array_get(launches, 2), 0, json_integer(2)); // as the one before it
+    json_array_set_new(json_array_get(launches, 2), 0, json_integer(2)); // the same number twice
     assert_false(rg_result_from_json(document, "made-up", &read, why));
     assert_non_null(strstr(why, "made-up: cells[0].measured.launches has an element"));
     json_decref(document);

@@ -1,12 +1,13 @@
-// Launches of cells whose truth is known by count of work: panes that cover the picture, drawn by
-// the technique raster. For selftest.py and for the traces of courses.c.
+// Launches of cells with a known truth: each draws a number of panes over the picture, by the
+// technique raster. For selftest.py and for the traces of courses.c.
 //
-// launching DEVICE record N COUNT...        N launches of cells with so many panes: a line each,
-//                                           "number stolen others ms ms ..."
-// launching DEVICE {ratio|alike} X COUNT COUNT    one course of a claim that the first cell is X
-// times launching DEVICE falls COUNT...           as fast; that both are alike to X; that cells get
-// slower:
-//                                           "verdict launches disturbed seconds"
+// launching DEVICE record N COUNT...
+//     N launches of cells with COUNT panes: a line each, "number stolen others ms ms ..."
+// launching DEVICE {ratio|alike} X COUNT COUNT
+//     one course of a claim that the first cell is X times as fast, or that both are alike to X
+// launching DEVICE falls COUNT...
+//     one course of a claim that cells get slower
+// Courses print "verdict launches disturbed seconds".
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,7 +44,7 @@ static void make_rows(char **counts, int count)
     }
 }
 
-// Describes all rows as if they had been measured: launches alone are of interest.
+// Describes all rows as if they had been measured, since only launches matter here.
 static bool begin(struct rg_result *result, const struct rg_devices *devices)
 {
     const struct rg_table_part part = {.last_row = table.row_count - 1, .full = true};

@@ -1,5 +1,5 @@
-// Claims beside print: each is about rows and variants that there are, and print itself bears it
-// out or contradicts it.
+// Claims compared with print: each is about existing rows and variants, and print itself confirms
+// or contradicts it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 #include "harness/tables/table.h"
 #include "tests/tools/expect.h"
 
-// Each claim is about a table that there is, its rows and its variants.
+// Each claim names an existing table, its rows and its variants.
 static void test_claims_are_about_tables(void **state)
 {
     (void)state;
@@ -41,14 +41,14 @@ static void test_claims_are_about_tables(void **state)
 
 enum { LAUNCHES = 192 };
 
-// From 0 to 1.
+// A random number from 0 to 1.
 static double noise(uint32_t *x)
 {
     *x = *x * 1664525u + 1013904223u;
     return (*x >> 8) * 0x1p-24;
 }
 
-// The table on a device that is as fast as print.
+// Results of a device that is as fast as print.
 static void make_as_printed(const struct rg_table *table, struct rg_result *result)
 {
     static struct rg_device device = {.info = {.name = "cpu"}};
@@ -79,8 +79,8 @@ static bool is_of_printed_rates(const struct rg_claim *claim, const struct rg_re
            isfinite(rg_record_published_fps(rg_result_at(result, first)));
 }
 
-// What print bears out of its own claims: the paper contradicts itself in one. It says that rates
-// vary with the scene, and prints 1.03 times.
+// The verdict that print gives its own claims. The paper contradicts itself in one: it says that
+// rates vary with the scene, and prints 1.03 times.
 static enum rg_claim_verdict verdict_of_print(const struct rg_claim *claim)
 {
     return !strcmp(claim->table, "feng-1") && claim->test == RG_CLAIM_APART
@@ -88,7 +88,7 @@ static enum rg_claim_verdict verdict_of_print(const struct rg_claim *claim)
                : RG_CLAIM_REPRODUCED;
 }
 
-// A claim that was put to other rows, another variant or another number would not be borne out.
+// A claim about the wrong rows, variant or number would not be confirmed.
 static void test_print_bears_out_claims(void **state)
 {
     (void)state;

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Holds claims' verdicts against cells whose truth is known by count of work, with real processes, while another one is busy.
+"""Tests claims' verdicts with real processes: the number of panes gives each cell's truth. Another process keeps one core busy.
 
     selftest.py BUILD [--device D] [--repeats N] [--idle]
 
-Cells draw panes over the whole picture (BUILD/tests/harness/results/launching/launching), with one thread, so that a busy core leaves them
-another. N (60) courses each: equal cells, which must be alike within 10 %; cells 5, 10 and 30 % apart, of which the first must not be
-the slower; and six cells, each 5 % slower than the one before. Prints each verdict. The exit status is 1 where more than one verdict
-of 100 is false, where fewer than 95 % of those 10 and 30 % apart are decided, or fewer than 90 % of equal ones.
+Cells draw panes over the whole picture (BUILD/tests/harness/results/launching/launching), with one thread, so that a busy core
+leaves them another. N (60) courses each: equal cells, which must be alike within 10 %; cells 5, 10 and 30 % apart, of which the
+first must not be the slower; and six cells, each 5 % slower than the one before. Prints each verdict. The exit status is 1 if
+more than one verdict of 100 is false, or if fewer than 95 % of those 10 and 30 % apart, or fewer than 90 % of equal ones, are
+decided.
 """
 import argparse
 import collections
@@ -15,7 +16,7 @@ import sys
 
 BUSY = "import os\nwhose = os.getppid()\nwhile os.getppid() == whose: pass"
 PANES = 400
-# Name, the claim with its cells' panes, the verdict that is false, the least share of decided ones.
+# Name, the claim with its cells' panes, the false verdict, the least share of decided courses.
 KINDS = [("equal", ["alike", "1.1", PANES, PANES], "not reproduced", 0.9),
          ("5 % apart", ["ratio", "1", PANES, PANES * 1.05], "not reproduced", 0),
          ("10 % apart", ["ratio", "1", PANES, PANES * 1.1], "not reproduced", 0.95),

@@ -1,6 +1,5 @@
-// What drivers compile beforehand: one cell of each technique on each device that has a driver,
-// each in a process of its own, for which a script stands here, as many at a time as there are
-// cores.
+// Drivers compile beforehand: one cell of each technique on each device with a driver. Each
+// compiles in its own process, as many at a time as there are cores. A script replaces the program.
 #define _GNU_SOURCE // sched_setaffinity
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,7 +23,7 @@
 #include "harness/tables/runs/compile.h"
 #include "tests/harness/results/planning/slow.h"
 
-// --- tables and devices that are only named ---
+// --- tables and devices that have only names ---
 
 static const struct rg_table levels = {.id = "slow-0", .technique = "slow", .is_of_textures = true},
                              first = {.id = "slow-1", .technique = "slow"},
@@ -39,11 +38,11 @@ static struct rg_device named[] = {{.backend = &without, .info = {.name = "cpu"}
                                    {.backend = &with, .info = {.name = "opencl"}}};
 static const struct rg_devices devices = {.count = 3, .devices = {&named[0], &named[1], &named[2]}};
 
-// --- a script in place of the program ---
+// --- a script that replaces the program ---
 
 static char folder[] = "/tmp/raingauge-compile-XXXXXX", script[64], told[64], heard[1024];
 
-// It tells when it begins and when it ends; between them stands what `does` says.
+// Writes a script that logs when it begins and ends, and runs `does` in between.
 static void write_script(const char *does)
 {
     FILE *file = fopen(script, "w");
@@ -73,7 +72,7 @@ static void hear(enum rg_log_level level, const char *line, void *user)
     snprintf(heard + used, sizeof(heard) - used, "%s\n", line);
 }
 
-// On so many cores, with a script that does this. What is logged is heard.
+// Compiles on this many cores, with this script, and keeps the log.
 static int compile(int cores, const char *does)
 {
     cpu_set_t before, these;
@@ -126,7 +125,7 @@ static void two_cores_compile_side_by_side(void **state)
                      RG_EXIT_PASS);
 }
 
-// The others go on; a device that does not support it has nothing to compile.
+// The others go on. A device that does not support its cell has nothing to compile.
 static void what_fails_is_told(void **state)
 {
     (void)state;
@@ -141,7 +140,7 @@ static void what_fails_is_told(void **state)
         strstr(read_told(), "begin table slow-1 --compile --device gl --timeout 7\nend\n"));
 }
 
-// Ctrl-C reaches this process alone, which ends what it has begun.
+// Ctrl-C reaches this process alone, which ends the processes that it started.
 static void an_interruption_ends_it(void **state)
 {
     (void)state;

@@ -1,6 +1,5 @@
-// What a dry run of a sweep learns of its cells by opening some of them: devices and a technique
-// that take time by a script, and a clock that only they move; and what a cell takes by what its
-// frames take.
+// A dry run of a sweep learns about its cells by opening some of them, and a cell's time follows
+// from its frames'. Devices and a technique take time by a script, and only they move the clock.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -34,13 +33,13 @@ static const struct rg_table table = {.id = "slow-1",
                                       .rows = rows,
                                       .note = "a note"};
 
-// How many times as long as on cpu frames take, on each device.
+// Each device's time of a frame, relative to cpu.
 static const double slowness[] = {1, 10, 3};
 
 static const struct rg_table_row late_rows[] = {{"fixed_ms=2 late_ms=7 late_frame=4", {1}, "a"},
                                                 {"fixed_ms=10 late_ms=90 late_frame=4", {3}, "c"}};
 
-// Of three steps behind the second frame the last two are late.
+// The last two of three steps after the second frame are late.
 static struct rg_cell_frames late_frames(int row, int device)
 {
     const double late_ms = row ? 90 : 7, slow = slowness[device];
@@ -49,8 +48,7 @@ static struct rg_cell_frames late_frames(int row, int device)
                                    (1 + late_ms + drawn_ms) * slow};
 }
 
-// Frames are expected to take what they do once rain has built up, and steps what they do on
-// average until then.
+// Frames are expected to take their time with full rain, and steps their average until then.
 static void a_sweep_is_of_rain_that_has_built_up(void **state)
 {
     (void)state;
@@ -72,8 +70,8 @@ static void a_sweep_is_of_rain_that_has_built_up(void **state)
     slow_end(&rig);
 }
 
-// Plans a sweep with a hundred thousand steps before the frames that are timed, one opening of
-// which is interrupted, or none (0), and returns how long that takes.
+// Plans a sweep with a hundred thousand steps before its timed frames, and returns how long
+// planning takes. Opening number `interrupted` is interrupted; 0: none.
 static double plan_many_steps(int interrupted, struct rg_plan *plan)
 {
     struct slow_rig rig;
@@ -88,7 +86,7 @@ static double plan_many_steps(int interrupted, struct rg_plan *plan)
     return taken_ms;
 }
 
-// They are not all simulated to tell what they take.
+// Planning does not simulate all steps.
 static void looking_takes_a_moment(void **state)
 {
     (void)state;
@@ -98,7 +96,7 @@ static void looking_takes_a_moment(void **state)
     assert_above(plan.device_s[0], 3 * 1e-3 * 100000); // three rows, a millisecond a step
 }
 
-// None of them is simulated once the command was interrupted.
+// No step is simulated after an interruption.
 static void an_interrupted_look_ends(void **state)
 {
     (void)state;
@@ -108,7 +106,7 @@ static void an_interrupted_look_ends(void **state)
     assert_true(rg_interrupted());
 }
 
-// By hand: frames that are long, short, and of a window of frames.
+// By hand: long frames, short frames, and a window of frames.
 static void a_cell_takes_what_its_frames_take(void **state)
 {
     (void)state;
@@ -125,18 +123,18 @@ static void a_cell_takes_what_its_frames_take(void **state)
     const struct rg_cell_frames slow = {7, 3, 500}, fast = {7, 0.25, 1}, middling = {7, 3, 60};
     few.warm_up_frames = 1;
     few.passes_ms = 0;
-    // The first and the last of 10, the one that is counted, one of warm-up, 6 samples, and 2
-    // frames of 1.5 for the passes; 8 steps.
+    // The first and the last of 10, one counted frame, one of warm-up, 6 samples, and 2 frames of
+    // 1.5 for the passes; 8 steps.
     assert_below(fabs(rg_cell_ms(&plain, &slow, &o) - (7 + 8 * 3 + 13 * 500)), 1e-6);
-    // One of 1.5 for the passes.
+    // One frame of 1.5 for the passes.
     assert_below(fabs(rg_cell_ms(&plain, &slow, &few) - (7 + 8 * 3 + 11.5 * 500)), 1e-6);
     assert_below(fabs(rg_cell_ms(&alone, &slow, &o) - (7 + 12 * 500)), 1e-6);
     // 3 + 4 + 4 + 15 samples of 15 + 1 frames + 40 frames of 1.5.
     assert_below(fabs(rg_cell_ms(&plain, &fast, &o) - (7 + 8 * 0.25 + 311)), 1e-6);
-    // 3, 4 of warm-up in 200 ms, 8 samples and a frame before each, 5 frames of 1.5.
+    // 3 frames, 4 of warm-up in 200 ms, 8 samples and a frame before each, 5 frames of 1.5.
     assert_below(fabs(rg_cell_ms(&plain, &middling, &o) - (7 + 8 * 3 + (3 + 4 + 16 + 7.5) * 60)),
                  1e-6);
-    // 11 frames in windows of 5: opened twice more, each with nine steps and a frame.
+    // 11 frames in windows of 5: two more openings, each with nine steps and a frame.
     assert_below(
         fabs(rg_cell_ms(&window, &slow, &o) - (7 + 8 * 3 + 13 * 500 + 2 * (7 + 9 * 3 + 500))),
         1e-6);
@@ -149,7 +147,7 @@ int main(void)
         cmocka_unit_test(a_sweep_is_of_rain_that_has_built_up),
         cmocka_unit_test(looking_takes_a_moment),
         cmocka_unit_test(a_cell_takes_what_its_frames_take),
-        cmocka_unit_test(an_interrupted_look_ends), // last, for it stays interrupted
+        cmocka_unit_test(an_interrupted_look_ends), // last, since it stays interrupted
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
-// How long it still takes, as a command tells it while it measures tables, by a clock that only
-// their frames move: in many runs, of rows that grow heavier or lighter, have peaks, or scatter. A
-// time that is told is right within three times in 95 % of them; else there is no word.
+// The time left, as a command reports it while it measures tables, by a clock that only their
+// frames move. Many runs have rows that grow heavier or lighter, have peaks, or scatter. In 95 % of
+// runs that report a time, each time is right within a factor of three.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,12 +21,12 @@
 
 enum { MOST_ROWS = 40, MOST_LINES = 64, MOST_TABLES = 3, RUNS = 24 };
 
-// --- what is told ---
+// --- the log ---
 
 static struct {
     int count;
     struct {
-        double at_ms, left_ms; // when it was told, and how long the rest was to take
+        double at_ms, left_ms; // when it was logged, and the announced rest
         char text[128];
     } lines[MOST_LINES];
     double start_ms;
@@ -50,7 +50,7 @@ static void hear(enum rg_log_level level, const char *line, void *user)
 
 // --- tables ---
 
-// Rows whose frames take so long, and their settings as text.
+// Rows whose frames take a given time, and their settings as text.
 struct uneven {
     char sets[MOST_ROWS][64];
     struct rg_table_row rows[MOST_ROWS];
@@ -93,13 +93,13 @@ static double alike(int row, int rows)
     return 50 + 0.01 * row / rows;
 }
 
-// As where each camera's last row is the whole rain.
+// As in a table where each camera's last row has all the rain.
 static double with_peaks(int row, int rows)
 {
     return (row + 1) % (rows / 2) ? 20 + row : 400;
 }
 
-// From a millisecond to a second, by chance.
+// Random, from a millisecond to a second.
 static double scattered(int row, int rows)
 {
     (void)row;
@@ -117,7 +117,7 @@ static int print(const struct rg_result *result, const void *user)
     return 0;
 }
 
-// Measures tables, hears what is told, and returns when it ended.
+// Measures tables, keeps the announced times, and returns when the run ended.
 static double run(const struct rg_table *const tables[], int count)
 {
     char folder[] = "/tmp/raingauge-left-XXXXXX", command[64];
@@ -137,7 +137,7 @@ static double run(const struct rg_table *const tables[], int count)
     return end_ms;
 }
 
-// How many lines are right within so many times.
+// The number of lines that are right within a factor of `times`.
 static int right(double end_ms, double times)
 {
     int count = 0;
@@ -177,7 +177,7 @@ static void what_is_told_is_right_within_three_times(void **state)
     assert_at_least(all_right, 0.95 * spoke);
 }
 
-// Once rows are open it is known what is left.
+// Once rows are open, the time left is known.
 static void rows_that_are_alike_are_told(void **state)
 {
     (void)state;
@@ -190,8 +190,8 @@ static void rows_that_are_alike_are_told(void **state)
     assert_below(told.lines[0].at_ms - told.start_ms, 0.6 * (end_ms - told.start_ms));
 }
 
-// Frames take five times as long as those of the warm-up: all that are timed, or those of a window
-// from the tenth frame on, which the first samples do not tell.
+// Frames take five times as long as in the warm-up: all timed ones, or in a window those from the
+// tenth on, which the first samples do not show.
 static void samples_tell_their_pace(void **state)
 {
     (void)state;
@@ -207,7 +207,7 @@ static void samples_tell_their_pace(void **state)
     }
 }
 
-// A window of frames ends after each second sample, and the next takes an instance anew.
+// A window of frames ends after each second sample, and the next one needs a new instance.
 static void windows_are_foretold(void **state)
 {
     (void)state;
@@ -221,7 +221,7 @@ static void windows_are_foretold(void **state)
     assert_int_equal(right(end_ms, 3), told.count);
 }
 
-// What a table takes that is not begun does not follow from others.
+// The time of a table that has not begun is not estimated from others.
 static void tables_that_follow_are_not_foretold(void **state)
 {
     (void)state;

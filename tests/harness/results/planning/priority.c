@@ -1,5 +1,5 @@
-// In which order tables are measured, as a function of what is measured and of what that took; and
-// what curves and claims need.
+// The order in which tables are measured follows from earlier measurements and their times. Curves
+// and claims need certain rows.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +17,8 @@
 enum { CPU = 1, GL = 2, REFERENCE = 4 };
 #define LEFT_S 1e6
 
-// Three tables of five rows, of which two techniques have two and one; claims are about the last.
+// Three tables of five rows. The first and the last share a technique, and claims are about the
+// last.
 enum { TABLES = 3 };
 static const struct rg_table tables[TABLES] = {{.id = "a", .technique = "one"},
                                                {.id = "b", .technique = "other"},
@@ -37,8 +38,8 @@ static struct rg_order begin(struct rg_standing standings[TABLES])
     return (struct rg_order){standings, TABLES, CPU | GL | REFERENCE, CPU, REFERENCE};
 }
 
-// The next step, which is taken as done: it took so long for each of its cells, on cpu, and twice
-// as long on others.
+// Takes the next step as done: each of its cells took this long on cpu, and twice as long on other
+// devices.
 static struct rg_step next(struct rg_order *order, double cell_s)
 {
     struct rg_step step;
@@ -63,8 +64,8 @@ static void expect(struct rg_order *order, enum rg_turn turn, int table, unsigne
                  step.devices, turn, table, on);
 }
 
-// Each table has its first rows before one has more; then what is needed, claims first, and what is
-// cheap before what is dear.
+// Each table has its first rows before any has more. Then come the needed rows, claims first, and
+// cheap ones before dear ones.
 static void the_order_is_that_of_priority(void **state)
 {
     (void)state;
@@ -72,7 +73,7 @@ static void the_order_is_that_of_priority(void **state)
     struct rg_order order = begin(s);
     expect(&order, RG_TURN_FIRST, 0, CPU, 5);
     expect(&order, RG_TURN_FIRST, 1, CPU,
-           1); // of another technique, so that nothing is known of it
+           1); // of another technique, so nothing is known
     expect(&order, RG_TURN_FIRST, 2, CPU, 3);
     expect(&order, RG_TURN_NEEDED, 1, CPU, 1);
     expect(&order, RG_TURN_NEEDED, 2, CPU, 3);
@@ -100,8 +101,8 @@ static void the_order_is_that_of_priority(void **state)
     }
 }
 
-// Where nothing is known, what looks light comes first: by pixels and frames, and what smaller
-// pictures leave out.
+// If nothing is known, light tables come first, by their pixels, their frames and the work that
+// smaller pictures leave out.
 static void what_looks_light_comes_first(void **state)
 {
     (void)state;
@@ -121,7 +122,8 @@ static void what_looks_light_comes_first(void **state)
     }
 }
 
-// What was tried and is not there, is not tried again; nothing of a table without rows is refined.
+// A step that was tried without a result is not tried again, and a table without rows is not
+// refined.
 static void what_was_tried_is_not_tried_again(void **state)
 {
     (void)state;
@@ -135,8 +137,8 @@ static void what_was_tried_is_not_tried_again(void **state)
     assert_false(rg_order_next(&order, LEFT_S, &step));
 }
 
-// By its own cells, or by those of its technique: by how a device compares with others there; else
-// by what it took elsewhere.
+// A cell's time is estimated from its own table's, or from its technique's, by how that device
+// compares with others there. Otherwise it is the device's time elsewhere.
 static void what_cells_take_follows_from_others(void **state)
 {
     (void)state;
@@ -151,11 +153,11 @@ static void what_cells_take_follows_from_others(void **state)
     assert_equals(step.expected_s, 5);
     for (int i = 0; i < 3; i++)
         next(&order, 3);
-    // Three rows on gl, of which nothing is known: no less than on cpu.
+    // Three rows on gl, about which nothing is known: at least as long as on cpu.
     step = next(&order, 3);
     assert_equals(step.turn, RG_TURN_CLAIMED);
     assert_equals(step.expected_s, 3 * 3);
-    // The other table of its technique takes twice as long there, too; its cells take 3 s now.
+    // gl takes twice as long for the other table of the technique, too, whose cells now take 3 s.
     struct rg_step of = {.table = 0, .turn = RG_TURN_DEVICES};
     for (int i = 0; i < 2; i++) {
         assert_true(rg_order_next(&order, LEFT_S, &step));
@@ -164,8 +166,7 @@ static void what_cells_take_follows_from_others(void **state)
     assert_equals(of.expected_s, 3 * 2 * 3);
 }
 
-// Whole pictures where there is time for those of all tables, and half of the size where there is
-// not.
+// Pictures are whole if there is time for those of all tables, and half the size otherwise.
 static void pictures_grow_as_far_as_there_is_time(void **state)
 {
     (void)state;
@@ -175,8 +176,8 @@ static void pictures_grow_as_far_as_there_is_time(void **state)
         struct rg_order order = begin(s);
         for (int i = 0; i < 9; i++)
             next(&order, 1);
-        // Three rows on cpu and, which takes twice as long, on gl; 16 times the pixels and twice
-        // the samples, of three tables.
+        // Three tables of three rows, on cpu and, twice as slow, on gl; 16 times the pixels and
+        // twice the samples.
         const double left_s = 3 * (9 * 16 * 2) * (much ? 1.01 : 0.99);
         assert_true(rg_order_next(&order, left_s, &step));
         assert_int_equal(step.turn, RG_TURN_BETTER);
@@ -185,7 +186,7 @@ static void pictures_grow_as_far_as_there_is_time(void **state)
     }
 }
 
-// A table's part of the time is what is left, by those that wait.
+// A table's part of the time is the rest, divided by the number of waiting tables.
 static void time_is_shared_among_those_that_wait(void **state)
 {
     (void)state;
@@ -200,7 +201,8 @@ static void time_is_shared_among_those_that_wait(void **state)
     assert_equals(next(&order, 1).part_s, LEFT_S);
 }
 
-// The ends and the middle of each table, and what claims end without.
+// Needed are the ends and the middle of each table, and the rows without which claims have no
+// verdict.
 static void rows_of_curves_and_claims_are_needed(void **state)
 {
     (void)state;
@@ -233,7 +235,7 @@ static void rows_of_curves_and_claims_are_needed(void **state)
                     assert_true(variants[v] || c->can_wait);
         }
     }
-    // The second camera's curve has ends and a middle of its own.
+    // The second camera's curve has its own ends and middle.
     const struct rg_table *cameras = rg_table_find("creus-5.3");
     static const int due[] = {1, 4, 8, 9, 10, 13, 17, 18};
     assert_int_equal(rg_needed_rows(cameras, rows), 8);

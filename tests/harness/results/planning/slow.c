@@ -13,7 +13,7 @@
 #include "core/techniques/proof.h"
 #include "harness/record/record.h"
 
-// --- a technique whose frames take what its settings say ---
+// --- a technique whose frames take the time of its settings ---
 
 struct slow_settings {
     double open_ms, step_ms, fixed_ms, late_ms, late_frame, late_on_cpu, pixel_us;
@@ -36,19 +36,19 @@ static const struct rg_param params[] = {
 static const struct rg_param_table param_table = {
     .technique = "slow", .rows = params, .count = 7, .settings_size = sizeof(struct slow_settings)};
 
-// A device's item_ms is how many times as long it takes.
+// A device's item_ms is its slowness, relative to cpu.
 static struct fake_device *fake_of(const struct rg_instance *instance)
 {
     return (struct fake_device *)instance->device;
 }
 
-// A frame that waits after every stage takes longer.
+// A frame takes longer if it waits after every stage.
 static double slowness(const struct rg_instance *instance)
 {
     return fake_of(instance)->item_ms * (instance->after_stage ? 1.5 : 1);
 }
 
-// What rain takes that has built up: more than anyone sees who looks at the first frames.
+// The time of full rain, which the first frames do not show.
 static double late_ms(const struct rg_instance *instance)
 {
     const struct slow_settings *s = &((const struct slow_instance *)instance)->settings;
@@ -57,7 +57,7 @@ static double late_ms(const struct rg_instance *instance)
 }
 
 int slow_opened, slow_interrupted;
-// What gl's driver compiles, and how many times more: first in an opening, then in frames.
+// The time that gl's driver compiles, and how many more times: first in an opening, then in frames.
 enum { COMPILES = 3 };
 static double compile_ms;
 static int compiles_left;
@@ -70,7 +70,7 @@ static double compiled_ms(const struct rg_instance *instance, bool is_opening)
     return compiles ? compile_ms : 0;
 }
 
-// What cpu still has to make that its instances share.
+// The time in which cpu still has to make what its instances share.
 static double unshared_ms;
 
 static double shared_ms(const struct rg_instance *instance)
@@ -129,7 +129,7 @@ static const struct rg_proof proof = {.dry = "fixed_ms=0"};
     }
 static const struct rg_technique slow_technique = SLOW("slow"), other_technique = SLOW("other");
 
-// In place of the build's own list.
+// Replaces the build's own list.
 const struct rg_technique *const rg_techniques[] = {&slow_technique, &other_technique, NULL};
 const struct rg_technique *rg_technique_find(const char *name)
 {
@@ -159,7 +159,7 @@ void slow_end(struct slow_rig *rig)
 {
     assert_true(rg_kept_free(&rig->kept));
     for (int d = 0; d < 3; d++) {
-        const bool was_lost = rig->fakes[d]->was_lost; // then it closes badly, leak or no leak
+        const bool was_lost = rig->fakes[d]->was_lost; // it then closes badly, leak or no leak
         const struct rg_work *work = rg_device_work(&rig->fakes[d]->pub);
         assert_int_equal(work->live_buffers + work->live_images + work->live_passes, 0);
         assert_true(rg_device_close(&rig->fakes[d]->pub) || was_lost);

@@ -1,21 +1,21 @@
-// Techniques, "slow" and "other", whose frames take what their settings say, on fake devices that
-// take so many times as long, by a clock that only they move. They are all that rg_techniques has,
-// in place of the build's own list.
+// Techniques "slow" and "other", whose frames take the time of their settings, on fake devices of
+// different slowness, by a clock that only they move. They replace the build's own list:
+// rg_techniques has no others.
 #ifndef RG_TESTS_HARNESS_RESULTS_PLANNING_SLOW_H
 #define RG_TESTS_HARNESS_RESULTS_PLANNING_SLOW_H
 
 #include "harness/devices/kept.h"
 #include "tests/harness/measuring/fake.h"
 
-extern int slow_opened; // instances, since the rig was begun
-// The one of them that is interrupted, as by Ctrl-C; 0: none.
+extern int slow_opened; // instances, since slow_begin
+// The number of the instance that is interrupted, as by Ctrl-C; 0: none.
 extern int slow_interrupted;
-// Has gl's driver compile for so long in its next opening, and in each of the two frames after it.
+// gl's driver compiles this long in its next opening, and in each of the two frames after it.
 void slow_compiles(double ms);
-// Has cpu's next opening make what its instances share, which takes so long.
+// cpu's next opening takes this long to make what its instances share.
 void slow_shares(double ms);
 
-// cpu, cpu:reference, which takes ten times as long, and gl, which takes three times as long.
+// cpu, cpu:reference, which is ten times as slow, and gl, which is three times as slow.
 struct slow_rig {
     struct fake_device *fakes[3];
     struct rg_devices devices;

@@ -1,5 +1,5 @@
-// Tables within a budget of time, by a clock that only their frames move: what comes first, what is
-// skipped, and that a budget is kept.
+// Tables within a budget of time, by a clock that only their frames move: the order, the tables
+// that are skipped, and whether the budget is kept.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,14 +21,14 @@
 
 enum { TABLES = 4, ROWS = 4 };
 
-// Four rows, of which the first, the second and the last are needed.
+// Four rows; the first, the second and the last are needed.
 static const struct rg_table_row light[] = {
     {"", {1}, "a"}, {"", {2}, "b"}, {"", {3}, "c"}, {"", {4}, "d"}};
 static const struct rg_table_row heavy[] = {{"fixed_ms=400", {1}, "a"},
                                             {"fixed_ms=400", {2}, "b"},
                                             {"fixed_ms=400", {3}, "c"},
                                             {"fixed_ms=400", {4}, "d"}};
-// Two techniques have two tables each, of which the second is heavy.
+// Two techniques with two tables each; the second one is heavy.
 static const struct rg_table table = {.id = "slow-1",
                                       .technique = "slow",
                                       .columns = {"fixed_ms"},
@@ -58,15 +58,15 @@ static void make_tables(void)
 
 // --- a command ---
 
-// What was printed of each table, and how it ended.
+// The printed part of each table, and the exit status.
 static struct {
     struct {
         int rows, devices, variants, works, divisor, cells;
         bool few_samples;
     } tables[TABLES];
     int printed, exit;
-    double over_s;   // behind the end of the budget
-    double needed_s; // as the line says that refuses it; 0: none does
+    double over_s;   // after the end of the budget
+    double needed_s; // as the line that refuses the budget says; 0: no such line
     char *out;
 } got;
 
@@ -101,7 +101,7 @@ static void hear(enum rg_log_level level, const char *line, void *user)
         assert_int_equal(sscanf(strstr(line, "; give "), "; give %lfs or more", &got.needed_s), 1);
 }
 
-// What befalls a run.
+// Events of a run.
 struct fate {
     double passed_s; // since the command began
     bool loses_gl;
@@ -136,11 +136,12 @@ static void expect_told(const char *words)
         fail_msg("'%s' is not in: %s", words, got.out);
 }
 
-// Of a cell: its image by cpu:reference, which takes ten times as long, and a frame without rain;
-// then its frames on gl, three times as long, of the largest picture and the most samples.
+// The longest time of a cell. First its image by cpu:reference, which is ten times as slow, and a
+// frame without rain. Then its frames on gl, three times as slow, of the largest picture and the
+// most samples.
 static const double most_cell_s = 1e-3 * ((400 + 50 + 2 * 10 * 440) + 1000 + 40 * 3 * 440);
 
-// --- what comes first ---
+// --- the order ---
 
 static void all_is_measured_where_there_is_time(void **state)
 {
@@ -160,8 +161,8 @@ static void all_is_measured_where_there_is_time(void **state)
     expect_told("left out, for time:\n  nothing\n");
 }
 
-// A budget in which each table gets a row, though not all get what they need; in all that are
-// larger they do, too.
+// In the smallest budget each table gets a row, though not all get what they need. Once all do,
+// they do in every larger budget.
 static void each_table_gets_a_row_before_one_gets_more(void **state)
 {
     (void)state;
@@ -191,12 +192,12 @@ static void a_budget_is_kept_but_for_one_cell(void **state)
         if (got.over_s > most_cell_s)
             fail_msg("%.1f s of %.1f s are too much", got.over_s, s);
         assert_int_equal(got.exit, got.needed_s > 0 ? RG_EXIT_USAGE : 0);
-        // What is left of it is less than what is left out would take.
+        // The rest of the budget is less than the skipped steps would take.
         assert_true(got.over_s > -0.5 * s || strstr(got.out, "  nothing\n"));
     }
 }
 
-// It counts from the command's start, however long that was before the first table.
+// The budget counts from the command's start, however long before the first table.
 static void a_budget_begins_with_the_command(void **state)
 {
     (void)state;
@@ -207,12 +208,12 @@ static void a_budget_begins_with_the_command(void **state)
     assert_int_equal(got.tables[0].rows + got.tables[1].rows, late_rows);
 }
 
-// What is left out for what it would take is told with that.
+// A skipped step is reported with the time that it would take.
 static void what_would_not_end_in_time_is_skipped(void **state)
 {
     (void)state;
     run(2, 30, (struct fate){0});
-    assert_true(got.tables[0].devices > 1 || got.tables[0].rows >= 3); // the light one goes on
+    assert_true(got.tables[0].devices > 1 || got.tables[0].rows >= 3); // the light table goes on
     assert_below(got.tables[1].rows, 3);
     expect_told("  slow-2 ");
     expect_told(" would take ");
@@ -220,7 +221,7 @@ static void what_would_not_end_in_time_is_skipped(void **state)
     assert_null(strstr(got.out, " did not end in time")); // nothing is begun after the end
 }
 
-// With the seconds that are enough.
+// The refusal names a budget that is enough.
 static void a_budget_for_no_row_is_refused(void **state)
 {
     (void)state;
@@ -235,9 +236,9 @@ static void a_budget_for_no_row_is_refused(void **state)
     }
 }
 
-// --- what goes wrong ---
+// --- failures ---
 
-// A device that fails has records that say so, and leaves time to others.
+// A device that fails has records that say so, and leaves its time to others.
 static void a_device_that_fails_takes_no_other_with_it(void **state)
 {
     (void)state;
@@ -246,7 +247,7 @@ static void a_device_that_fails_takes_no_other_with_it(void **state)
     assert_int_equal(got.tables[0].cells, ROWS * 2 * 2 * 2);
 }
 
-// What was measured before is printed.
+// Results from before the interruption are printed.
 static void what_is_interrupted_prints_what_there_is(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// What all files here do, each of which defines RG_SLOTS: fetches a level of an image to a buffer.
+// The common part of these files, each of which defines RG_SLOTS: fetches a level of an image to a
+// buffer.
 #include "tests/kernels/texels/params.h"
 
 #define RG_PARAMS test_texels_params

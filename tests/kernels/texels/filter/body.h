@@ -1,5 +1,5 @@
-// What all files here do, each of which defines RG_SLOTS: reads an image between its texels.
-// Elements of `at` are u, v, the layer and the level.
+// The common part of these files, each of which defines RG_SLOTS: reads an image between its
+// texels. Elements of `at` are u, v, the layer and the level.
 #include "tests/kernels/texels/filter/params.h"
 
 #define RG_PARAMS test_filter_params

@@ -1,4 +1,4 @@
-// The parameters of what reads an image between its texels.
+// The parameters of kernels that read an image between its texels.
 #ifndef RG_TESTS_KERNELS_TEXELS_FILTER_PARAMS_H
 #define RG_TESTS_KERNELS_TEXELS_FILTER_PARAMS_H
 

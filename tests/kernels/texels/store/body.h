@@ -1,4 +1,5 @@
-// What all files here do, each of which defines RG_SLOTS: stores colours of a buffer in an image.
+// The common part of these files, each of which defines RG_SLOTS: stores colours of a buffer in an
+// image.
 #include "tests/kernels/texels/params.h"
 
 #define RG_PARAMS test_texels_params

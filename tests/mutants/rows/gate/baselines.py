@@ -1,4 +1,4 @@
-"""Baselines of gates: what is kept, what is held against it, and what is refused."""
+"""Baselines of gates: their contents, comparisons with them, and refusals."""
 from fault import Fault
 
 TESTS = ("command line, baselines", "command line, acts")

@@ -1,4 +1,4 @@
-"""Bisects: which candidate is judged next, what a command's exit status says, how it is called."""
+"""Bisects: the next candidate to judge, the meaning of a command's exit status, and how the command is called."""
 from fault import Fault
 
 TESTS = ("bisect", "command line, bisects")

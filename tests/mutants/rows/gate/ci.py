@@ -1,4 +1,4 @@
-"""What runs a gate in CI: googletest's flags and shards, pictures that differ, files of what is expected."""
+"""A gate in CI: googletest's flags and shards, pictures that differ, files of expectations."""
 from fault import Fault
 
 TESTS = ("command line, ci", "command line, reports")

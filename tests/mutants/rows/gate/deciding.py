@@ -1,4 +1,4 @@
-"""Verdicts on two things that were timed in turn, and the course that leads to them."""
+"""Verdicts on two sides that were timed in turn, and the course that leads to them."""
 from fault import Fault
 
 TESTS = ("verdicts of two", "verdicts apart", "course of a gate", "verdicts on traces")

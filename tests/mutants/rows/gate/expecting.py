@@ -1,4 +1,4 @@
-"""What a gate reads from text: its cells, and what it expects to go wrong; how results meet that, and files that are written anew."""
+"""A gate's input from text: its cells and expectations; how results meet these, and files that are written anew."""
 from fault import Fault
 
 TESTS = ("gate cells", "expectations", "expectations mended", "regular expressions", "command line, acts")
@@ -51,7 +51,7 @@ ROWS = [
     Fault(MEND, "return «s->has_expired»;", "false", "what has expired stays so"),
     Fault(MEND, "return «e->least < old->least» || e->most > old->most;", "false", "an envelope does not grow downwards"),
     Fault(JUDGE, "if (row->kind == RG_EXPECT_SKIP && «!is_over»)", "true", "a skip holds for ever"),
-    Fault(JUDGE, "if («result->is_foreign») // of", "false", "a failure of another is what was expected of a device"),
+    Fault(JUDGE, "if («result->is_foreign») //", "false", "a failure of another is what was expected of a device"),
     Fault(MEND, "return m->rows[i] < 0 && «!m->results[i].is_foreign» &&", "true", "a device is blamed for a failure of another"),
     Fault(MEND, "result->outcome == RG_UNSUPPORTED || «result->is_foreign»)", "false", "a row gets what failed on another device"),
     Fault(MEND, "           «(outcome == RG_FAIL || rg_outcome_is_broken(outcome))»;", "true", "cells that pass are added as failures"),

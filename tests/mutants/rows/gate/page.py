@@ -1,4 +1,4 @@
-"""The page: which records and pictures are taken, what stands in it, and the same in short."""
+"""The page: the records and pictures that it takes, its contents, and its short forms."""
 from fault import Fault
 
 TESTS = ("the page",)

@@ -1,4 +1,4 @@
-"""Reports of gates: texts that are made fit, each form's marks and limits, and what runners of gtest read."""
+"""Reports of gates: escaped texts, each form's marks and limits, and the lines that runners of gtest read."""
 from fault import Fault
 
 TESTS = ("reports, forms", "reports, gtest", "reports, limits", "command line, cases")

@@ -2,7 +2,7 @@
 from fault import Fault
 
 TESTS = ("atlas, lobes", "atlas, rays", "atlas, cache", "atlas, database", "atlas, compared", "atlas, streaks")
-OWN_CACHE = True  # what a fault makes of the atlas is kept by nobody
+OWN_CACHE = True  # nobody may keep an atlas made by a fault
 
 LOBES, LEVELS = "core/scene/atlas/lights.c", "core/scene/atlas/levels.c"
 FIND, COMPARE, FIGURES = "core/scene/atlas/cave/find.c", "core/scene/atlas/cave/compare.c", "harness/atlas/compare.c"

@@ -1,4 +1,4 @@
-"""The city: its surfaces, faces, chunks, lamps and how much of the sky is seen."""
+"""The city: its surfaces, faces, chunks, lamps and the visible share of the sky."""
 from fault import Fault
 
 TESTS = ("city", "surfaces of the city", "openness", "dioramas", "city, depth, cpu", "city, look, cpu", "city, around, cpu", "streaks lights, reach, cpu")

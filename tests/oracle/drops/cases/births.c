@@ -1,5 +1,5 @@
-// What is born on the model's pane and what leaves it: numbers against their expectation, masses
-// that balance.
+// Drops that are born on the model's pane and leave it: their numbers have the expected values, and
+// masses balance.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,7 +35,7 @@ static void test_affinity(void **state)
     oracle_drops_close(&o);
 }
 
-// The number a step, where it lies and what it weighs.
+// The number of drops a step, their places and their masses.
 static void test_generation(void **state)
 {
     (void)state;
@@ -43,7 +43,7 @@ static void test_generation(void **state)
     struct oracle_drops_settings s = still(120, 90);
     s.max_drops = 1 << 30;
     s.drops_a_step = 2.3;
-    s.tilt_deg = 0; // all rest
+    s.tilt_deg = 0; // all drops rest
     struct oracle_drops o;
     oracle_drops_open(&o, &s);
     for (int i = 0; i < STEPS; i++)
@@ -63,8 +63,8 @@ static void test_generation(void **state)
     oracle_drops_close(&o);
 }
 
-// Expectation and variance of how many residual drops equation 6 gives in some steps, each with its
-// own chance by the steps since the last.
+// Expectation and variance of the number of residual drops of equation 6 in some steps. Each step's
+// chance depends on the steps since the last drop.
 static void residual_moments(double beta, int steps, double *mean, double *variance)
 {
     enum { MOST = 64 };
@@ -93,7 +93,7 @@ static void residual_moments(double beta, int steps, double *mean, double *varia
     *variance = squares - *mean * *mean;
 }
 
-// A second of drops that hardly move and hardly lose any mass. The smaller beta has drops wait
+// A second of drops that hardly move and hardly lose any mass. With the smaller beta, drops wait
 // longer than tau_max.
 static void test_residue(void **state)
 {
@@ -121,7 +121,7 @@ static void test_residue(void **state)
     }
 }
 
-// Where there are max_drops no drop is born, and its parent keeps its mass.
+// At max_drops no drop is born, and the parent keeps its mass.
 static void test_limit(void **state)
 {
     (void)state;
@@ -141,8 +141,8 @@ static void test_limit(void **state)
     oracle_drops_close(&o);
 }
 
-// generated = on the pane + drained + deleted, with everything on; no drop above the critical mass
-// rests; IDs on the map are of drops that lived; equal seeds give equal runs, others do not.
+// With everything on, generated = on the pane + drained + deleted. No drop above the critical mass
+// rests. IDs on the map are of drops that lived. Equal seeds give equal runs, others do not.
 static void test_balance(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// The maps of the model: what a hemisphere, smoothing, IDs that spread and erosion make of them.
+// The maps of the model: hemispheres, smoothing, spreading IDs and erosion.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +24,7 @@ static void test_hemisphere(void **state)
     oracle_drops_place(&o, 7, 10.013, 7.021, mass);
     assert_below(fabs(water(&o) * 0.05 * 0.05 / mass - 1), 1e-3);
     assert_below(fabs(owned(&o, 7) * 0.05 * 0.05 / (M_PI * radius * radius) - 1), 5e-3);
-    // A smaller one inside changes nothing; beside it, the higher of the two counts.
+    // A smaller hemisphere inside changes nothing; of two overlapping ones the higher counts.
     const double before = water(&o);
     oracle_drops_place(&o, 8, 10.013, 7.021, mass / 2);
     assert_equals(water(&o), before);
@@ -35,8 +35,8 @@ static void test_hemisphere(void **state)
     oracle_drops_close(&o);
 }
 
-// One smoothed cell becomes nine ninths; nothing is lost while all stands above the threshold, at
-// the edges neither; below it, it is.
+// One smoothed cell becomes nine ninths. No water is lost while every cell is above the threshold,
+// even at the edges; below it the cell dries.
 static void test_smoothing(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void test_smoothing(void **state)
     oracle_drops_close(&o);
 }
 
-// IDs spread by one cell each way and a corner, where the water is deep enough.
+// IDs spread by one cell each way and a corner, if the water is deep enough.
 static void test_ids_spread(void **state)
 {
     (void)state;
@@ -75,8 +75,8 @@ static void test_ids_spread(void **state)
     o.id[4 * 12 + 3] = 5;
     oracle_drops_find_wet(&o);
     oracle_drops_smooth(&o);
-    // Pass A fills above and left of a cell, pass B below and right of all that; the corners come
-    // with the second pass.
+    // Pass A fills above and left of a cell, pass B then below and right of all those, with the
+    // corners.
     const int rows[7][2] = {{3, 3}, {4, 2}, {4, 3}, {3, 4}, {5, 2}, {5, 3}, {4, 4}};
     for (int i = 0; i < 7; i++)
         assert_int_equal(o.id[rows[i][0] * 12 + rows[i][1]], 5);
@@ -89,8 +89,8 @@ static void test_ids_spread(void **state)
     oracle_drops_close(&o);
 }
 
-// A run of k cells is gone after ceil(k / 2) steps, and no sooner; at either edge of the pane it
-// loses one side alone.
+// A run of k cells is gone after ceil(k / 2) steps, no sooner. At an edge of the pane it loses one
+// side only.
 static void test_erosion(void **state)
 {
     (void)state;
@@ -118,7 +118,7 @@ static void test_erosion(void **state)
     }
 }
 
-// Without drops water shrinks and vanishes, and its IDs with it.
+// Without drops, water shrinks and vanishes, and so do its IDs.
 static void test_deletion(void **state)
 {
     (void)state;

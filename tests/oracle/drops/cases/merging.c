@@ -1,4 +1,4 @@
-// Which drops of the model merge, what they become, and whose their water is.
+// Which drops of the model merge, the drops that result, and the owners of their water.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,9 +13,8 @@
 #include "tests/oracle/drops/merge.h"
 #include "tests/tools/expect.h"
 
-// Two drops whose water touches become one: its mass is theirs, its velocity carries their
-// momentum, its place is the lower one's. What they are before that comes from a twin that does not
-// merge.
+// Two drops whose water touches become one, with their mass, their momentum and the lower one's
+// place. A twin that does not merge shows the drops before.
 static void test_merge(void **state)
 {
     (void)state;
@@ -45,7 +44,7 @@ static void test_merge(void **state)
     assert_differs(a->vx_mm_s, 0);
     assert_differs(b->vx_mm_s, 0);
     assert_int_equal(one->id, 3);
-    // Its hemisphere stands: a radius of 3.37 mm, where 50 mg have 2.88.
+    // The hemisphere on the map has a radius of 3.37 mm, of 50 mg it would have 2.88 mm.
     const struct oracle_drops_cell at = oracle_drops_cell_at(&o, one->x_mm, one->y_mm);
     assert_below(fabs(o.height_mm[at.row * 61 + at.column] - 3.36), 0.02);
     assert_int_equal(owner(&o, one->x_mm, one->y_mm), 3);
@@ -53,15 +52,15 @@ static void test_merge(void **state)
     oracle_drops_close(&twin);
 }
 
-// Water of dead drops takes the ID of a living neighbour, as far as it is connected, and the drop
-// stays as it is.
+// Water of dead drops takes the ID of a living neighbour, as far as it is connected, and that drop
+// does not change.
 static void test_dead_regions(void **state)
 {
     (void)state;
     struct oracle_drops_settings s = still(100, 60);
     struct oracle_drops o;
     oracle_drops_open(&o, &s);
-    oracle_drops_add(&o, 10, 15, 15); // 1 and 2 touch; 3 lies apart
+    oracle_drops_add(&o, 10, 15, 15); // 1 and 2 touch; 3 is apart
     oracle_drops_add(&o, 13, 15, 15);
     oracle_drops_add(&o, 40, 15, 15);
     oracle_drops_step(&o);
@@ -69,7 +68,7 @@ static void test_dead_regions(void **state)
     const int one = owned(&o, 1), two = owned(&o, 2), three = owned(&o, 3);
     assert_true(one && two && three);
     o.settings.merge = true;
-    oracle_drops_step(&o); // none lives: both take one ID
+    oracle_drops_step(&o); // none lives, so both take one ID
     assert_int_equal(owned(&o, 1), one + two);
     assert_int_equal(owned(&o, 2), 0);
     const uint32_t living = oracle_drops_add(&o, 16.5, 15, 15);
@@ -86,7 +85,7 @@ static void test_dead_regions(void **state)
     oracle_drops_close(&o);
 }
 
-// IDs painted on a pane of 10 x 6 cells, 0 to 9, against what they are after a step that merges.
+// Paints IDs 0 to 9 on a pane of 10 x 6 cells, and compares them after a merge.
 static void check_painted(struct oracle_drops *o, const char *before, const char *after)
 {
     for (int i = 0; i < 60; i++) {
@@ -99,7 +98,7 @@ static void check_painted(struct oracle_drops *o, const char *before, const char
         assert_int_equal(o->id[i], after[i] - '0');
 }
 
-// What a merge recolours: connected cells, through sides, and not past the pane's edge into the
+// A merge recolours connected cells, through their sides, and not past the pane's edge into the
 // next row.
 static void test_fill(void **state)
 {
@@ -141,8 +140,8 @@ static void test_fill(void **state)
     oracle_drops_close(&o);
 }
 
-// A residual drop does not merge with its parent, nor with what the parent becomes; a stranger in
-// its place does.
+// A residual drop does not merge with its parent, nor with the drop that the parent becomes. A
+// stranger in its place does.
 static void test_parents(void **state)
 {
     (void)state;
@@ -164,7 +163,7 @@ static void test_parents(void **state)
         assert_int_equal(o.drops[1].parent_id, 1);
         if (stranger)
             o.drops[1].parent_id = 0;
-        // All rest from now on, the parent between the other two.
+        // From now on all drops rest, the parent between the other two.
         o.settings.tilt_deg = 0;
         o.drops[1].x_mm += 2.5;
         oracle_drops_add(&o, o.drops[0].x_mm - 2.5, o.drops[0].y_mm, 15);

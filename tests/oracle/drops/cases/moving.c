@@ -1,4 +1,4 @@
-// How drops of the model run and rest, in cases whose outcome the paper's equations say.
+// Drops of the model run and rest, in cases that the paper's equations decide.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 
 static const double GRAVITY_MM_S2 = 9800;
 
-// Equations 2 to 5: after n substeps v = n a h and the way is a h^2 n (n + 1) / 2.
+// Equations 2 to 5: after n substeps v = n a h, and the distance is a h^2 n (n + 1) / 2.
 static void test_fall(void **state)
 {
     (void)state;
@@ -44,7 +44,7 @@ static void test_fall(void **state)
     }
 }
 
-// m sin(tilt) <= m_c rests, on a pane that has it run at a steeper tilt.
+// A drop with m sin(tilt) <= m_c rests; on a steeper pane it would run.
 static void test_rest(void **state)
 {
     (void)state;
@@ -65,7 +65,7 @@ static void test_rest(void **state)
     assert_equals(o.drops[0].y_mm, 40);
     assert_true(!o.drops[1].is_static);
     assert_below(o.drops[1].y_mm, 40);
-    // One that has become too light stops where it is.
+    // A drop that has become too light stops at its place.
     const double y = o.drops[1].y_mm;
     o.drops[1].mass_mg = 19;
     oracle_drops_step(&o);
@@ -75,8 +75,8 @@ static void test_rest(void **state)
     oracle_drops_close(&o);
 }
 
-// Water ahead draws a drop, more strongly than affinity; without water affinity does; equal ones
-// leave it south.
+// Water ahead draws a drop, more strongly than affinity. Without water, affinity does. With equal
+// sides the drop runs south.
 static void test_direction(void **state)
 {
     (void)state;
@@ -89,7 +89,7 @@ static void test_direction(void **state)
             even_affinity(&o);
             const int row = 20, column = 20;
             oracle_drops_add(&o, (column + 0.5) * 0.5, (61 - row - 0.5) * 0.5, 30);
-            // The region's outermost cell counts; one further out does not.
+            // The region's outermost cell counts; the one beyond it does not.
             double *map = wet ? o.height_mm : o.affinity;
             if (side)
                 map[(row + 4) * 41 + column + 3 * side] += 0.4;
@@ -105,7 +105,7 @@ static void test_direction(void **state)
     }
 }
 
-// The angle south is U(-0.3, 0.3): its mean and its variance.
+// The angle to the south is U(-0.3, 0.3): the test checks its mean and its variance.
 static void test_meander(void **state)
 {
     (void)state;
@@ -129,12 +129,12 @@ static void test_meander(void **state)
     }
     const double variance = 0.3 * 0.3 / 3;
     assert_below(fabs(sum / DROPS), 4 * sqrt(variance / DROPS));
-    // The square of a uniform number has the variance 4/45 of its greatest value's square.
+    // The square of a uniform number has a variance of 4/45 of its greatest value's square.
     assert_below(fabs(squares / DROPS - variance), 4 * sqrt(4.0 / 45 / DROPS) * 0.09);
     oracle_drops_close(&o);
 }
 
-// A drop that runs far in a step leaves no gap, unless trails are off.
+// A drop that runs far in a step leaves no gap with trails on.
 static void test_trail(void **state)
 {
     (void)state;

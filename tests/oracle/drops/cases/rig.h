@@ -1,4 +1,4 @@
-// Panes for the cases of the model of raindrops, and what their maps hold.
+// Panes for the cases of the model of raindrops, and the contents of their maps.
 #ifndef RG_TESTS_ORACLE_DROPS_CASES_RIG_H
 #define RG_TESTS_ORACLE_DROPS_CASES_RIG_H
 
@@ -6,7 +6,7 @@
 
 // A pane without rain, on which drops run straight down and leave no residue.
 struct oracle_drops_settings quiet(int columns, int rows);
-// One whose water nothing changes: what a case has written is there after a step.
+// A pane whose water never changes: a case's heights are still there after a step.
 struct oracle_drops_settings still(int columns, int rows);
 void even_affinity(struct oracle_drops *drops);
 

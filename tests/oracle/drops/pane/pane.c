@@ -5,7 +5,7 @@
 
 static const double PI = 3.14159265358979323846, BESIDE = 0.02;
 
-// Directions are (right, up, towards the viewer), as a camera has them that looks at the pane.
+// Directions are (right, up, towards the viewer), of a camera that looks at the pane.
 
 static void mix(const double a[3], const double b[3], double t, double to[3])
 {
@@ -15,7 +15,7 @@ static void mix(const double a[3], const double b[3], double t, double to[3])
 
 // --- the environment ---
 
-// The camera is turned in the pane's plane and looks up by what the pane is tilted back.
+// The camera is turned in the pane's plane, and looks up by the pane's angle from the vertical.
 static void to_world(const struct pane_oracle *p, const double d[3], double world[3])
 {
     const double turn = p->turn_deg * PI / 180, up = (90 - p->tilt_deg) * PI / 180;
@@ -49,7 +49,7 @@ static const float *texel(const struct pane_picture *p, int x, int y)
     return p->light + (y * p->width + x) * 3;
 }
 
-// Between four texels, at a place of 0 to 1.
+// The light between four texels, at a place of 0 to 1.
 static void level_light(const struct pane_picture *p, double u, double v, double light[3])
 {
     const double x = u * p->width - 0.5, y = v * p->height - 0.5;
@@ -62,13 +62,13 @@ static void level_light(const struct pane_picture *p, double u, double v, double
     }
 }
 
-// Back and forth between 0 and 1.
+// Folds a number into 0 to 1, back and forth.
 static double folded(double u)
 {
     return fabs(remainder(u, 2));
 }
 
-// From a place on the pane, (right, up) of its middle.
+// The light from a place on the pane, which is (right, up) of its middle.
 static void background_from(const struct pane_oracle *p, const double place[2], const double d[3],
                             double spread, double light[3])
 {

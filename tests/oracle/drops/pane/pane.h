@@ -17,19 +17,19 @@ struct pane_picture {
 struct pane_oracle {
     struct water_map water;
     int width, height; // of the picture, in pixels
-    int rays;          // of a pixel, along a side
+    int rays;          // along each side of a pixel
     double distance_mm, index, contact_mm;
     double tilt_deg, turn_deg;
     struct light_cube environment[PANE_LEVELS];
     int environment_levels;
-    // Of the background; no levels: the environment is seen.
+    // Levels of the background; none: the environment is seen.
     struct pane_picture background[PANE_LEVELS];
     int background_levels;
     double background_mm, background_deg;
 };
 
-// The light of a pixel. `margin_mm` is how near to `contact_mm` a height came that decides whether
-// water bends light there.
+// The light of a pixel. `margin_mm`: the smallest difference of a height from `contact_mm`, at
+// which water begins to bend light.
 void pane_oracle_pixel(const struct pane_oracle *pane, int x, int y, double light[3],
                        double *margin_mm);
 

@@ -53,7 +53,7 @@ double water_pass(const double d[3], const double normal[3], double n1, double n
     double along = 0, across[3], sine = 0;
     for (int i = 0; i < 3; i++)
         along += d[i] * normal[i];
-    along = fmax(along, 0); // light that would come from behind grazes
+    along = fmax(along, 0); // light from behind would graze
     for (int i = 0; i < 3; i++) {
         across[i] = d[i] - along * normal[i];
         sine += across[i] * across[i];

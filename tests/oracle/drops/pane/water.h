@@ -1,4 +1,4 @@
-// Water on a pane and what it does to light, in double precision: written from docs/drops.md and
+// Water on a pane and how it bends light, in double precision: written from docs/drops.md and
 // textbooks' forms of the laws, without anything of kernels/ or core/.
 #ifndef RG_TESTS_ORACLE_DROPS_PANE_WATER_H
 #define RG_TESTS_ORACLE_DROPS_PANE_WATER_H
@@ -15,13 +15,13 @@ struct water_surface {
     double bend;             // 1/mm
 };
 
-// The bicubic B-spline through a map, at a place in mm; beyond its edges the outermost cells
-// repeat.
+// The bicubic B-spline with a map's heights as coefficients, at a place in mm. Beyond the map's
+// edges the outermost cells repeat.
 struct water_surface water_surface_at(const struct water_map *map, double x_mm, double y_mm);
 
-// Unit vectors: light along `d` passes from index n1 into n2 through a surface whose unit normal
-// points with the light. Returns the reflected share of unpolarised light; where it is 1, `passed`
-// is not set.
+// Light along the unit vector `d` passes from index n1 into n2, through a surface whose unit normal
+// points with the light. Returns the reflected share of unpolarised light; if it is 1, `passed` is
+// not set.
 double water_pass(const double d[3], const double normal[3], double n1, double n2,
                   double passed[3]);
 

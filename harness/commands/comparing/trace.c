@@ -9,7 +9,7 @@
 #include "harness/commands/cli/subject.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
-#include "harness/measure/trace.h"
+#include "harness/devices/frames/trace.h"
 #include "harness/record/output.h"
 #include "harness/record/schema/schema.h"
 

@@ -1,4 +1,4 @@
-#include "harness/measure/trace.h"
+#include "harness/devices/frames/trace.h"
 
 #include "core/base/log.h"
 #include "harness/console/clock.h"

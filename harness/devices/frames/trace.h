@@ -1,8 +1,8 @@
 // A timeline of frames on devices, in the trace event format that Perfetto and chrome://tracing
 // open: a process for each device, in it a track of frames by the wall clock, one by the API's
 // clock, and one of frames that wait after every pass, with the passes inside.
-#ifndef RG_HARNESS_MEASURE_TRACE_H
-#define RG_HARNESS_MEASURE_TRACE_H
+#ifndef RG_HARNESS_DEVICES_FRAMES_TRACE_H
+#define RG_HARNESS_DEVICES_FRAMES_TRACE_H
 
 #include <jansson.h>
 
