@@ -1,8 +1,10 @@
 """The manual page and bash's completion, which the build makes from the tables of `--help`."""
+import glob
 import os
 import pty
 import re
 import select
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -210,7 +212,42 @@ def check_version(runner):
     return [] if re.fullmatch(wanted, printed) else [printed]
 
 
-CHECKS = [check_version, check_manual_is_roff, check_manual_says_what_help_says, check_manual_lists_statuses, check_completed_words,
+PLACEHOLDER = r"[A-Z]+(-[A-Z]+)*|.*(\.\.\.|[\[\]{}<>$*]).*|\S*=[A-Z]+"
+
+
+def commands_of(text):
+    """The command lines of raingauge in a page's code, as words, without what a shell does to their input and output."""
+    text = re.sub(r"\\\n\s*", " ", text)
+    fenced = "\n".join(re.findall(r"^```\w*\n(.*?)^```$", text, re.M | re.S))
+    code = (re.findall(r"`([^`\n]+)`", text) + re.findall(r"^(?:    |\$ )(?:\$ )?(.*raingauge .*)$", text, re.M) +
+            re.findall(r"^(raingauge .*)$", fenced, re.M))
+    for line in code:
+        for part in re.split(r"\s(?:\||&&|;|>|2>)\s?", line):
+            found = re.match(r"(?:(?:time|nice|\w+=\S+) )*(?:\S*/)?raingauge (.+)", part.strip())
+            if found:
+                try:
+                    yield shlex.split(found[1], comments=True)
+                except ValueError:
+                    yield [found[1]]
+
+
+def check_documented_commands(runner):
+    """every command line of README and docs is one that the program takes"""
+    problems, tried = [], 0
+    pages = [os.path.join(ROOT, "README.md"), *sorted(glob.glob(os.path.join(ROOT, "docs", "*.md")))]
+    for path in pages:
+        with open(path, encoding="utf-8") as file:
+            commands = [words for words in commands_of(file.read()) if not any(re.fullmatch(PLACEHOLDER, word) for word in words)]
+        for words in commands:
+            asked = words if words[0] in ("help", "--version", "--help") else [*words, "--help"]
+            done = runner.run(asked)
+            tried += 1
+            if done.returncode or done.stderr:
+                problems.append("%s: raingauge %s: %s" % (os.path.basename(path), " ".join(words), done.stderr))
+    return problems if tried > 100 else ["only %d commands" % tried]
+
+
+CHECKS = [check_version, check_documented_commands, check_manual_is_roff, check_manual_says_what_help_says, check_manual_lists_statuses, check_completed_words,
           check_typed_lines]
 if shutil.which("man"):
     CHECKS.append(check_manual_renders)
