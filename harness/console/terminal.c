@@ -5,6 +5,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "core/base/text/wrap.h"
+
 enum { LEAST_WIDTH = 60 };
 
 static bool is_terminal(FILE *out)
@@ -25,4 +27,14 @@ int rg_page_width(FILE *out)
     if (!is_terminal(out) || ioctl(fileno(out), TIOCGWINSZ, &size) || !size.ws_col)
         return RG_PAGE_WIDTH;
     return size.ws_col > LEAST_WIDTH ? size.ws_col : LEAST_WIDTH;
+}
+
+void rg_print_wrapped(FILE *out, const char *lead, const char *text)
+{
+    const int indent = (int)strlen(lead), room = rg_page_width(out) - indent;
+    const char *next;
+    for (const char *line = text; *line; line = next) {
+        const int length = rg_wrap(line, room, &next);
+        fprintf(out, "%*s%.*s\n", indent, line == text ? lead : "", length, line);
+    }
 }

@@ -17,5 +17,8 @@ enum { RG_PAGE_WIDTH = 110 };
 bool rg_has_colours(FILE *out);
 // The columns of a stream's lines: a terminal's own, 60 at least; else RG_PAGE_WIDTH.
 int rg_page_width(FILE *out);
+// Prints a text as lines of that width. The first begins with `lead`, the others with as many
+// blanks.
+void rg_print_wrapped(FILE *out, const char *lead, const char *text);
 
 #endif

@@ -83,6 +83,7 @@ static void trim(json_t *document)
         json_t *measured = json_object_get(cell, "measured");
         json_object_del(cell, "checksum");
         json_object_del(measured, "samples_ms");
+        json_object_del(measured, "taken"); // of each sample, too
         json_object_del(measured, "passes_share");
     }
 }

@@ -235,7 +235,7 @@ COMMANDS = [
     Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
 
     # figures
-    Case("trace", 2, r"TECHNIQUE"),
+    Case("trace", 2, r"no technique named; "),
     Case("trace flow --frames 0", 2, r"--frames 0: "),
     Case("trace flow --device cpu --frames 1 --size 32x32 -o {tmp}/none/trace.json", 2, r"none/trace\.json: its folder is not there; make it first"),
     Case("trace raster --device cpu --frames 1 --size 32x32 -o {tmp}/trace.json", 0, None, made=("trace.json",)),

@@ -59,7 +59,7 @@ def check_manual_says_what_help_says(runner):
         found = sections(file.read())
     for command in COMMANDS:
         text = runner.run([command, "--help"]).stdout
-        options = re.findall(r"^ +(?:-\w, )?(--\w+)", text, re.M)
+        options = re.findall(r"^ {2,6}(?:-\w, )?(--\w+)", text, re.M)
         entries = re.findall(r"^\.TP\n(.*)\n(.*)", found.get(command, ""), re.M)
         tags = " ".join(plain(tag) for tag, _ in entries)
         if len(options) < 2 or re.findall(r"--\w+", tags) != options:

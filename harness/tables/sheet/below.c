@@ -23,7 +23,7 @@ static const char *const colours[RG_CLAIM_OTHER_WORK + 1] = {RG_GREEN, RG_RED, R
 
 // "reproduced on cpu, gl; undecided on opencl"; "reproduced on all devices".
 static void print_verdicts(const struct rg_claim *claim, const struct rg_result *result,
-                           bool painted, FILE *out)
+                           bool painted, const char *between, FILE *out)
 {
     struct rg_judgement of[RG_MAX_DEVICES];
     for (int d = 0; d < result->device_count; d++)
@@ -43,7 +43,7 @@ static void print_verdicts(const struct rg_claim *claim, const struct rg_result 
                                      found++ ? ", " : "", result->devices[d].name);
         }
         if (!is_told)
-            fprintf(out, "%s%s%s%s on %s", told++ ? "; " : "",
+            fprintf(out, "%s%s%s%s on %s", told++ ? between : "",
                     has_colour ? colours[of[first].verdict] : "", text, has_colour ? RG_PLAIN : "",
                     found > 1 && found == result->device_count ? "all devices" : names);
     }
@@ -57,7 +57,7 @@ static int verdicts_length(const struct rg_claim *claim, const struct rg_result 
     FILE *out = open_memstream(&text, &size);
     if (!out)
         return 0;
-    print_verdicts(claim, result, false, out);
+    print_verdicts(claim, result, false, "; ", out);
     fclose(out);
     free(text);
     return (int)size;
@@ -81,13 +81,19 @@ static void print_claims(const struct rg_result *result, FILE *out)
     for (const struct rg_claim *claim = rg_claims; claim->table && !result->is_part; claim++) {
         if (strcmp(claim->table, result->table) != 0)
             continue;
-        char title[RG_CLAIM_TITLE], fewer[48];
+        char title[RG_CLAIM_TITLE], fewer[48], text[RG_CLAIM_TITLE + 128];
         name_fewer_rows(claim, result, fewer, sizeof(fewer));
         rg_claim_title(claim, title);
-        const int length = fprintf(out, "- %s (%s%s):", title, claim->where, fewer);
-        const bool fits = length + 1 + verdicts_length(claim, result) <= rg_page_width(out);
-        fprintf(out, fits ? " " : "\n  ");
-        print_verdicts(claim, result, rg_has_colours(out), out);
+        snprintf(text, sizeof(text), "%s (%s%s):", title, claim->where, fewer);
+        const int length = verdicts_length(claim, result), width = rg_page_width(out);
+        if (2 + (int)strlen(text) + 1 + length <= width)
+            fprintf(out, "- %s ", text);
+        else {
+            rg_print_wrapped(out, "- ", text);
+            fprintf(out, "  ");
+        }
+        print_verdicts(claim, result, rg_has_colours(out), 2 + length <= width ? "; " : ";\n  ",
+                       out);
         fprintf(out, "\n");
         any = true;
     }

@@ -59,10 +59,13 @@ static bool print_table(const struct rg_result *result, struct rg_place of, FILE
     rg_sheet_print_md(&sheet, out);
     rg_sheet_free(&sheet);
     fprintf(out, "\n");
-    if (layout.lacks_reference)
-        fprintf(out,
-                "Without cpu:reference%s, for want of room; `raingauge table --wide` has all.\n\n",
-                layout.lacks_times ? " and how many times print it is" : "");
+    if (layout.lacks_reference) {
+        snprintf(title, sizeof(title),
+                 "Without cpu:reference%s, for want of room; `raingauge table --wide` has all.",
+                 layout.lacks_times ? " and how many times print it is" : "");
+        rg_print_wrapped(out, "", title);
+        fprintf(out, "\n");
+    }
     if (!result->is_of_textures)
         rg_curves_print(result, of, out);
     return !sheet.incomplete;
@@ -99,13 +102,13 @@ static void print_drivers(const struct rg_result *result, FILE *out)
 static void print_head(const struct rg_result *result, FILE *out)
 {
     fprintf(out, "## %s\n\n", result->table);
-    if (result->is_of_textures)
-        fprintf(out, "Sizes of textures in pixels, in print and on each device.\n\n");
-    else if (*result->hardware)
-        fprintf(out, "Frames a second, in print and on each device, and how many times print that "
-                     "is.\n\n");
-    else
-        fprintf(out, "Frames a second on each device.\n\n");
+    rg_print_wrapped(out, "",
+                     result->is_of_textures
+                         ? "Sizes of textures in pixels, in print and on each device."
+                     : *result->hardware ? "Frames a second, in print and on each device, and how "
+                                           "many times print that is."
+                                         : "Frames a second on each device.");
+    fprintf(out, "\n");
     if (has_sides(result))
         print_drivers(result, out);
 }
@@ -129,7 +132,7 @@ static bool print_tex(const struct rg_result *result, struct rg_place of, FILE *
     static const struct rg_beside_layout as_printed = {.marks = RG_BESIDE_TEXTS,
                                                        .lacks_times = true};
     struct rg_sheet sheet;
-    char title[2 * RG_TITLE_SIZE + 3 * RG_NAME_SIZE], kind[RG_TITLE_SIZE + 3 * RG_NAME_SIZE];
+    char title[3 * RG_TITLE_SIZE + 4 * RG_NAME_SIZE], kind[RG_TITLE_SIZE + 3 * RG_NAME_SIZE];
     rg_beside_make(result, of, &as_printed, &sheet);
     name_table(result, of, kind, sizeof(kind));
     snprintf(title, sizeof(title), "%s, %s. %s%s%s", result->table, kind,

@@ -203,11 +203,10 @@ void rg_result_marks(const struct rg_result *result, char *text, size_t size)
     size_t used = 0;
     *text = 0;
     if (wide)
-        used =
-            (size_t)snprintf(text, size,
-                             "The 95 %% interval of %d of %d cells spans over %g times (marked +- "
-                             "or ~; up to %.0f %%).%s",
-                             wide, cells, RG_WIDE_INTERVAL, 100 * noise, busy ? " " : "");
+        used = (size_t)snprintf(text, size,
+                                "%d of %d cells have intervals wider than %g times (+-, ~; up to "
+                                "%.0f %%).%s",
+                                wide, cells, RG_WIDE_INTERVAL, 100 * noise, busy ? " " : "");
     if (busy && used < size)
         snprintf(text + used, size - used,
                  "In %d of %d others took over %.0f %% of the processors (busy, !; up to %.0f %%).",

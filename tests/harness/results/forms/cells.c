@@ -45,8 +45,7 @@ static void test_sheet(void **state)
     rg_result_sheet(&rig.result, &sheet);
     sheet_expect_text(&sheet, 0, "noise", "+-20%");
     sheet_expect_text(&sheet, 2, "noise", "busy");
-    assert_true(
-        sheet_has_note(&sheet, "Marks: The 95 % interval of 1 of 5 cells spans over 1.1 times"));
+    assert_true(sheet_has_note(&sheet, "Marks: 1 of 5 cells have intervals wider than 1.1 times"));
     rg_sheet_free(&sheet);
     rg_result_free(&rig.result);
 }
