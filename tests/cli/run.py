@@ -9,7 +9,7 @@
            tables   the same of `table`
            drivers  the same, of devices that need a driver or lack one
            results  what table, diff, render and atlas print, and what is refused for its size, on the CPU
-           clips    frames in a row: as clips and numbered pictures on the CPU, as a timeline
+           clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
            losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
            long     what verify prints, tables that are counted, set in a row, begun or measured anew, an atlas that is not kept
@@ -30,7 +30,7 @@
            wrong    a driver that draws wrongly is found
            named    a driver that is named wrongly is refused
            sides    a second driver in a folder runs, and keeps its code apart
-           doctor   the report about this machine
+           doctor   the report about this machine, and a timeline of frames
            pages    the manual page and bash's completion
            kept     the tables that the repository keeps
            install  what meson installs
@@ -83,7 +83,7 @@ SUITES = {
     "tables": lambda runner: cases.run(runner, cases.TABLES),
     "drivers": lambda runner: cases.run(runner, cases.WITH_DRIVERS),
     "results": lambda runner: runner.check_all(tables.CHECKS + pictures.CHECKS + besides.CHECKS + atlases.CHECKS + limits.CHECKS),
-    "clips": lambda runner: runner.check_all(clips.CHECKS + traces.CHECKS),
+    "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(stored.CHECKS),
     "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
     "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + atlases.LONG + limits.LONG + kept.LONG),
@@ -104,7 +104,7 @@ SUITES = {
     "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
     "compiling": lambda runner: runner.check_all(compiling.CHECKS),
     "wrong": lambda runner: runner.check_all(wrong.CHECKS),
-    "doctor": lambda runner: runner.check_all(doctor.CHECKS),
+    "doctor": lambda runner: runner.check_all(doctor.CHECKS + traces.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),
     "kept": lambda runner: runner.check_all(kept.CHECKS),
     "install": lambda runner: runner.check_all(installed.CHECKS),

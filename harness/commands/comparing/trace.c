@@ -49,10 +49,10 @@ static const struct rg_option options[] = {
 static bool write_trace(const struct trace_options *o, struct rg_trace *trace,
                         const struct rg_devices *devices)
 {
-    const struct rg_device_info *infos[RG_MAX_DEVICES];
-    for (int i = 0; i < trace->devices; i++)
-        infos[i] = &devices->devices[i]->info;
+    static struct rg_device_info infos[RG_MAX_DEVICES];
     const int count = trace->devices;
+    for (int i = 0; i < count; i++)
+        infos[i] = devices->devices[i]->info;
     json_t *document = rg_trace_end(trace, infos, count);
     if (!document)
         return false;

@@ -120,11 +120,11 @@ void rg_trace_begin(struct rg_trace *trace)
     *trace = (struct rg_trace){.events = json_array(), .begin_ms = rg_now_ms()};
 }
 
-json_t *rg_trace_end(struct rg_trace *trace, const struct rg_device_info *const infos[], int count)
+json_t *rg_trace_end(struct rg_trace *trace, const struct rg_device_info *infos, int count)
 {
     json_t *document =
         trace->events ? json_pack("{sosss{so}}", "traceEvents", trace->events, "displayTimeUnit",
-                                  "ms", "otherData", "passport", rg_passport_devices(infos, count))
+                                  "ms", "otherData", "passport", rg_passport_json(infos, count))
                       : NULL;
     if (!document)
         rg_harness_error("trace: no memory for its events");

@@ -22,6 +22,6 @@ bool rg_trace_device(struct rg_trace *trace, struct rg_device *device,
                      const struct rg_subject *subject, int frames);
 // The whole document, with the passport of the devices, and frees the trace. The caller frees it;
 // NULL, and one logged line, when memory ran out.
-json_t *rg_trace_end(struct rg_trace *trace, const struct rg_device_info *const infos[], int count);
+json_t *rg_trace_end(struct rg_trace *trace, const struct rg_device_info *infos, int count);
 
 #endif

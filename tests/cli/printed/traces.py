@@ -21,7 +21,7 @@ def problems_of_passes(slices):
     problems = [] if len(frames) == FRAMES else ["%d frames that wait" % len(frames)]
     for frame in frames:
         inside = [one for one in passes if frame["ts"] - 1e-6 <= one["ts"] and one["ts"] + one["dur"] <= frame["ts"] + frame["dur"] + 1e-3]
-        if len(inside) < 5 or abs(sum(one["dur"] for one in inside) - frame["dur"]) > 1e-3 or not any(one["name"] == "flow_move" for one in inside):
+        if len(inside) < 5 or abs(sum(one["dur"] for one in inside) - frame["dur"]) > 1e-3 or not any(one["name"] == "flow_slide" for one in inside):
             problems.append("%s of %g us has %s" % (frame["name"], frame["dur"], [one["name"] for one in inside]))
     return problems
 
