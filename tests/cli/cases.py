@@ -236,9 +236,9 @@ COMMANDS = [
 
     # figures
     Case("trace", 2, r"no technique named; "),
-    Case("trace flow --frames 0", 2, r"--frames 0: "),
-    Case("trace flow --device cpu --frames 1 --size 32x32 -o {tmp}/none/trace.json", 2, r"none/trace\.json: its folder is not there; make it first"),
-    Case("trace raster --device cpu --frames 1 --size 32x32 -o {tmp}/trace.json", 0, None, made=("trace.json",)),
+    Case("trace flow --count 0", 2, r"--count 0: "),
+    Case("trace flow --device cpu --count 1 --size 32x32 -o {tmp}/none/trace.json", 2, r"none/trace\.json: its folder is not there; make it first"),
+    Case("trace raster --device cpu --count 1 --size 32x32 -o {tmp}/trace.json", 0, None, made=("trace.json",)),
     Case("figures creus-4.41", 2, r"figure 'creus-4.41': unknown; the nearest is 'creus-4.1', and `raingauge list figures` prints them"),
     Case("figures creus-4.4 -o {tmp}/none/out", 2, r"none/out: its folder is not there; make it first"),
     Case("figures creus-4.4 --device nonsense", 2, UNKNOWN_DEVICE),
@@ -477,8 +477,8 @@ TABLES = [
     Case("table chin-drops --device cpu --budget 0.001s", 2,
          (r"within the budget, of which 0 s are left: the first rows of each table$",
           r"--budget: a first row, of chin-drops, is done \d+ s after the start, so that nothing fits into 0.001 s; give \d+s or more, or name")),
-    Case("table --device nonsense", 2, UNKNOWN_DEVICE),
-    Case("table --device ,", 2, r"--device ',': names no device"),
+    Case("table raster-1 --device nonsense", 2, UNKNOWN_DEVICE),
+    Case("table raster-1 --device ,", 2, r"--device ',': names no device"),
 
     # outputs
     Case(TABLE, 0, None),
@@ -506,7 +506,7 @@ WITH_DRIVERS = [
     Case("doctor --device gl --json", 77, NO_GL, NO_DRIVERS),
     Case("diff flow --device cpu,vulkan", 77, NO_VULKAN, NO_DRIVERS),
     Case("verify flow --device opencl", 77, NO_OPENCL, NO_DRIVERS),
-    Case("table --device gl", 77, NO_GL, NO_DRIVERS),
+    Case("table raster-1 --device gl", 77, NO_GL, NO_DRIVERS),
     Case("table stuppacher-2 --rows 1-1 --device all -o {tmp}", 0, ABSENT, NO_DRIVERS, made=TABLE_FILES),
     Case("diff flow --frame 1 " + SMALL, 0, ABSENT, NO_DRIVERS),
     Case("verify flow --stages " + SMALL, 0, ABSENT, NO_DRIVERS),
@@ -517,8 +517,8 @@ WITH_DRIVERS = [
 
     # a driver that creates no context
     Case(RENDER + "--device gl -o {tmp}/a.png", 77, NO_CONTEXT, OLD_GL),
-    Case("table --device gl", 77, NO_CONTEXT, OLD_GL),
-    Case("table --rows 1-1 --device cpu,gl", 77, NO_CONTEXT, OLD_GL),
+    Case("table raster-1 --device gl", 77, NO_CONTEXT, OLD_GL),
+    Case("table raster-1 --rows 1-1 --device cpu,gl", 77, NO_CONTEXT, OLD_GL),
     Case("table stuppacher-2 --rows 1-1 --device all", 0, r"warning: unsupported here: gl: no OpenGL 4\.5 core", OLD_GL),
 ]
 

@@ -30,7 +30,7 @@ static const struct rg_option options[] = {
      .about = "the technique to draw; `raingauge list techniques` prints the names",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
-    {RG_OPTION_INT, "frames", .argument = "N",
+    {RG_OPTION_INT, "count", .argument = "N",
      .about = "frames to time whole, and as many again that wait after each pass",
      .offset = AT(frames), .least = 1, .most = 1000, .initial = "10"},
     RG_INCLUDE(rg_size_option, AT(size), NULL),
@@ -105,7 +105,7 @@ static int trace_command(const void *values, const struct rg_words *arguments)
 const struct rg_command rg_command_trace = {
     .name = "trace",
     .reader = RG_FOR_DRIVERS,
-    .usage = "TECHNIQUE [--device D,...|all] [--frames N] [--size WxH] [--set KEY=VALUE]... "
+    .usage = "TECHNIQUE [--device D,...|all] [--count N] [--size WxH] [--set KEY=VALUE]... "
              "[-o FILE]",
     .about = "writes frames and their passes on each device as a timeline for Perfetto",
     .options = options,

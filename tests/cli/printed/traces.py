@@ -30,7 +30,7 @@ def check_trace(runner):
     """trace has a process for each device, with frames by the wall clock and by the API's, and each pass within its frame"""
     with tempfile.TemporaryDirectory() as tmp:
         path = os.path.join(tmp, "trace.json")
-        done = runner.run(("trace flow --device cpu,new=gl --frames %d -o %s " % (FRAMES, path) + SMALL).split())
+        done = runner.run(("trace flow --device cpu,new=gl --count %d -o %s " % (FRAMES, path) + SMALL).split())
         if done.returncode or done.stderr or done.stdout != "%s: %d frames, and as many by pass, on 2 devices\n" % (path, FRAMES):
             return ["status %d: %s%s" % (done.returncode, done.stdout, done.stderr)]
         with open(path, encoding="utf-8") as file:

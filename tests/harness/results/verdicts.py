@@ -61,6 +61,7 @@ class Made:
             # Some are five times as far from the median, on the same side, so that the median stays.
             offs = [noise * (chance.expovariate(1) - middle) * (5 if chance.random() < 0.05 else 1) for _ in range(samples + LAUNCHES)]
             cell["measured"]["samples_ms"] = [ms * math.exp(off) for off in offs[:samples]]
+            cell["measured"].pop("taken", None)  # of the samples that were there
             cell["measured"]["launches"] = [[i + 1, ms * math.exp(off), 0, 0, 0.5] for i, off in enumerate(offs[samples:])]
 
     def errors(self, error_of):
