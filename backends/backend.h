@@ -75,8 +75,8 @@ struct rg_device_info {
 struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
-    bool rounds;                // programs round quotients and roots (backends/rounding.h)
-    bool blends;                // programs blend by themselves (backends/blending.h)
+    bool rounds;                // programs round quotients and roots (backends/asked/rounding.h)
+    bool blends;                // programs blend by themselves (backends/asked/blending.h)
     struct rg_work *work;       // core/device's counts; not for the backend
     struct rg_packing *packing; // owned by core/device/packing.c
     struct rg_shared *shared;   // owned by core/device/shared.c

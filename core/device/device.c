@@ -5,8 +5,8 @@
 #include <string.h>
 #include <strings.h>
 
-#include "backends/blending.h"
-#include "backends/rounding.h"
+#include "backends/asked/blending.h"
+#include "backends/asked/rounding.h"
 #include "core/base/alloc.h"
 #include "core/base/doing.h"
 #include "core/base/log.h"

@@ -1,7 +1,7 @@
 // Quotients and roots rounded as in C, for drivers that round differently: GLSL lets a quotient be
 // 2.5 ulp off, and promises less for a root. The build can replace every `/` of floats and every
 // rg_sqrt of GLSL by these two (kernels/build/quotients.py). Programs use them on devices whose own
-// are not exact (backends/rounding.h).
+// are not exact (backends/asked/rounding.h).
 //
 // The driver's result for significands within [1, 4) is a first guess. The remainder of the
 // dividend after it is a small whole number, exact in 32 bits, which tells by how many ulps the

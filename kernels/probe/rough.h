@@ -1,5 +1,5 @@
 // The two operations that GLSL lets be inexact. Each device is tested on them when it is opened
-// (backends/rounding.h).
+// (backends/asked/rounding.h).
 #include "kernels/probe/rough_params.h"
 
 #define RG_PARAMS probe_rough_params

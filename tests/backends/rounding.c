@@ -11,40 +11,18 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/device/device.h"
-#include "core/device/work.h"
 #include "kernels/probe/rough_params.h"
+#include "tests/backends/pretending.h"
 
 enum operation { QUOTIENT, ROOT, NEITHER };
 
-static struct rg_backend pretending;
-const struct rg_backend *const rg_backends[] = {&pretending, NULL};
-extern const struct rg_backend rg_backend_cpu;
-
-static enum rg_tier tier;
 static enum operation inexact, asked;
-static int runs;
 static bool is_lost;
-
-static int list(struct rg_device_info *infos, int max, char *why, size_t why_size)
-{
-    const int count = rg_backend_cpu.list(infos, max < 1 ? max : 1, why, why_size);
-    infos[0].tier = tier;
-    return count;
-}
-
-static struct rg_device *create(int index)
-{
-    struct rg_device *device = rg_backend_cpu.create(index);
-    if (device)
-        device->info.tier = tier;
-    return device;
-}
 
 static bool pass_run(struct rg_pass *pass, const struct rg_run *run)
 {
     asked = ((const struct probe_rough_params *)run->params)->roots ? ROOT : QUOTIENT;
-    runs++;
+    pretended_runs++;
     return is_lost ? rg_error("device 'cpu': lost") : rg_backend_cpu.pass_run(pass, run);
 }
 
@@ -60,28 +38,17 @@ static bool buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size)
 static struct rg_device *open_pretending(bool rough, enum rg_tier its_tier,
                                          enum operation its_inexact)
 {
-    pretending = rg_backend_cpu;
-    pretending.list = list;
-    pretending.create = create;
+    pretend(its_tier);
     pretending.pass_run = pass_run;
     pretending.buf_read = buf_read;
     pretending.rough = rough;
-    tier = its_tier;
     inexact = its_inexact;
-    runs = 0;
     return rg_device_open("cpu");
 }
 
-// The check of the driver must leave no trace on the device.
-static void check(struct rg_device *device, bool rounds, int its_runs)
+static void check(struct rg_device *device, bool rounds, int runs)
 {
-    assert_non_null(device);
-    assert_int_equal(device->rounds, rounds);
-    assert_int_equal(strstr(device->info.api, ", own rounding") != NULL, rounds);
-    assert_int_equal(runs, its_runs);
-    const struct rg_work none = {0};
-    assert_memory_equal(rg_device_work(device), &none, sizeof(none));
-    assert_true(rg_device_close(device));
+    check_asked(device, device && device->rounds, rounds, "rounding", runs);
 }
 
 static void inexact_devices_round_themselves(void **state)
@@ -118,32 +85,21 @@ static void the_variable_decides(void **state)
     unsetenv("RG_ROUNDING");
 }
 
-static char heard[200];
-static int lines;
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level, (void)user;
-    snprintf(heard, sizeof(heard), "%s", line);
-    lines++;
-}
-
 static void what_cannot_be_is_refused(void **state)
 {
     (void)state;
-    rg_log_listen(hear, NULL);
-    lines = 0;
+    listen_to_lines(true);
     setenv("RG_ROUNDING", "up", 1);
     assert_null(open_pretending(true, RG_T1, NEITHER));
     unsetenv("RG_ROUNDING");
-    assert_string_equal(heard, "RG_ROUNDING=up: give own or driver, or unset it");
-    assert_int_equal(lines, 1);
+    assert_string_equal(heard_line, "RG_ROUNDING=up: give own or driver, or unset it");
+    assert_int_equal(heard_lines, 1);
     is_lost = true;
     assert_null(open_pretending(true, RG_T1, NEITHER));
     is_lost = false;
-    assert_string_equal(heard, "device 'cpu': lost");
-    assert_int_equal(lines, 2);
-    rg_log_listen(NULL, NULL);
+    assert_string_equal(heard_line, "device 'cpu': lost");
+    assert_int_equal(heard_lines, 2);
+    listen_to_lines(false);
 }
 
 // Programs that round have their own modules, and a text that says so after its version.

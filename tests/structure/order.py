@@ -28,6 +28,7 @@ FLOORS = [
     "core/image",
     "backends/B kernels/build",
     "core/device",
+    "backends/asked",
     "backends",
     "core/base",
     "shaders",

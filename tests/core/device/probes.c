@@ -1,5 +1,5 @@
 // Every operation of the dialect gives the same bits on every device and instruction set.
-#include "backends/blending.h"
+#include "backends/asked/blending.h"
 #include "core/base/log.h"
 #include "core/device/probe.h"
 #include "core/device/scan.h"

@@ -8,13 +8,13 @@ TESTS = ("device suite, draws, gl", "device suite, targets, gl", "device suite, 
 
 GL, TARGET, VK, VK_TIME, VK_IMAGE = ("backends/gl/draw.c", "backends/gl/target.c", "backends/vulkan/draw.c",
                                      "backends/vulkan/time.c", "backends/vulkan/image.c")
-ROUNDING, KERNEL, OF_ROUNDING = "backends/rounding.c", "backends/kernel.c", ("rounding of devices", "command line, doctor")
+ROUNDING, KERNEL, OF_ROUNDING = "backends/asked/rounding.c", "backends/kernel.c", ("rounding of devices", "command line, doctor")
 CL_BUF, CL_PASS, CL_TIME = "backends/opencl/buf.c", "backends/opencl/pass.c", "backends/opencl/time.c"
 OF_GL = ("device suite, draws, gl", "device suite, targets, gl")
 OF_VK = ("device suite, draws, vulkan", "device suite, targets, vulkan", "device suite, kernels, vulkan")
 OF_CL = ("device suite, kernels, opencl", "device suite, images, opencl", "opencl")
 
-BLENDING, OF_BLENDING = "backends/blending.c", ("blending of devices",)
+BLENDING, OF_BLENDING = "backends/asked/blending.c", ("blending of devices",)
 OWN_GL, OWN_VK = ("device suite, draws, gl, own blending",), ("device suite, draws, vulkan, own blending",)
 
 MANIFESTS, OF_FAILING = "backends/manifests.c", ("command line, failing",)
@@ -41,7 +41,7 @@ ROWS = [
     Fault(VK, ".y = (float)-((RG_VIEWPORT_PX - «height») / 2),", "width", "vulkan: pictures that are not square are shifted", tests=OF_VK),
     Fault(VK_TIME, "*time_ns = (int64_t)((long double)vk->ticks_total * «vk->limits.timestampPeriod»);", "0.1f", "vulkan: ticks are tenths of nanoseconds", tests=("vulkan", "device suite, kernels, vulkan")),
     Fault(VK_IMAGE, ".mipLevels = «(uint32_t)desc->levels»,", "1u", "vulkan: images have one level", tests=("device suite, images, vulkan",)),
-    Fault(ROUNDING, "!own && «info->tier != RG_T0» &&", "true", "devices that compute as C does are asked how they divide", tests=OF_ROUNDING),
+    Fault(ROUNDING, "!own && «device->info.tier != RG_T0» &&", "true", "devices that compute as C does are asked how they divide", tests=OF_ROUNDING),
     Fault(ROUNDING, "if («!device->backend->rough» || driver)", "false", "devices of exact languages are asked how they divide", tests=OF_ROUNDING),
     Fault(ROUNDING, "ok && !*is_rough && «roots < 2»", "roots < 1", "inexact roots are not noticed", tests=OF_ROUNDING),
     Fault(ROUNDING, "*is_rough = ok && «!all_are_exact(o, roots)»;", "false", "no driver rounds badly", tests=OF_ROUNDING),
@@ -50,7 +50,7 @@ ROWS = [
     Fault("backends/gl/program.c", "rg_kernel_code(kernel, kind, «ways»,", "ways & ~RG_CODE_ROUNDS", "gl: programs are the driver's to round", tests=OF_ROUNDING),
     Fault("backends/vulkan/program.c", "rg_kernel_code(kernel, kind, «rg_device_ways(&device->pub)» | ways,", "0u", "vulkan: programs are the driver's to round", tests=OF_ROUNDING),
     Fault(BLENDING, "bool is_exact = «device->info.tier == RG_T0»;", "false", "devices that draw as cpu:reference does are asked how they blend", tests=OF_BLENDING),
-    Fault(BLENDING, "*is_exact = ok && «!memcmp(q->due, q->drawn, (size_t)TEXELS * (size_t)rg_format_size(format))»;", "true", "no driver blends otherwise", tests=OF_BLENDING),
+    Fault(BLENDING, "*is_exact = ok && «!memcmp(t->due, t->drawn, (size_t)TEXELS * (size_t)rg_format_size(format))»;", "true", "no driver blends otherwise", tests=OF_BLENDING),
     Fault(BLENDING, "device->blends = wanted || «(can && !is_exact)»;", "false", "drivers that blend otherwise go on blending", tests=OF_BLENDING),
     Fault(BLENDING, "if («wanted && !can»)", "false", "programs blend where the driver has no way", tests=OF_BLENDING),
     Fault(GL, ".blend = «device->pub.blends ? RG_BLEND_OFF : draw->blend»,", "draw->blend", "gl: what programs blend is blended once more", tests=OWN_GL),

@@ -1,6 +1,6 @@
 // Decides whether the driver blends or the programs themselves do (kernels/dialect/draw/blend.h).
-#ifndef RG_BACKENDS_BLENDING_H
-#define RG_BACKENDS_BLENDING_H
+#ifndef RG_BACKENDS_ASKED_BLENDING_H
+#define RG_BACKENDS_ASKED_BLENDING_H
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 // Decides whether the driver or the programs themselves round quotients and roots
 // (kernels/dialect/rounding.h).
-#ifndef RG_BACKENDS_ROUNDING_H
-#define RG_BACKENDS_ROUNDING_H
+#ifndef RG_BACKENDS_ASKED_ROUNDING_H
+#define RG_BACKENDS_ASKED_ROUNDING_H
 
 #include <stdbool.h>
 

@@ -1,10 +1,9 @@
-#include "backends/blending.h"
+#include "backends/asked/blending.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "backends/backend.h"
+#include "backends/asked/question.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "core/base/require.h"
@@ -28,11 +27,11 @@ struct packed {
     float depth;
 };
 
-// The objects that test how a device blends.
-struct question {
-    struct rg_device *device;
-    struct rg_pass *pass;
-    struct rg_buf *quads, *prims, *args;
+enum { QUADS, PRIMS, ARGS }; // buffers of the question
+
+// The panes, and what they look like: as a loop in C has them, and as the device drew them.
+struct trial {
+    struct rg_question asked;
     struct pane panes[PANES];
     uint32_t due[TEXELS * TEXEL_WORDS], drawn[TEXELS * TEXEL_WORDS];
 };
@@ -86,76 +85,44 @@ static struct packed packed_of(const struct pane *p, int item)
     return (struct packed){{x0, y0, x1, y0, x1, y1, x0, y1}, item, p->colour, 0};
 }
 
-static void blend_in_c(struct question *q, enum rg_format format, enum rg_blend blend)
+static void blend_in_c(struct trial *t, enum rg_format format, enum rg_blend blend)
 {
     const int words = rg_format_size(format) / 4;
-    memset(q->due, 0, sizeof(q->due));
-    for (const struct pane *p = q->panes; p < q->panes + PANES; p++)
+    memset(t->due, 0, sizeof(t->due));
+    for (const struct pane *p = t->panes; p < t->panes + PANES; p++)
         for (int y = p->y0; y < p->y1; y++)
             for (int x = p->x0; x < p->x1; x++) {
                 const int at = (y * SIDE + x) * words;
                 if (format == RG_RGBA8)
-                    rg_blend_RGBA8(q->due, at, p->colour, (int)blend);
+                    rg_blend_RGBA8(t->due, at, p->colour, (int)blend);
                 else if (format == RG_RGBA16F)
-                    rg_blend_RGBA16F(q->due, at, p->colour, (int)blend);
+                    rg_blend_RGBA16F(t->due, at, p->colour, (int)blend);
                 else
-                    rg_blend_RGBA32F(q->due, at, p->colour, (int)blend);
+                    rg_blend_RGBA32F(t->due, at, p->colour, (int)blend);
             }
 }
 
 // --- the device ---
 
-static struct rg_buf *make_buf(struct rg_device *device, const void *words, size_t size,
-                               const char *name)
-{
-    struct rg_buf *buf = device->backend->buf_create(device, size, name);
-    if (!buf)
-        return NULL;
-    buf->device = device;
-    buf->size = size;
-    buf->name = name;
-    if (device->backend->buf_write(buf, 0, words, size))
-        return buf;
-    device->backend->buf_destroy(buf);
-    return NULL;
-}
-
-static bool prepare(struct question *q)
+static bool prepare(struct trial *t)
 {
     const uint32_t args[5] = {6 * PANES, 1, 0, 0, PANES};
     float quads[PANES * RASTER_QUAD_WORDS];
     struct packed prims[PANES];
-    const struct rg_kernel *kernel = rg_kernel_find("raster_quads");
-    make_panes(q->panes);
+    make_panes(t->panes);
     for (int i = 0; i < PANES; i++) {
-        fill_quad(&q->panes[i], quads + i * RASTER_QUAD_WORDS);
-        prims[i] = packed_of(&q->panes[i], i);
+        fill_quad(&t->panes[i], quads + i * RASTER_QUAD_WORDS);
+        prims[i] = packed_of(&t->panes[i], i);
     }
-    if (!(q->quads = make_buf(q->device, quads, sizeof(quads), "panes")) ||
-        !(q->prims = make_buf(q->device, prims, sizeof(prims), "packed panes")) ||
-        !(q->args = make_buf(q->device, args, sizeof(args), "panes to draw")) ||
-        !(q->pass = q->device->backend->pass_create(q->device, kernel)))
-        return false;
-    q->pass->device = q->device;
-    q->pass->kernel = kernel;
-    return true;
+    return rg_question_buf(&t->asked, QUADS, quads, sizeof(quads), "panes") &&
+           rg_question_buf(&t->asked, PRIMS, prims, sizeof(prims), "packed panes") &&
+           rg_question_buf(&t->asked, ARGS, args, sizeof(args), "panes to draw") &&
+           rg_question_pass(&t->asked, "raster_quads");
 }
 
-static void finish(struct question *q)
+static bool draw(struct trial *t, struct rg_image *target, enum rg_blend blend)
 {
-    const struct rg_backend *backend = q->device->backend;
-    struct rg_buf *const bufs[] = {q->quads, q->prims, q->args};
-    backend->sync(q->device);
-    if (q->pass)
-        backend->pass_destroy(q->pass);
-    for (int i = 0; i < 3; i++)
-        if (bufs[i])
-            backend->buf_destroy(bufs[i]);
-}
-
-static bool draw(struct question *q, struct rg_image *target, enum rg_blend blend)
-{
-    const struct rg_backend *backend = q->device->backend;
+    const struct rg_backend *backend = t->asked.device->backend;
     const struct {
         rg_draw_state draw;
         raster_quads_params program;
@@ -170,49 +137,51 @@ static bool draw(struct question *q, struct rg_image *target, enum rg_blend blen
                .blend = (int)blend,
                .colour_format = (int)target->desc.format},
               {.aspect = 1}};
+    struct rg_buf *const *bufs = t->asked.bufs;
     const struct rg_draw to = {.colour = target, .blend = blend};
-    const struct rg_packed packed = {.prims = q->prims, .args = q->args, .capacity = PANES};
+    const struct rg_packed packed = {.prims = bufs[PRIMS], .args = bufs[ARGS], .capacity = PANES};
     const struct rg_run run = {.params = &call,
-                               .slots = {[1].buf = q->quads},
+                               .slots = {[1].buf = bufs[QUADS]},
                                .extent = {PANES, 1, 1},
                                .draw = &to,
                                .packed = &packed};
-    return backend->pass_run(q->pass, &run) && backend->image_read(target, 0, 0, q->drawn);
+    return backend->pass_run(t->asked.pass, &run) && backend->image_read(target, 0, 0, t->drawn);
 }
 
-static bool ask(struct question *q, enum rg_format format, enum rg_blend blend, bool *is_exact)
+static bool ask(struct trial *t, enum rg_format format, enum rg_blend blend, bool *is_exact)
 {
     static const uint32_t black[TEXEL_WORDS] = {0};
-    const struct rg_backend *backend = q->device->backend;
+    const struct rg_backend *backend = t->asked.device->backend;
     const struct rg_image_desc desc = {format, SIDE, SIDE, 1, 1};
-    struct rg_image *target = backend->image_create(q->device, &desc, "panes over each other");
+    struct rg_image *target =
+        backend->image_create(t->asked.device, &desc, "panes over each other");
     if (!target)
         return false;
-    target->device = q->device;
+    target->device = t->asked.device;
     target->desc = desc;
     target->name = "panes over each other";
-    const bool ok = backend->image_clear(target, black) && draw(q, target, blend);
-    backend->sync(q->device);
+    const bool ok = backend->image_clear(target, black) && draw(t, target, blend);
+    backend->sync(t->asked.device);
     backend->image_destroy(target);
-    blend_in_c(q, format, blend);
-    *is_exact = ok && !memcmp(q->due, q->drawn, (size_t)TEXELS * (size_t)rg_format_size(format));
+    blend_in_c(t, format, blend);
+    *is_exact = ok && !memcmp(t->due, t->drawn, (size_t)TEXELS * (size_t)rg_format_size(format));
     return ok;
 }
 
 static bool ask_driver(struct rg_device *device, bool *is_exact)
 {
-    struct question *q = rg_alloc(1, sizeof(*q), "panes");
-    if (!q)
+    struct trial *t = rg_alloc(1, sizeof(*t), "panes");
+    if (!t)
         return false;
-    q->device = device;
-    bool ok = prepare(q);
+    t->asked.device = device;
+    bool ok = prepare(t);
     *is_exact = true;
     for (size_t f = 0; ok && f < sizeof(formats) / sizeof(formats[0]); f++)
         for (enum rg_blend blend = RG_BLEND_OVER; ok && *is_exact && blend <= RG_BLEND_ADD; blend++)
             if (device->info.limits.formats[formats[f]].uses & RG_USE_BLEND)
-                ok = ask(q, formats[f], blend, is_exact);
-    finish(q);
-    free(q);
+                ok = ask(t, formats[f], blend, is_exact);
+    rg_question_end(&t->asked);
+    free(t);
     return ok;
 }
 
@@ -235,18 +204,16 @@ static bool decide(struct rg_device *device, bool wanted)
 
 bool rg_blending_settle(struct rg_device *device)
 {
-    struct rg_device_info *info = &device->info;
     const char *wanted = getenv("RG_BLENDING");
     const bool program = wanted && !strcmp(wanted, "program"),
                driver = wanted && !strcmp(wanted, "driver");
     require(!wanted || !*wanted || program || driver,
             "RG_BLENDING=%s: give driver or program, or unset it", wanted);
-    if (!device->backend->can_blend || driver || *info->limits.no_draws)
+    if (!device->backend->can_blend || driver || *device->info.limits.no_draws)
         return true;
     if (!decide(device, program))
         return false;
-    const size_t length = strlen(info->api);
     if (device->blends)
-        snprintf(info->api + length, sizeof(info->api) - length, ", own blending");
+        rg_question_note(device, "own blending");
     return true;
 }
