@@ -80,8 +80,8 @@ enum {
     RG_SLOT_BEHIND = 15,  // in fragments: the depth against which counted samples are tested
 };
 
-// Ways of programs, as bits: they round quotients and roots themselves (backends/asked/rounding.h), and
-// blend by themselves (backends/asked/blending.h).
+// Ways of programs, as bits: they round quotients and roots themselves (backends/asked/rounding.h),
+// and blend by themselves (backends/asked/blending.h).
 enum { RG_CODE_ROUNDS = 1, RG_CODE_BLENDS = 2 };
 
 // Slots of fragments besides the program's own, on backends that draw packed primitives.
