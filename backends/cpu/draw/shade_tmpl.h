@@ -9,6 +9,7 @@
 enum {
     WIDE_SPAN = 24,   // pixels that are worth a vectorised row of their own
     REFS_AHEAD = 12,  // for which corners are fetched
+    ROWS_AHEAD = 2,   // for which images are fetched
     WORTH_LIGHTS = 2, // from this number of lights on, hidden fragments are dropped first
 };
 
@@ -27,8 +28,29 @@ static int trim_hidden(struct shader *s, int prim, int *x, int y, int count)
     return end - first;
 }
 
+// Fetches a row of each image that a program may read at its own pixel, as those of the target's
+// size. A row of a tile is too short for the processor to foresee the next one.
+static void fetch_row(const struct shader *s, int x, int y, int count)
+{
+    enum { LINE_WORDS = 16 };
+    const int64_t texels = (int64_t)s->draw.width * s->draw.height;
+    for (int slot = 0; slot < RG_MAX_SLOTS; slot++) {
+        const struct cpu_slot *image = &s->call->slots[slot];
+        if (!image->shape || image->shape->width != s->draw.width ||
+            image->shape->height != s->draw.height)
+            continue;
+        const int64_t words = (image->count - RG_MAX_LEVELS) / texels;
+        const uint *first = (const uint *)image->data + RG_MAX_LEVELS;
+        const int64_t begin = ((int64_t)y * s->draw.width + x) * words;
+        for (int64_t word = begin; word < begin + count * words; word += LINE_WORDS)
+            __builtin_prefetch(first + word);
+    }
+}
+
 static void draw_row(struct shader *s, int prim, int x, int y, int count)
 {
+    if (y + ROWS_AHEAD < s->draw.height)
+        fetch_row(s, x, y + ROWS_AHEAD, count);
     if (s->drops_hidden)
         count = trim_hidden(s, prim, &x, y, count);
     if (!count)

@@ -408,8 +408,13 @@ static void shade_row(const struct cpu_call *call, struct cpu_records records, i
                 rg_program_light(rg, p, r, x + rg_imin(i, last), y, light RG_BY_PRIM(by, prim)));
     }
 #endif
+    // Whole vectors read texels that lie side by side; only the last one clamps its pixels.
+    const int whole = count - count % CPU_LANES;
 #pragma omp simd
-    for (int i = 0; i < padded; i++)
+    for (int i = 0; i < whole; i++)
+        put_fragment(fragments, i, rg_program_fragment(rg, p, r, x + i, y RG_LIT(&lit, i)));
+#pragma omp simd
+    for (int i = whole; i < padded; i++)
         put_fragment(fragments, i,
                      rg_program_fragment(rg, p, r, x + rg_imin(i, last), y RG_LIT(&lit, i)));
     settle_depths(fragments, padded);
