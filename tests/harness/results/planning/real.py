@@ -2,8 +2,8 @@
 """Whether the times left that real commands tell are right: real.py BUILD [REPEATS] runs commands of many kinds, half of them while another
 process keeps a core busy, and holds each line against the end of its run.
 
-A run is right if each of its lines is right within three times. Exits with 1 if fewer than 95 % of the runs that told a time are. It takes
-about half an hour, is about the clock, and is no part of `make test`.
+A run is right if each of its lines is right within three times. Exits with 1 if fewer than 95 % of the runs that told a time are. It is
+about the clock, takes long, and is no part of `make test`.
 """
 import os
 import re
