@@ -11,6 +11,7 @@
 
 // Large tiles list more pixels before one repeats; many small tiles balance the load better.
 enum { LEAST_SIDE_LOG2 = 6, WANTED_SIDE_LOG2 = 7, TILES_A_THREAD = 16, MOST_TILES = 4096 };
+enum { BAND_LOG2 = 4 }; // rows of a band
 enum { FIRST_ROOM = 1 << 16, MOST_PRIMS = 1 << 21, MOST_REFS = 1 << 23 };
 
 // --- sorting a chunk's references by tile ---
@@ -126,22 +127,42 @@ static bool make_prim_room(struct cpu_bins *bins, size_t record_bytes)
     return bins->prim_limit && make_record_room(bins, (size_t)bins->prim_limit * record_bytes);
 }
 
-static int divide(struct cpu_tiling *tiling, const rg_draw_state *draw, int log2_side)
+static int divide(struct cpu_tiling *tiling, const rg_draw_state *draw, int log2_width,
+                  int log2_height)
 {
-    const int side = 1 << log2_side;
-    tiling->log2_side = log2_side;
-    tiling->across = (draw->width + side - 1) / side;
-    tiling->down = (draw->height + side - 1) / side;
+    const int width = 1 << log2_width, height = 1 << log2_height;
+    *tiling = (struct cpu_tiling){log2_width, log2_height, (draw->width + width - 1) / width,
+                                  (draw->height + height - 1) / height};
     return tiling->across * tiling->down;
+}
+
+static void choose_squares(struct cpu_tiling *tiling, const rg_draw_state *draw, int threads)
+{
+    int side = WANTED_SIDE_LOG2;
+    while (side > LEAST_SIDE_LOG2 && divide(tiling, draw, side, side) < threads * TILES_A_THREAD)
+        side--;
+    while (divide(tiling, draw, side, side) > MOST_TILES)
+        side++;
+}
+
+// An item alone draws each pixel once, and often reads images at the same place. Rows as long as
+// the target let the processor foresee what is read next.
+static void choose_bands(struct cpu_tiling *tiling, const rg_draw_state *draw)
+{
+    int width = LEAST_SIDE_LOG2;
+    while (1 << width < draw->width)
+        width++;
+    int height = BAND_LOG2;
+    while (divide(tiling, draw, width, height) > MOST_TILES)
+        height++;
 }
 
 static void choose_tiles(struct cpu_tiling *tiling, const rg_draw_state *draw, int threads)
 {
-    int side = WANTED_SIDE_LOG2;
-    while (side > LEAST_SIDE_LOG2 && divide(tiling, draw, side) < threads * TILES_A_THREAD)
-        side--;
-    while (divide(tiling, draw, side) > MOST_TILES)
-        side++;
+    if (draw->item_end - draw->item_begin == 1)
+        choose_bands(tiling, draw);
+    else
+        choose_squares(tiling, draw, threads);
 }
 
 static bool make_chunks(struct cpu_bins *bins)

@@ -15,9 +15,9 @@ struct cpu_ref {
     uint64_t mask; // pixels within the tile only
 };
 
-// A target is divided into tiles of 1 << log2_side pixels a side, row by row.
+// A target is divided into tiles of 1 << log2_width by 1 << log2_height pixels, row by row.
 struct cpu_tiling {
-    int log2_side;
+    int log2_width, log2_height;
     int across, down;
 };
 

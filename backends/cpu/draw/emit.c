@@ -31,12 +31,12 @@ static uint64_t cut_mask(uint64_t mask, int x0, int y0, int x1, int y1)
 static bool bin_cut(const struct cpu_emitter *e, int prim, uint64_t mask, int x, int y)
 {
     const struct cpu_tiling *tiling = &e->bins->tiling;
-    const int log2_side = tiling->log2_side, side = 1 << log2_side;
-    for (int ty = y >> log2_side; ty <= (y + 7) >> log2_side; ty++) {
-        for (int tx = x >> log2_side; tx <= (x + 7) >> log2_side; tx++) {
-            const int left = (tx << log2_side) - x, top = (ty << log2_side) - y;
+    const int w = tiling->log2_width, h = tiling->log2_height;
+    for (int ty = y >> h; ty <= (y + 7) >> h; ty++) {
+        for (int tx = x >> w; tx <= (x + 7) >> w; tx++) {
+            const int left = (tx << w) - x, top = (ty << h) - y;
             const uint64_t part = cut_mask(mask, rg_imax(left, 0), rg_imax(top, 0),
-                                           rg_imin(left + side, 8), rg_imin(top + side, 8));
+                                           rg_imin(left + (1 << w), 8), rg_imin(top + (1 << h), 8));
             if (part && !add_ref(e->sorter, ty * tiling->across + tx,
                                  (struct cpu_ref){prim, y << 16 | x, part}))
                 return false;
@@ -49,15 +49,15 @@ static bool bin_masks(const struct cpu_emitter *e, int shape, int prim)
 {
     const struct cpu_shapes *shapes = &e->sorter->shapes;
     const struct cpu_tiling *tiling = &e->bins->tiling;
-    const int side = tiling->log2_side, x = shapes->x[shape];
+    const int w = tiling->log2_width, h = tiling->log2_height, x = shapes->x[shape];
     bool added = true;
     for (int i = 0; i < shapes->masks[shape]; i++) {
         const uint64_t mask = shapes->mask[i][shape];
         const int y = shapes->y[shape] + 8 * i;
         if (!mask)
             continue;
-        if (x >> side == (x + 7) >> side && y >> side == (y + 7) >> side)
-            added &= add_ref(e->sorter, (y >> side) * tiling->across + (x >> side),
+        if (x >> w == (x + 7) >> w && y >> h == (y + 7) >> h)
+            added &= add_ref(e->sorter, (y >> h) * tiling->across + (x >> w),
                              (struct cpu_ref){prim, y << 16 | x, mask});
         else
             added &= bin_cut(e, prim, mask, x, y);
@@ -85,20 +85,20 @@ static bool bin_corners(const struct cpu_emitter *e, const rg_snapped *c, int pr
     const struct cpu_ref ref = {prim, -1, 0};
     const rg_triangle near = rg_triangle_make(*e->draw, c->x0, c->y0, c->x1, c->y1, c->x2, c->y2);
     const rg_triangle far = rg_triangle_make(*e->draw, c->x0, c->y0, c->x2, c->y2, c->x3, c->y3);
-    const int side = tiling->log2_side;
-    const int first_x = rg_imin(near.first_x, far.first_x) >> side;
-    const int first_y = rg_imin(near.first_y, far.first_y) >> side;
-    const int last_x = (rg_imax(near.end_x, far.end_x) - 1) >> side;
-    const int last_y = (rg_imax(near.end_y, far.end_y) - 1) >> side;
+    const int w = tiling->log2_width, h = tiling->log2_height;
+    const int first_x = rg_imin(near.first_x, far.first_x) >> w;
+    const int first_y = rg_imin(near.first_y, far.first_y) >> h;
+    const int last_x = (rg_imax(near.end_x, far.end_x) - 1) >> w;
+    const int last_y = (rg_imax(near.end_y, far.end_y) - 1) >> h;
     for (int ty = first_y; ty <= last_y; ty++) {
         for (int tx = first_x; tx <= last_x; tx++) {
-            const int x0 = tx << side, y0 = ty << side;
-            const int x1 = (tx + 1) << side, y1 = (ty + 1) << side;
+            const int x0 = tx << w, y0 = ty << h;
+            const int x1 = (tx + 1) << w, y1 = (ty + 1) << h;
             if (!triangle_reaches(&near, x0, y0, x1, y1) && !triangle_reaches(&far, x0, y0, x1, y1))
                 continue;
             if (!add_ref(e->sorter, ty * tiling->across + tx, ref))
                 return false;
-            *pixels += INT64_C(1) << (2 * side - 2); // an estimate: a quarter of the tile
+            *pixels += INT64_C(1) << (w + h - 2); // an estimate: a quarter of the tile
         }
     }
     return true;

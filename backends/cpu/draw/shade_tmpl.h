@@ -9,7 +9,6 @@
 enum {
     WIDE_SPAN = 24,   // pixels that are worth a vectorised row of their own
     REFS_AHEAD = 12,  // for which corners are fetched
-    ROWS_AHEAD = 2,   // for which images are fetched
     WORTH_LIGHTS = 2, // from this number of lights on, hidden fragments are dropped first
 };
 
@@ -28,29 +27,8 @@ static int trim_hidden(struct shader *s, int prim, int *x, int y, int count)
     return end - first;
 }
 
-// Fetches a row of each image that a program may read at its own pixel, as those of the target's
-// size. A row of a tile is too short for the processor to foresee the next one.
-static void fetch_row(const struct shader *s, int x, int y, int count)
-{
-    enum { LINE_WORDS = 16 };
-    const int64_t texels = (int64_t)s->draw.width * s->draw.height;
-    for (int slot = 0; slot < RG_MAX_SLOTS; slot++) {
-        const struct cpu_slot *image = &s->call->slots[slot];
-        if (!image->shape || image->shape->width != s->draw.width ||
-            image->shape->height != s->draw.height)
-            continue;
-        const int64_t words = (image->count - RG_MAX_LEVELS) / texels;
-        const uint *first = (const uint *)image->data + RG_MAX_LEVELS;
-        const int64_t begin = ((int64_t)y * s->draw.width + x) * words;
-        for (int64_t word = begin; word < begin + count * words; word += LINE_WORDS)
-            __builtin_prefetch(first + word);
-    }
-}
-
 static void draw_row(struct shader *s, int prim, int x, int y, int count)
 {
-    if (y + ROWS_AHEAD < s->draw.height)
-        fetch_row(s, x, y + ROWS_AHEAD, count);
     if (s->drops_hidden)
         count = trim_hidden(s, prim, &x, y, count);
     if (!count)
@@ -102,11 +80,13 @@ static void draw_convex(struct shader *s, int named, const struct convex *shape)
     const rg_triangle *t = &shape->t;
     const int begin_x = rg_imax(t->first_x, s->x0), end_x = rg_imin(t->end_x, s->x1);
     const int begin_y = rg_imax(t->first_y, s->y0), end_y = rg_imin(t->end_y, s->y1);
+    // Rows of a band are drawn one after the other.
+    const int rows = s->x1 - s->x0 > s->y1 - s->y0 ? 1 : BLOCK_PX;
     bool flushed = false;
-    for (int y = begin_y; y < end_y; y += BLOCK_PX)
+    for (int y = begin_y; y < end_y; y += rows)
         for (int x = begin_x; x < end_x; x += BLOCK_PX)
             draw_block(s, named, shape, x, y, rg_imin(end_x - x, BLOCK_PX),
-                       rg_imin(end_y - y, BLOCK_PX), &flushed);
+                       rg_imin(end_y - y, rows), &flushed);
 }
 
 static void draw_triangle(struct shader *s, int named, rg_triangle t)
@@ -138,17 +118,16 @@ static int texel_words(int format)
 static void begin_tile(struct shader *s, int tile)
 {
     const struct cpu_tiling *tiling = &s->bins->tiling;
-    const int side = 1 << tiling->log2_side;
     s->target = s->call->target;
     s->draw = *(const rg_draw_state *)s->call->params;
     s->texel_words = texel_words(s->draw.colour_format);
     s->recorded_lights = s->program->light_size ? s->program->lights(s->call) : 0;
     s->drops_hidden = s->draw.depth_mode != RG_DEPTH_IS_OFF && s->program->lights &&
                       s->program->lights(s->call) >= WORTH_LIGHTS;
-    s->x0 = tile % tiling->across * side;
-    s->y0 = tile / tiling->across * side;
-    s->x1 = s->x0 + side;
-    s->y1 = s->y0 + side;
+    s->x0 = tile % tiling->across << tiling->log2_width;
+    s->y0 = tile / tiling->across << tiling->log2_height;
+    s->x1 = s->x0 + (1 << tiling->log2_width);
+    s->y1 = s->y0 + (1 << tiling->log2_height);
     s->lists[0].count = s->lists[1].count = s->drawn = 0;
     // Vectors reach beyond the last pixel, where they must find initialised memory.
     memset(&s->pixels, 0, sizeof(s->pixels));

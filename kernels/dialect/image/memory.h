@@ -17,13 +17,20 @@ typedef struct rg_image_shape {
     int levels;
 } rg_image_shape;
 
+// The word at which a level begins. Level 0 follows the header: where the compiler knows that it is
+// meant, it sees that neighbours lie side by side, and loads them together instead of gathering.
+RG_FN int rg_level_word(RG_GLOBAL const uint *image, int level)
+{
+    return __builtin_constant_p(level) && level == 0 ? RG_MAX_LEVELS : rg_to_int(image[level]);
+}
+
 // The word at which a texel of `words` words begins.
 RG_FN int rg_texel_word(RG_GLOBAL const uint *image, rg_image_shape s, int x, int y, int layer,
                         int level, int words)
 {
     int width = rg_imax(s.width >> level, 1);
     int height = rg_imax(s.height >> level, 1);
-    return rg_to_int(image[level]) + ((layer * height + y) * width + x) * words;
+    return rg_level_word(image, level) + ((layer * height + y) * width + x) * words;
 }
 
 // The same for level 0, which follows the header.
@@ -39,7 +46,7 @@ RG_FN int rg_texel_half(RG_GLOBAL const uint *image, rg_image_shape s, int x, in
 {
     int width = rg_imax(s.width >> level, 1);
     int height = rg_imax(s.height >> level, 1);
-    return rg_to_int(image[level]) * 2 + ((layer * height + y) * width + x);
+    return rg_level_word(image, level) * 2 + ((layer * height + y) * width + x);
 }
 
 // Two halves, one after the other, the first in the lower bits. One more word follows the last
