@@ -94,16 +94,11 @@ look: setup
 	@$(STEPS) $(BUILD)/build.log ninja -C $(BUILD) program
 	@echo "== drawing three pictures into $(LOOK)"
 	@mkdir -p $(LOOK)
-	@$(BUILD)/harness/raingauge render streaks --set far_layers=8 --size 960x540 --frame 90 -o $(LOOK)/rain.png
-	@$(BUILD)/harness/raingauge render flow --set environment=nightlights --set environment_px=1024 --set resolution_px=1024 \
-	  --set glow=0.3 --set distance_mm=330 --set camera_elevation_deg=12 --size 640x640 --frame 120 --exposure 1.1 -o $(LOOK)/flow.png
-	@$(BUILD)/harness/raingauge render streaks --size 1600x960 --frame 60 -o $(LOOK)/street.exr >/dev/null
-	@$(BUILD)/harness/raingauge render drops --set columns=500 --set rows=300 --set drops_s=10 --set seed=3 \
-	  --set background=$(LOOK)/street.exr --size 800x480 --frame 900 -o $(LOOK)/drops.png
+	@for name in streaks flow drops; do $(BUILD)/harness/raingauge render $$name -o $(LOOK)/$$name.png; done
 	@echo "== what the papers claim, and what was found of it, by the records in $(RESULTS)"
 	@$(BUILD)/harness/raingauge table --claims --from $(RESULTS) $(KEPT)
 	@$(BUILD)/harness/raingauge report $(RESULTS) docs/pictures.md $(KEPT) -o $(LOOK)/page.html
-	@echo "== look at $(LOOK)/rain.png, flow.png and drops.png, and at $(LOOK)/page.html in a browser"
+	@echo "== look at $(LOOK)/streaks.png, flow.png and drops.png, and at $(LOOK)/page.html in a browser"
 
 # What was measured by this build before, within the same time, is printed again.
 tables: build

@@ -27,10 +27,19 @@ struct rg_made_texture {
 // Receives a texture. False, with one logged line, on failure, which ends the sequence.
 typedef bool rg_take_texture(void *user, const struct rg_made_texture *texture);
 
+// The picture that shows a technique best.
+struct rg_shown {
+    const char *settings; // "key=value key=value"; "": the defaults
+    int width, height;    // pixels
+    int frame;
+    double exposure; // of 8-bit images
+};
+
 struct rg_technique {
     const char *name;  // "flow"
     const char *paper; // key of the paper: "stuppacher"; "" for none
     const char *about; // one line
+    struct rg_shown shown;
     const struct rg_param_table *params;
     const struct rg_proof *proof; // core/techniques/proof.h
     size_t size;                  // of its instance struct, which begins with struct rg_instance

@@ -26,7 +26,7 @@ static const struct rg_option options[] = {
      .about = "figures to draw, all if none is named; `raingauge list figures` prints the "
               "names",
      .names = RG_NAMES_FIGURE, .first = 1},
-    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     RG_GROUP("Devices"),
     {RG_OPTION_TEXT, "device", .argument = "D",
      .about = "the device to use; `raingauge list devices` prints the names", .offset = AT(device),

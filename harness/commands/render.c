@@ -23,14 +23,14 @@
 
 struct render_options {
     struct rg_words sets;
-    struct rg_size size;
-    int frame;
+    struct rg_size size;    // 0: not given
+    int frame;              // -1: not given
     struct rg_range frames; // -1: not given
     int fps;                // 0: not given
     int timeout_s;
     char *replayed;        // a file; NULL: a technique is drawn
     char *device, *output; // a name; a file, NULL for the technique's name with .png or .webm
-    double exposure;
+    double exposure;       // 0: not given
     int64_t memory_bytes;
     bool json;
 };
@@ -42,10 +42,12 @@ enum { DEFAULT_FPS = 60 };
 static const struct rg_option options[] = {
     RG_GROUP("What to draw"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
-     .about = "the technique to draw; `raingauge list techniques` prints the names",
+     .about = "the technique to draw; `raingauge list techniques` prints the names. Without --set, "
+              "--size, --frame and --frames, the picture that shows it best; with one of them, "
+              "512x512 pixels of frame 60",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
-    RG_INCLUDE(rg_frame_option, AT(frame), "60"),
+    RG_INCLUDE(rg_frame_option, AT(frame), NULL),
     {RG_OPTION_RANGE, "frames", .argument = "A-B",
      .about = "draws every frame from A to B, as a clip or as numbered pictures",
      .offset = AT(frames), .least = 0, .most = 1e7, .excludes = "frame"},
@@ -120,6 +122,41 @@ static bool spares_files(const struct rg_drawn *drawn)
     return spared;
 }
 
+// Whether the picture that shows the technique best is asked for.
+static bool is_shown(const struct render_options *o)
+{
+    return !o->sets.count && !o->size.width && o->frame < 0 && !has_frames(o);
+}
+
+// The options with all that was not given, for a technique.
+static struct render_options completed(const struct render_options *o,
+                                       const struct rg_technique *technique)
+{
+    const struct rg_shown usual = {"", 512, 512, 60, 1.0};
+    const struct rg_shown *shown = is_shown(o) ? &technique->shown : &usual;
+    struct render_options all = *o;
+    if (!o->size.width)
+        all.size = (struct rg_size){shown->width, shown->height};
+    if (o->frame < 0)
+        all.frame = shown->frame;
+    if (o->exposure <= 0.0)
+        all.exposure = shown->exposure;
+    return all;
+}
+
+// Prints the options that draw the same picture.
+static void tell_shown(const struct rg_shown *shown, double exposure)
+{
+    printf("  as by");
+    for (const char *at = shown->settings; *at;) {
+        const int length = (int)strcspn(at, " ");
+        printf(" --set %.*s", length, at);
+        at += length + (at[length] == ' ');
+    }
+    printf(" --size %dx%d --frame %d --exposure %g\n", shown->width, shown->height, shown->frame,
+           exposure);
+}
+
 // Draws and writes the requested frames; returns the session, or NULL on failure.
 static struct rg_session *draw(struct rg_device *device, const struct rg_drawn *drawn, int frame,
                                double exposure)
@@ -142,8 +179,9 @@ static struct rg_session *draw(struct rg_device *device, const struct rg_drawn *
 }
 
 static int render_on(struct rg_device *device, const struct rg_technique *technique,
-                     const void *settings, const struct render_options *o)
+                     const void *settings, const struct render_options *asked)
 {
+    const struct render_options all = completed(asked, technique), *o = &all;
     char path[256];
     const bool several = has_frames(o);
     snprintf(path, sizeof(path), several ? "%s.webm" : "%s.png", technique->name);
@@ -163,6 +201,8 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
     const bool told = rg_session_tell(session, &drawn.account);
     if (told)
         (o->json ? rg_drawn_print_json : rg_drawn_print_text)(&drawn);
+    if (told && is_shown(asked) && !o->json)
+        tell_shown(&technique->shown, o->exposure);
     rg_session_close(session);
     return told ? RG_EXIT_PASS : rg_exit_of_error();
 }
@@ -182,6 +222,19 @@ static int replay(const struct render_options *o)
     return exit;
 }
 
+// The technique that the arguments name, and its settings, which the caller frees. NULL, and one
+// logged line, on failure.
+static const struct rg_technique *find_subject(const struct render_options *o,
+                                               const struct rg_words *arguments, void **settings)
+{
+    const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, settings);
+    if (!technique || !is_shown(o) ||
+        rg_params_set_all(technique->params, *settings, technique->shown.settings))
+        return technique;
+    free(*settings);
+    return NULL;
+}
+
 static int render(const void *values, const struct rg_words *arguments)
 {
     const struct render_options *o = values;
@@ -196,7 +249,7 @@ static int render(const void *values, const struct rg_words *arguments)
                  arguments->items[0]);
         return rg_exit_of_error();
     }
-    const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
+    const struct rg_technique *technique = find_subject(o, arguments, &settings);
     if (!technique)
         return rg_exit_of_error();
     struct rg_devices devices;

@@ -33,6 +33,7 @@ const struct rg_technique rg_technique_cartoon = {
     .name = "cartoon",
     .paper = "feng",
     .about = "rain in cartoon style on scenes drawn as cartoons",
+    .shown = {"preset=storm", 960, 640, 100, 1.0},
     .params = &cartoon_param_table,
     .proof = &cartoon_proof,
     .size = sizeof(struct cartoon),

@@ -7,6 +7,8 @@ const struct rg_technique rg_technique_drops = {
     .name = "drops",
     .paper = "chin",
     .about = "drops that run down a pane, follow trails, merge and leave others behind",
+    .shown = {"environment=nightlights environment_px=1024 columns=500 rows=300", 640, 384, 900,
+              0.3},
     .params = &drops_param_table,
     .proof = &drops_proof,
     .size = sizeof(struct drops),

@@ -246,6 +246,7 @@ const struct rg_technique rg_technique_raster = {
     .name = "raster",
     .paper = "",
     .about = "drawing itself: rain as billboards, models, a million triangles, overlapping panes",
+    .shown = {"scene=mesh", 640, 360, 0, 1.0},
     .params = &raster_param_table,
     .proof = &raster_proof,
     .size = sizeof(struct raster),

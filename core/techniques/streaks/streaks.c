@@ -117,6 +117,7 @@ const struct rg_technique rg_technique_streaks = {
     .name = "streaks",
     .paper = "creus",
     .about = "rain as particles that fall through a city, with streaks, splashes and lights",
+    .shown = {"far_layers=8", 960, 540, 90, 1.0},
     .params = &streaks_param_table,
     .proof = &streaks_proof,
     .size = sizeof(struct streaks),

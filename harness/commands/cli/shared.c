@@ -39,8 +39,7 @@ const struct rg_option rg_settings_option[] = {
 };
 
 const struct rg_option rg_size_option[] = {
-    {RG_OPTION_SIZE, "size", .argument = "WxH", .about = "size of the image in pixels",
-     .initial = "512x512"},
+    {RG_OPTION_SIZE, "size", .argument = "WxH", .about = "size of the image in pixels"},
     {RG_OPTION_END},
 };
 
@@ -59,7 +58,7 @@ const struct rg_option rg_frame_option[] = {
 
 const struct rg_option rg_exposure_option[] = {
     {RG_OPTION_FACTOR, "exposure", .argument = "X",
-     .about = "brightens 8-bit images by this factor", .most = 1e6, .initial = "1"},
+     .about = "brightens 8-bit images by this factor", .most = 1e6},
     {RG_OPTION_END},
 };
 

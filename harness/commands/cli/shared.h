@@ -18,6 +18,9 @@ extern const struct rg_option rg_exposure_option[]; // double: --exposure
 extern const struct rg_option rg_json_option[];     // bool: --json
 extern const struct rg_option rg_length_options[];  // struct rg_length: --quick, --full
 
+// The size of pictures in most commands.
+#define RG_DEFAULT_SIZE "512x512"
+
 struct rg_length {
     bool quick, full; // at most one is set
 };

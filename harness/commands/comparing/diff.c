@@ -31,7 +31,7 @@ static const struct rg_option options[] = {
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_frame_option, AT(frames), "60"),
-    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     {RG_OPTION_FLAG, "mutants", .offset = AT(mutants),
      .about = "for a pair that misses its tier, names the mutants of `raingauge verify` that "
               "the tier it reaches would let pass"},
@@ -51,7 +51,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXT, "output", .argument = "PREFIX",
      .about = "writes heat maps into files whose names begin with this",
      .offset = AT(heatmap_prefix), .letter = 'o', .names = RG_NAMES_FILE},
-    RG_INCLUDE(rg_exposure_option, AT(exposure), NULL),
+    RG_INCLUDE(rg_exposure_option, AT(exposure), "1"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
 };

@@ -41,7 +41,7 @@ static const struct rg_option options[] = {
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_frame_option, AT(frames), "5"),
-    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     {RG_OPTION_INT, "seconds", .argument = "S", .about = "tries nothing more after so many seconds",
      .offset = AT(seconds), .initial = "45", .least = 1, .most = 86400},
     RG_GROUP("Devices"),

@@ -33,7 +33,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_INT, "count", .argument = "N",
      .about = "frames to time whole, and as many again that wait after each pass",
      .offset = AT(frames), .least = 1, .most = 1000, .initial = "10"},
-    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),

@@ -40,7 +40,7 @@ static const struct rg_option options[] = {
          "otherwise). Without either: a fifth of the steps, with three seeds of the first pose "
          "and one of each other"},
     RG_INCLUDE(rg_frame_option, AT(steps), NULL),
-    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     {RG_OPTION_FLAG, "stages", .offset = AT(stages),
      .about = "names the first stage that leaves other bits in an asset, and verifies nothing "
               "else; 3 frames"},

@@ -119,7 +119,7 @@ static void print_examples(void)
         {"raingauge table creus-5.4 --device cpu", "Measures a paper's table on the processor."},
         {"raingauge table --claims --from results/tables", "Prints what the papers claim, and "
                                                            "what kept records say of it."},
-        {"raingauge render streaks --size 960x540 --frame 90 -o rain.png", "Draws a picture."},
+        {"raingauge render streaks -o rain.png", "Draws rain in a city."},
     };
     printf(".SH EXAMPLES\n");
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)

@@ -28,6 +28,35 @@ def check_render_json(runner):
     return problems
 
 
+def check_shown(runner):
+    """without options render draws the picture that shows a technique, and says by which options; one of them alone is of the defaults"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        shown = os.path.join(tmp, "shown.png")
+        again = os.path.join(tmp, "again.png")
+        for technique in ("drops", "raster", "cartoon"):
+            lines = runner.run(["render", technique, "-o", shown]).stdout.splitlines()
+            if len(lines) != 2 or not lines[1].startswith("  as by --"):
+                problems.append("%s: %s" % (technique, lines))
+                continue
+            told = runner.run(["render", technique, "-o", again] + lines[1].split()[2:]).stdout.splitlines()
+            if [lines[0].replace(shown, again)] != told or not same_bytes(shown, again):
+                problems.append("%s: drew %s, then %s" % (technique, lines, told))
+        for args, of in ((["--frame", "3"], ", frame 3, 512x512, "), (["--size", "32x16"], ", frame 60, 32x16, "), (["--set", "seed=2"], ", frame 60, 512x512, ")):
+            told = runner.run(["render", "drops", "-o", shown] + args).stdout.splitlines()
+            if len(told) != 1 or of not in told[0]:
+                problems.append("%s: %s" % (args, told))
+    return problems
+
+
+def same_bytes(*paths):
+    contents = set()
+    for path in paths:
+        with open(path, "rb") as file:
+            contents.add(file.read())
+    return len(contents) == 1
+
+
 FOREIGN = os.fsdecode(b"cpu@N=\xff\x1b[2J")  # not UTF-8, and a sequence that clears a terminal
 
 
@@ -121,4 +150,4 @@ def check_full_stdout(runner):
     return problems
 
 
-CHECKS = [check_render_json, check_diff_json, check_diff_not_finite, check_foreign, check_full_stdout]
+CHECKS = [check_render_json, check_shown, check_diff_json, check_diff_not_finite, check_foreign, check_full_stdout]
