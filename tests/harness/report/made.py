@@ -23,12 +23,12 @@ def data_of(page):
     return json.loads(text.split(begin)[1].split("</script>")[0])
 
 
-def png(width, height, colour):
-    """A picture whose pixels are `colour(x, y)`, three numbers to 255."""
+def png(width, height, colour, level=6):
+    """A picture whose pixels are `colour(x, y)`, three numbers to 255; `level` is zlib's."""
     rows = b"".join(b"\0" + bytes(code for x in range(width) for code in colour(x, y)) for y in range(height))
     chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(
-        b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+        b"IDAT", zlib.compress(rows, level)) + chunk(b"IEND", b"")
 
 
 def bounded(value=None, width=0.01):

@@ -3,7 +3,8 @@ from fault import Fault
 
 TESTS = ("the page",)
 
-RECORDS, PICTURES, PAGE = "harness/report/records.c", "harness/report/pictures.c", "harness/report/page.c"
+RECORDS, PICTURES, PAGE = "harness/report/records.c", "harness/report/pictures/pictures.c", "harness/report/page.c"
+CODES = "harness/report/pictures/codes.c"
 BRIEF, STANDS = "harness/report/brief.c", "harness/report/stands.c"
 
 ROWS = [
@@ -14,6 +15,9 @@ ROWS = [
     Fault(PICTURES, "realpath(path, found) && «(is_below(found, folder) || is_below(found, \".\"))»", "true", "a record has a private picture published"),
     Fault(PICTURES, "(path[length] == '/' || «whole[length - 1] == '/'»)", "true", "a folder whose name begins alike is below"),
     Fault(PICTURES, "«!memcmp(bytes, png_begins, sizeof(png_begins))»;", "true", "a text is taken for a picture"),
+    Fault(PICTURES, "const bool is_smaller = «webp && webp_size < size»;", "false", "pictures take a half more than they need"),
+    Fault(CODES, "config.exact = «1»;", "0", "colours of a transparent pixel are lost"),
+    Fault(CODES, "if («memmem(png, size, \"acTL\", 4)»)", "false", "of an animation one frame is left"),
     Fault(PAGE, "if («buffer[i] == '<'»)", "false", "a text of a record ends the page's data"),
     Fault(BRIEF, "if («c == '@'»)", "false", "a text calls a user"),
     Fault(BRIEF, "«brief->size + (size_t)length > RG_PAGE_BRIEF - ROOM_FOR_END»", "false", "a merge request is told more than it takes"),

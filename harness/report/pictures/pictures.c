@@ -9,12 +9,12 @@
 #include "core/base/alloc.h"
 #include "core/base/files/file.h"
 #include "harness/record/named.h"
+#include "harness/report/pictures/codes.h"
 #include "harness/report/report.h"
 
 enum { MOST_BYTES = 16 << 20 }; // of one picture
 
 static const char png_begins[8] = "\x89PNG\r\n\x1a\n";
-static const char data_begins[] = "data:image/png;base64,";
 
 // Writes `size` bytes as base64, followed by a zero.
 static void encode(const unsigned char *bytes, size_t size, char *text)
@@ -78,34 +78,60 @@ static unsigned char *load(const char *path, size_t *size)
 // --- taking them ---
 
 // A picture as data in a URL; the caller owns it. NULL without memory.
-static json_t *data_json(const unsigned char *bytes, size_t size)
+static json_t *data_json(const char *kind, const unsigned char *bytes, size_t size)
 {
-    char *text = malloc(sizeof(data_begins) + (size + 2) / 3 * 4);
+    char begin[32];
+    const size_t length = (size_t)snprintf(begin, sizeof(begin), "data:image/%s;base64,", kind);
+    char *text = malloc(length + 1 + (size + 2) / 3 * 4);
     if (!text)
         return NULL;
-    memcpy(text, data_begins, sizeof(data_begins));
-    encode(bytes, size, text + sizeof(data_begins) - 1);
+    memcpy(text, begin, length);
+    encode(bytes, size, text + length);
     json_t *json = json_string_nocheck(text);
     free(text);
     return json;
 }
 
+// Puts a picture into the page by its digest, if there is room.
+static bool put(struct rg_page *page, const char *digest, const char *kind,
+                const unsigned char *bytes, size_t size, bool *has_room)
+{
+    *has_room = page->picture_bytes + (int64_t)size <= RG_PAGE_PICTURES;
+    page->left_out += !*has_room;
+    page->picture_bytes += *has_room ? (int64_t)size : 0;
+    return !*has_room || !json_object_set_new(page->pictures, digest, data_json(kind, bytes, size));
+}
+
+// The same as WebP, which takes two thirds of PNG's bytes, unless PNG takes fewer.
+static bool put_smaller(struct rg_page *page, const char *digest, const struct rg_codes *codes,
+                        const unsigned char *png, size_t size, bool *has_room)
+{
+    size_t webp_size = 0;
+    unsigned char *webp = codes->texels ? rg_codes_webp(codes, &webp_size) : NULL;
+    const bool is_smaller = webp && webp_size < size;
+    const bool ok = put(page, digest, is_smaller ? "webp" : "png", is_smaller ? webp : png,
+                        is_smaller ? webp_size : size, has_room);
+    free(webp);
+    return ok;
+}
+
+// Keeps a picture once, by its codes if they are known: files of the same codes may differ.
 static bool keep(struct rg_page *page, const char *name, const unsigned char *bytes, size_t size)
 {
     char digest[17];
-    snprintf(digest, sizeof(digest), "%016" PRIx64, (uint64_t)XXH3_64bits(bytes, size));
+    struct rg_codes codes;
+    bool has_room = true, ok = true;
+    rg_codes_of_png(bytes, size, &codes);
+    snprintf(digest, sizeof(digest), "%016" PRIx64,
+             codes.texels ? rg_codes_digest(&codes) : (uint64_t)XXH3_64bits(bytes, size));
     if (!page->pictures) {
         page->pictures = json_object();
         page->files = json_object();
     }
-    const bool is_new = !json_object_get(page->pictures, digest);
-    if (is_new && page->picture_bytes + (int64_t)size > RG_PAGE_PICTURES) {
-        page->left_out++;
-        return true;
-    }
-    page->picture_bytes += is_new ? (int64_t)size : 0;
-    return (!is_new || !json_object_set_new(page->pictures, digest, data_json(bytes, size))) &&
-           !json_object_set_new(page->files, name, json_string(digest));
+    if (!json_object_get(page->pictures, digest))
+        ok = put_smaller(page, digest, &codes, bytes, size, &has_room);
+    rg_codes_free(&codes);
+    return ok && (!has_room || !json_object_set_new(page->files, name, json_string(digest)));
 }
 
 // Takes a picture, if it exists and may be taken; the page shows which are missing.
