@@ -8,8 +8,13 @@
 
 #include "core/base/alloc.h"
 #include "core/base/files/file.h"
+#include "core/base/log.h"
+#include "core/image/compare/compare.h"
+#include "core/image/files/io.h"
+#include "harness/devices/frames/numbered.h"
 #include "harness/record/named.h"
 #include "harness/report/pictures/codes.h"
+#include "harness/report/pictures/linear.h"
 #include "harness/report/report.h"
 
 enum { MOST_BYTES = 16 << 20 }; // of one picture
@@ -102,62 +107,191 @@ static bool put(struct rg_page *page, const char *digest, const char *kind,
     return !*has_room || !json_object_set_new(page->pictures, digest, data_json(kind, bytes, size));
 }
 
-// The same as WebP, which takes two thirds of PNG's bytes, unless PNG takes fewer.
+// The same as WebP, which takes two thirds of PNG's bytes, unless there is a PNG that takes fewer.
 static bool put_smaller(struct rg_page *page, const char *digest, const struct rg_codes *codes,
                         const unsigned char *png, size_t size, bool *has_room)
 {
     size_t webp_size = 0;
     unsigned char *webp = codes->texels ? rg_codes_webp(codes, &webp_size) : NULL;
-    const bool is_smaller = webp && webp_size < size;
-    const bool ok = put(page, digest, is_smaller ? "webp" : "png", is_smaller ? webp : png,
-                        is_smaller ? webp_size : size, has_room);
+    const bool is_smaller = webp && (!png || webp_size < size);
+    bool ok = true;
+    if (webp || png)
+        ok = put(page, digest, is_smaller ? "webp" : "png", is_smaller ? webp : png,
+                 is_smaller ? webp_size : size, has_room);
+    else
+        *has_room = false;
     free(webp);
     return ok;
 }
 
-// Keeps a picture once, by its codes if they are known: files of the same codes may differ.
-static bool keep(struct rg_page *page, const char *name, const unsigned char *bytes, size_t size)
+// Keeps a picture once, by its codes if they are known: files of the same codes may differ. `png`
+// may be NULL if there are codes.
+static bool keep(struct rg_page *page, const char *name, const struct rg_codes *codes,
+                 const unsigned char *png, size_t size)
 {
     char digest[17];
-    struct rg_codes codes;
     bool has_room = true, ok = true;
-    rg_codes_of_png(bytes, size, &codes);
     snprintf(digest, sizeof(digest), "%016" PRIx64,
-             codes.texels ? rg_codes_digest(&codes) : (uint64_t)XXH3_64bits(bytes, size));
+             codes->texels ? rg_codes_digest(codes) : (uint64_t)XXH3_64bits(png, size));
     if (!page->pictures) {
         page->pictures = json_object();
         page->files = json_object();
     }
     if (!json_object_get(page->pictures, digest))
-        ok = put_smaller(page, digest, &codes, bytes, size, &has_room);
-    rg_codes_free(&codes);
+        ok = put_smaller(page, digest, codes, png, size, &has_room);
     return ok && (!has_room || !json_object_set_new(page->files, name, json_string(digest)));
+}
+
+static bool lacks_memory(const char *name)
+{
+    return rg_harness_error("%s: no memory for it; name fewer records", name);
+}
+
+static bool take_png(struct rg_page *page, const char *name, const char *path)
+{
+    size_t size;
+    struct rg_codes codes = {0};
+    unsigned char *bytes = load(path, &size);
+    if (bytes)
+        rg_codes_of_png(bytes, size, &codes);
+    const bool ok = !bytes || keep(page, name, &codes, bytes, size) || lacks_memory(name);
+    rg_codes_free(&codes);
+    free(bytes);
+    return ok;
+}
+
+// Takes linear light as a screen shows it.
+static bool take_exr(struct rg_page *page, const char *name, const char *path)
+{
+    struct rg_picture picture;
+    if (!rg_picture_read(path, &picture))
+        return false;
+    struct rg_codes codes = {picture.width, picture.height,
+                             malloc(4 * (size_t)picture.width * (size_t)picture.height)};
+    if (codes.texels)
+        rg_encode(&picture, 1, codes.texels);
+    const bool ok = (codes.texels && keep(page, name, &codes, NULL, 0)) || lacks_memory(name);
+    rg_codes_free(&codes);
+    rg_picture_destroy(&picture);
+    return ok;
+}
+
+static bool ends_in(const char *name, const char *end)
+{
+    const size_t length = strlen(name), end_length = strlen(end);
+    return length > end_length && !strcmp(name + length - end_length, end);
 }
 
 // Takes a picture, if it exists and may be taken; the page shows which are missing.
 static bool take(struct rg_page *page, const char *folder, const char *name)
 {
     char path[PATH_MAX];
-    size_t size;
-    unsigned char *bytes = find(folder, name, path) ? load(path, &size) : NULL;
-    const bool ok = !bytes || keep(page, name, bytes, size) ||
-                    rg_harness_error("%s: no memory for it; name fewer records", name);
-    free(bytes);
+    return !find(folder, name, path) ||
+           (ends_in(path, ".exr") ? take_exr : take_png)(page, name, path);
+}
+
+// --- linear values ---
+
+// Keeps the values of pictures of one frame around the texels that differ most, by `key`. Files
+// that do not exist or may not be taken are left out.
+static bool keep_linear(struct rg_page *page, const char *folder, const char *key,
+                        const char *const names[], const char *const files[], int count)
+{
+    struct rg_linear linear = {0};
+    char path[PATH_MAX];
+    bool ok = true;
+    for (int i = 0; ok && i < count && page->linear_count < RG_PAGE_LINEAR; i++)
+        if (files[i] && find(folder, files[i], path)) {
+            linear.names[linear.count] = names[i];
+            ok = rg_picture_read(path, &linear.pictures[linear.count]);
+            linear.count += ok;
+        }
+    json_t *json = ok ? rg_linear_json(&linear) : NULL;
+    if (json && !page->linear)
+        page->linear = json_object();
+    page->linear_count += json != NULL;
+    ok = ok && (!json || !json_object_set_new(page->linear, key, json) || lacks_memory(key));
+    rg_linear_free(&linear);
+    return ok;
+}
+
+// Those of a case of a gate, whose files of linear light stand beside A's and B's pictures.
+static bool keep_case(struct rg_page *page, const char *folder, const json_t *attachments)
+{
+    static const char *const names[] = {"A", "B"}, *const ends[] = {"-a.png", "-b.png"};
+    char paths[2][PATH_MAX] = {"", ""};
+    const char *key = NULL;
+    size_t i;
+    json_t *attachment;
+    json_array_foreach(attachments, i, attachment)
+    {
+        const char *name = json_string_value(attachment);
+        for (int k = 0; name && k < 2; k++)
+            if (ends_in(name, ends[k]) && !*paths[k] && strlen(name) < PATH_MAX) {
+                snprintf(paths[k], PATH_MAX, "%.*s.exr", (int)strlen(name) - 4, name);
+                key = k ? key : name;
+            }
+    }
+    return !key || !*paths[1] ||
+           keep_linear(page, folder, key, names, (const char *const[]){paths[0], paths[1]}, 2);
+}
+
+// Takes the pictures of a diff's devices, and keeps their values.
+static bool take_devices(struct rg_page *page, const char *folder, const json_t *pictures)
+{
+    const char *names[RG_LINEAR_PICTURES], *files[RG_LINEAR_PICTURES];
+    int count = 0;
+    size_t i;
+    json_t *picture;
+    bool ok = true;
+    json_array_foreach(pictures, i, picture)
+    {
+        const char *name = json_string_value(json_object_get(picture, "device"));
+        const char *file = json_string_value(json_object_get(picture, "file"));
+        if (!ok || !name || !file || count == RG_LINEAR_PICTURES)
+            continue;
+        names[count] = name;
+        files[count++] = file;
+        ok = take(page, folder, file);
+    }
+    return ok && (!count || keep_linear(page, folder, files[0], names, files, count));
+}
+
+// Takes the picture that a record of `render` names: of numbered ones a strip, evenly spaced, with
+// the first and the last.
+static bool take_drawn(struct rg_page *page, const char *folder, const json_t *document)
+{
+    const char *file = json_string_value(json_object_get(document, "file"));
+    const json_t *frames = json_object_get(document, "frames");
+    const json_int_t first = json_integer_value(json_array_get(frames, 0));
+    const json_int_t last = json_integer_value(json_array_get(frames, 1));
+    if (!file || rg_numbered_places(file) != 1)
+        return !file || take(page, folder, file);
+    const json_int_t span = first < 0 || last < first || last > INT_MAX ? 0 : last - first;
+    const json_int_t steps = span < RG_PAGE_STRIP ? span : RG_PAGE_STRIP - 1;
+    bool ok = true;
+    for (json_int_t i = 0; ok && i <= steps; i++) {
+        char name[PATH_MAX];
+        const json_int_t frame = first + (steps ? i * span / steps : 0);
+        ok = rg_numbered_path(file, (int)frame, name, sizeof(name)) && take(page, folder, name);
+    }
     return ok;
 }
 
 bool rg_page_add_pictures(struct rg_page *page, const char *folder, const json_t *document)
 {
-    const json_t *file = json_object_get(document, "file");
-    bool ok = !json_is_string(file) || take(page, folder, json_string_value(file));
+    bool ok = take_drawn(page, folder, document) &&
+              take_devices(page, folder, json_object_get(document, "pictures"));
     size_t i, k;
     json_t *gated, *name;
     json_array_foreach(json_object_get(document, "gated"), i, gated)
     {
-        json_array_foreach(json_object_get(gated, "attachments"), k, name)
+        const json_t *attachments = json_object_get(gated, "attachments");
+        json_array_foreach(attachments, k, name)
         {
             ok = ok && (!json_is_string(name) || take(page, folder, json_string_value(name)));
         }
+        ok = ok && keep_case(page, folder, attachments);
     }
     return ok;
 }

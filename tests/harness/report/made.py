@@ -31,6 +31,13 @@ def png(width, height, colour, level=6):
         b"IDAT", zlib.compress(rows, level)) + chunk(b"IEND", b"")
 
 
+def draw(raingauge, folder, frames, size):
+    """Draws small frames of linear light: NAME.exr each."""
+    for name, frame in frames.items():
+        subprocess.run([raingauge, "render", "drops", "--size", size, "--frame", str(frame), "-o", name + ".exr", "--set", "environment=sky", "--set", "environment_px=16",
+                        "--set", "columns=32", "--set", "rows=32", "--set", "max_drops=700"], cwd=folder, check=True, capture_output=True)
+
+
 def bounded(value=None, width=0.01):
     return {"value": value, "low": value and value * (1 - width), "high": value and value * (1 + width)}
 
