@@ -284,6 +284,7 @@ COMMANDS = [
 
 RENDERS = [
     # figures
+    Case("figures stuppacher-4 ye-3 --size 64x36 -o {tmp}", 0, None, made=("figures.md", "stuppacher-4.png", "ye-3.png")),
     Case("figures creus-4.11a --size 64x36 -o {tmp}", 0, None, made=("creus-4.11a.exr", "creus-4.11a.png", "figures.md")),
 
     # arguments

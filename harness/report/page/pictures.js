@@ -154,8 +154,8 @@ function worstPixel(a, b, [textA, textB]) {
 
 const GALLERY = arrayOf(DATA.gallery).filter(g => picture(g.file));
 const RENDERS = records("render").filter(r => picture(r.document.file));
-const shots = () => [...GALLERY.map(g => [g.file, g.caption]), ...RENDERS.map(r => [r.document.file, `${r.document.technique}, frame ${r.document.frame}, on ${r.document.device}`])];
-const shot = ([name, caption]) => el("figure", {}, image(name, caption, ""), el("figcaption", {}, caption));
+const shots = () => [...GALLERY.map(g => [g.file, g.caption, g.printed]), ...RENDERS.map(r => [r.document.file, `${r.document.technique}, frame ${r.document.frame}, on ${r.document.device}`])];
+const shot = ([name, caption, printed]) => el("figure", {}, image(name, caption, ""), el("figcaption", {}, caption, printed ? el("p", {class: "printed"}, "The paper’s caption: ", el("q", {}, printed)) : null));
 // Frames of a clip that was drawn as numbered pictures, those of them that the page holds.
 const numbered = (name, frame) => name.replace(/%0?(\d*)d/, (all, places) => String(frame).padStart(Number(places), "0"));
 const STRIPS = records("render").map(r => objectOf(r.document)).filter(d => typeof d.file === "string" && arrayOf(d.frames).length === 2)

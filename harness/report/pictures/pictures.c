@@ -298,22 +298,41 @@ bool rg_page_add_pictures(struct rg_page *page, const char *folder, const json_t
 
 // --- a text of Markdown ---
 
-// The caption of a picture: the paragraph at `at` without marks, on one line, if it begins with
-// `*`. Otherwise the picture's own text.
-static json_t *caption_json(const char *at, const char *own, size_t own_length)
+enum { CAPTION_SIZE = 1024 };
+
+// Copies the paragraph at `*at` without marks, on one line, if it begins with `mark`, and moves
+// `*at` behind it. False if it begins otherwise.
+static bool take_paragraph(const char **at, char mark, char text[CAPTION_SIZE])
 {
-    char caption[1024];
     size_t length = 0;
-    at += strspn(at, " \t\r\n");
-    if (*at != '*')
-        return json_pack("s%", own, own_length);
-    for (; *at && strncmp(at, "\n\n", 2) != 0 && length < sizeof(caption) - 1; at++)
-        if (!strchr("*`", *at))
-            caption[length++] = *at == '\n' ? ' ' : *at;
-    while (length && caption[length - 1] == ' ')
+    *at += strspn(*at, " \t\r\n");
+    if (**at != mark)
+        return false;
+    for (const char *begin = *at; **at && strncmp(*at, "\n\n", 2) != 0; ++*at) {
+        const bool is_mark = strchr("*`", **at) ||
+                             (mark == '>' && **at == '>' && (*at == begin || (*at)[-1] == '\n'));
+        const char letter = **at == '\n' ? ' ' : **at;
+        const bool is_double = letter == ' ' && (!length || text[length - 1] == ' ');
+        if (!is_mark && !is_double && length < CAPTION_SIZE - 1)
+            text[length++] = letter;
+    }
+    while (length && text[length - 1] == ' ')
         length--;
-    caption[length] = 0;
-    return rg_json_text(caption);
+    text[length] = 0;
+    return true;
+}
+
+// A picture with its caption: the paragraph at `at` if it begins with `*`, otherwise the picture's
+// own text; and with the paper's caption, a paragraph behind it that begins with `>`. NULL if a
+// text is not UTF-8.
+static json_t *shown_json(const char *at, const char *name, const char *own, size_t own_length)
+{
+    char caption[CAPTION_SIZE], printed[CAPTION_SIZE];
+    if (!take_paragraph(&at, '*', caption))
+        snprintf(caption, sizeof(caption), "%.*s", (int)own_length, own);
+    const bool has_printed = take_paragraph(&at, '>', printed);
+    return json_pack("{so so ss*}", "file", rg_json_text(name), "caption", rg_json_text(caption),
+                     "printed", has_printed ? printed : NULL);
 }
 
 bool rg_page_add_gallery(struct rg_page *page, const char *folder, const char *markdown)
@@ -328,10 +347,7 @@ bool rg_page_add_gallery(struct rg_page *page, const char *folder, const char *m
         if (!end || end - middle >= (int)sizeof(name))
             break;
         snprintf(name, sizeof(name), "%.*s", (int)(end - middle) - 2, middle + 2);
-        json_t *caption = caption_json(end + 1, text, (size_t)(middle - text));
-        json_t *shown = caption
-                            ? json_pack("{so so}", "file", rg_json_text(name), "caption", caption)
-                            : NULL; // a text that is not UTF-8 gets no picture
+        json_t *shown = shown_json(end + 1, name, text, (size_t)(middle - text));
         ok = !shown || (take(page, folder, name) && !json_array_append_new(page->gallery, shown));
     }
     return ok || rg_harness_error("a text's pictures: no memory for them; name fewer records");

@@ -17,6 +17,7 @@ ROWS = [
     Fault(PICTURES, "(path[length] == '/' || «whole[length - 1] == '/'»)", "true", "a folder whose name begins alike is below"),
     Fault(PICTURES, "«!memcmp(bytes, png_begins, sizeof(png_begins))»;", "true", "a text is taken for a picture"),
     Fault(PICTURES, "const bool is_smaller = «webp && (!png || webp_size < size)»;", "false", "pictures take a half more than they need"),
+    Fault(PICTURES, "(mark == '>' && «**at == '>'» &&", "true", "the paper's caption loses letters"),
     Fault(LINEAR, "worst = «spreads[i] > spreads[worst]» ? i : worst;", "spreads[i] > 0", "the last texel that differs counts as the worst", tests=VALUES),
     Fault(LINEAR, "return !differs ? 0 : «is_finite» ? most - least : INFINITY;", "true", "a texel that is no number is not the worst", tests=VALUES),
     Fault(LINEAR, "memset(spreads + (int64_t)(«window->top + y») * picture->width", "window->y", "the three worst are one place", tests=VALUES),
