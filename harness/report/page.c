@@ -42,14 +42,14 @@ static json_t *endings_json(void)
 // All data of the page. NULL without memory.
 static json_t *data_json(const struct rg_page *page, const struct rg_page *before)
 {
-    return json_pack("{si ss ss si si so so so so so so so}", "format", RG_FORMAT_VERSION,
-                     "version", rg_build_version, "commit", rg_build_commit, "pictures_left_out",
-                     page->left_out, "gates_left_out", page->gates_left_out, "endings",
-                     endings_json(), "claims", claims_json(page), "before", before_json(before),
-                     "records", or_empty(page->records, json_array), "pictures",
-                     or_empty(page->pictures, json_object), "files",
-                     or_empty(page->files, json_object), "gallery",
-                     or_empty(page->gallery, json_array));
+    return json_pack(
+        "{si ss ss si si so so so so so so so so}", "format", RG_FORMAT_VERSION, "version",
+        rg_build_version, "commit", rg_build_commit, "pictures_left_out", page->left_out,
+        "gates_left_out", page->gates_left_out, "endings", endings_json(), "claims",
+        claims_json(page), "before", before_json(before), "records",
+        or_empty(page->records, json_array), "pictures", or_empty(page->pictures, json_object),
+        "files", or_empty(page->files, json_object), "linear", or_empty(page->linear, json_object),
+        "gallery", or_empty(page->gallery, json_array));
 }
 
 // Writes JSON with escaped `<`, so that no text in it can end the element around it.

@@ -248,6 +248,7 @@ void rg_page_free(struct rg_page *page)
     json_decref(page->records);
     json_decref(page->pictures);
     json_decref(page->files);
+    json_decref(page->linear);
     json_decref(page->gallery);
     rg_claims_free(&page->outcomes);
     *page = (struct rg_page){0};

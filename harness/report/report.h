@@ -13,8 +13,10 @@ struct rg_page {
     json_t *records;  // array of {kind, file, document}; tables have `printed` too
     json_t *pictures; // object: data of each picture by its digest
     json_t *files;    // object: digests of pictures by the path that a record names
-    json_t *gallery;  // array of {file, caption}: pictures in a text of Markdown
+    json_t *linear;   // object: linear values by the first of the files that are compared
+    json_t *gallery;  // array of {file, caption, printed}: pictures in a text of Markdown
     int64_t picture_bytes;
+    int linear_count;
     int left_out; // pictures that had no room
     int gates, gates_left_out;
     // Launches that give the verdicts on tables without any; NULL: none. Not owned.
@@ -24,6 +26,8 @@ struct rg_page {
 
 enum {
     RG_PAGE_PICTURES = 32 << 20, // bytes of all pictures together
+    RG_PAGE_LINEAR = 24,         // most sets of pictures with linear values, 0.2 MB each
+    RG_PAGE_STRIP = 24,          // most frames of one clip
     RG_PAGE_GATES = 30,          // most gates; the page shows their history
 };
 
@@ -70,9 +74,10 @@ json_t *rg_page_claims(const struct rg_page *page);
 json_t *rg_page_printed(const char *table);
 
 // Embed pictures: those that the document of a record in `folder` names, or those in a text of
-// Markdown, with the captions below them. Only PNG from the record's folder, the current one, and
-// those below is taken, so that a foreign record cannot have a private picture published. False,
-// with one logged line, without memory.
+// Markdown, with the captions below them, and those that papers print. Only PNG and EXR from the
+// record's folder, the current one, and those below is taken, so that a foreign record cannot have
+// a private picture published. Linear values are kept of EXR files that are compared. False, with
+// one logged line, without memory, or if an EXR is damaged.
 bool rg_page_add_pictures(struct rg_page *page, const char *folder, const json_t *document);
 bool rg_page_add_gallery(struct rg_page *page, const char *folder, const char *markdown);
 

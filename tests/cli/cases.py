@@ -224,10 +224,11 @@ COMMANDS = [
 
     # diff: devices
     Case(DIFF, 0, None),
-    Case(DIFF + "-o {tmp}/heat", 0, None, made=("heat-cpu-cpu_reference-difference.png", "heat-cpu-cpu_reference-flip.png")),
-    Case(DIFF + "-o {tmp}/", 0, None, made=("cpu-cpu_reference-difference.png", "cpu-cpu_reference-flip.png")),
+    Case(DIFF + "-o {tmp}/heat", 0, None, made=("heat-cpu-cpu_reference-difference.png", "heat-cpu-cpu_reference-flip.png", "heat-cpu.exr", "heat-cpu_reference.exr")),
+    Case(DIFF + "-o {tmp}/", 0, None, made=("cpu-cpu_reference-difference.png", "cpu-cpu_reference-flip.png", "cpu.exr", "cpu_reference.exr")),
     Case(DIFF.replace("cpu,cpu:reference", "cpu@RG_X=a/b,cpu@RG_X=a:b") + "-o {tmp}/heat", 0, None, made=tuple(
-        "heat-cpu_RG_X_a_b_e4ba8afe9d88ae3f-cpu_RG_X_a_b_aa7580cd9de55393-%s.png" % end for end in ("difference", "flip"))),
+        "heat-cpu_RG_X_a_b_" + name for name in ("aa7580cd9de55393.exr", "e4ba8afe9d88ae3f-cpu_RG_X_a_b_aa7580cd9de55393-difference.png",
+                                                 "e4ba8afe9d88ae3f-cpu_RG_X_a_b_aa7580cd9de55393-flip.png", "e4ba8afe9d88ae3f.exr"))),
     Case(DIFF + "-o {tmp}/none/heat", 2, r"none/heat-flip\.png: its folder is not there"),
     Case("diff nonsense", 2, r"technique 'nonsense': unknown; the nearest is '.*', and `raingauge list techniques`"),
     Case("diff flow --device cpu", 2, r"--device cpu: a comparison takes two devices"),
@@ -283,6 +284,7 @@ COMMANDS = [
 
 RENDERS = [
     # figures
+    Case("figures stuppacher-4 ye-3 --size 64x36 -o {tmp}", 0, None, made=("figures.md", "stuppacher-4.png", "ye-3.png")),
     Case("figures creus-4.11a --size 64x36 -o {tmp}", 0, None, made=("creus-4.11a.exr", "creus-4.11a.png", "figures.md")),
 
     # arguments

@@ -49,7 +49,8 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "PREFIX",
-     .about = "writes heat maps into files whose names begin with this",
+     .about = "writes heat maps, and each device's picture as EXR, into files whose names begin "
+              "with this",
      .offset = AT(heatmap_prefix), .letter = 'o', .names = RG_NAMES_FILE},
     RG_INCLUDE(rg_exposure_option, AT(exposure), "1"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),

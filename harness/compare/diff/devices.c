@@ -6,9 +6,11 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "core/base/text/plain.h"
 #include "core/device/device.h"
+#include "core/image/files/io.h"
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/diff/accepts.h"
 #include "harness/compare/diff/report.h"
@@ -38,6 +40,7 @@ struct session {
     int compared;             // pairs
     int exit;                 // an enum rg_exit: the status of failed devices
     json_t *pairs, *failures; // with --json
+    json_t *pictures;         // files of pictures, with --json and a prefix
     struct rg_accepts accepts;
 };
 
@@ -116,6 +119,36 @@ static void name_heatmaps(const struct session *s, const struct rg_device_info *
              names[0], names[1]);
 }
 
+// PREFIX-gl.exr, or FOLDER/gl.exr.
+static void name_picture(const struct session *s, const struct rg_device_info *info,
+                         char path[HEATMAP_PREFIX])
+{
+    char name[RG_OUTPUT_PART];
+    const char *asked = s->asked->heatmap_prefix;
+    rg_output_part(info->name, name);
+    snprintf(path, HEATMAP_PREFIX, "%.1700s%s%s.exr", asked, rg_is_folder_prefix(asked) ? "" : "-",
+             name);
+}
+
+// Writes each device's picture, as linear light to the bit, and notes its file.
+static bool write_pictures(struct session *s)
+{
+    bool ok = true;
+    for (int i = 0; ok && s->asked->heatmap_prefix && i < s->shot_count; i++) {
+        const struct shot *shot = &s->shots[i];
+        char path[HEATMAP_PREFIX];
+        name_picture(s, shot->info, path);
+        ok = rg_picture_write(path, &shot->picture, &(struct rg_write_options){.full_float = true});
+        if (ok && s->pairs && !s->pictures)
+            s->pictures = json_array();
+        if (ok && s->pairs)
+            json_array_append_new(s->pictures,
+                                  json_pack("{so so}", "device", rg_json_text(shot->info->name),
+                                            "file", rg_json_text(path)));
+    }
+    return ok;
+}
+
 static bool write_heatmaps(const struct session *s, const struct shot *a, const struct shot *b,
                            const struct rg_comparison *comparison)
 {
@@ -124,19 +157,22 @@ static bool write_heatmaps(const struct session *s, const struct shot *a, const 
     return rg_pair_heatmaps(prefix, &a->picture, &b->picture, comparison);
 }
 
-// Whether no pair's heat map replaces a file that settings name. False, and one logged line, if one
-// does.
+// Whether no pair's heat map and no picture replaces a file that settings name. False, and one
+// logged line, if one does.
 static bool spare_files(const struct session *s, const struct rg_devices *devices)
 {
     char prefix[HEATMAP_PREFIX], value[RG_PATH_SIZE];
     bool spared = true;
     for (int at = 0;
          s->asked->heatmap_prefix && spared && rg_file_own_next(&s->asked->subject, &at, value);)
-        for (int i = 0; i < devices->count; i++)
+        for (int i = 0; spared && i < devices->count; i++) {
+            name_picture(s, &devices->devices[i]->info, prefix);
+            spared = rg_file_spares(prefix, value);
             for (int j = i + 1; spared && j < devices->count; j++) {
                 name_heatmaps(s, &devices->devices[i]->info, &devices->devices[j]->info, prefix);
                 spared = rg_pair_heatmaps_spare(prefix, value);
             }
+        }
     return spared;
 }
 
@@ -267,6 +303,8 @@ static int compare_all(struct session *s)
     const struct rg_device_info *infos[RG_MAX_DEVICES];
     int exit = s->exit;
     list_infos(s, infos);
+    if (!write_pictures(s))
+        return rg_exit_of_error();
     if (!s->asked->json)
         rg_drivers_print(infos, s->shot_count, stdout);
     for (int i = 0; i < s->shot_count; i++) {
@@ -277,18 +315,27 @@ static int compare_all(struct session *s)
         tell_dry(s);
     if (!s->asked->json)
         tell_count(s);
-    else if (!rg_pairs_print_json(rg_passport_devices(infos, s->shot_count), s->pairs, s->failures))
+    else if (!rg_pairs_print_json(rg_passport_devices(infos, s->shot_count), s->pictures, s->pairs,
+                                  s->failures))
         exit = rg_exit_worse(exit, rg_exit_of_error());
     return exit;
 }
 
-// Memory for each device's picture, the one without rain, and two heat maps a pair.
-static bool has_room(const struct rg_diff_devices_request *request, int devices)
+// Memory for each device's picture and the one without rain; on the disk, two heat maps a pair and
+// a picture a device.
+static bool has_room(const struct session *s, const struct rg_devices *devices)
 {
-    const int width = request->subject.width, height = request->subject.height;
-    const int64_t maps = (int64_t)devices * (devices - 1);
-    return rg_pictures_fit(width, height, devices + 1) &&
-           rg_pair_heatmaps_can_be_written(request->heatmap_prefix, maps * width * height);
+    const struct rg_diff_devices_request *r = s->asked;
+    const int64_t pixels = (int64_t)r->subject.width * r->subject.height;
+    const int count = devices->count;
+    char path[HEATMAP_PREFIX];
+    if (!rg_pictures_fit(r->subject.width, r->subject.height, count + 1))
+        return false;
+    if (!r->heatmap_prefix)
+        return true;
+    name_picture(s, &devices->devices[0]->info, path);
+    return rg_pair_heatmaps_can_be_written(r->heatmap_prefix, (count - 1) * count * pixels) &&
+           rg_picture_can_be_written(path, count * pixels);
 }
 
 int rg_diff_devices(const struct rg_diff_devices_request *request)
@@ -306,8 +353,7 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
     if (exit == RG_EXIT_PASS && devices.count < 2 && rg_devices_exit(&devices) == RG_EXIT_PASS) {
         rg_error("--device %s: a comparison takes two devices", request->devices->names);
         exit = RG_EXIT_USAGE;
-    } else if (exit == RG_EXIT_PASS &&
-               !(spare_files(s, &devices) && has_room(request, devices.count))) {
+    } else if (exit == RG_EXIT_PASS && !(spare_files(s, &devices) && has_room(s, &devices))) {
         exit = rg_exit_of_error();
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : rg_exit_of_error();
@@ -315,6 +361,7 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
     }
     for (int i = 0; i < s->shot_count; i++)
         rg_picture_destroy(&s->shots[i].picture);
+    json_decref(s->pictures);
     json_decref(s->pairs);
     json_decref(s->failures);
     rg_picture_destroy(&s->background);

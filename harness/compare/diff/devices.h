@@ -12,7 +12,8 @@ struct rg_diff_devices_request {
     struct rg_subject subject;
     const struct rg_devices_asked *devices;
     int frames;                 // simulated before the picture is drawn
-    const char *heatmap_prefix; // NULL: none; else PREFIX-A-B-flip.png and -difference.png
+    const char *heatmap_prefix; // NULL: none; else PREFIX-A-B-flip.png and -difference.png,
+                                // and PREFIX-A.exr
     double exposure;
     bool mutants; // for a failing pair: which mutants the tier that holds would accept
     bool json;    // instead of a table

@@ -15,7 +15,7 @@ static bool print_json(const struct rg_diff_request *request,
     if (pair)
         json_object_set_new(pair, "beside", rg_beside_json(beside));
     json_t *pairs = pair ? json_pack("[o]", pair) : NULL, *failures = json_array();
-    const bool good = pairs && rg_pairs_print_json(NULL, pairs, failures);
+    const bool good = pairs && rg_pairs_print_json(NULL, NULL, pairs, failures);
     json_decref(pairs);
     json_decref(failures);
     return good;

@@ -231,10 +231,10 @@ json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c
     return pair;
 }
 
-bool rg_pairs_print_json(json_t *devices, json_t *pairs, json_t *failures)
+bool rg_pairs_print_json(json_t *devices, json_t *pictures, json_t *pairs, json_t *failures)
 {
-    json_t *all = json_pack("{s:i, s:o*, s:O, s:O}", "format", 1, "devices", devices, "pairs",
-                            pairs, "failures", failures);
+    json_t *all = json_pack("{s:i, s:o*, s:O*, s:O, s:O}", "format", 1, "devices", devices,
+                            "pictures", pictures, "pairs", pairs, "failures", failures);
     bool good = all && json_dumpf(all, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
     printf("\n");
     json_decref(all);

@@ -13,9 +13,10 @@ void rg_pair_print(const char *a, const char *b, const struct rg_comparison *com
 // The same as JSON (docs/records.md); the caller owns it. NULL, and one logged line, when a name is
 // not UTF-8.
 json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *comparison);
-// Prints the format number, the devices with pictures, pairs, and devices without pictures; takes
-// ownership of the arrays. `devices` is NULL for files. False, and one logged line, on failure.
-bool rg_pairs_print_json(json_t *devices, json_t *pairs, json_t *failures);
+// Prints the format number, the devices with pictures, their files, pairs, and devices without
+// pictures; takes ownership of `devices`. `devices` and `pictures` are NULL for files. False, and
+// one logged line, on failure.
+bool rg_pairs_print_json(json_t *devices, json_t *pictures, json_t *pairs, json_t *failures);
 
 // Checks before any work that heat maps of this many pixels together can be written there; a NULL
 // prefix means none. False, and one logged line, if not.

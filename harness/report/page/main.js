@@ -70,7 +70,7 @@ function viewOverview() {
 const VIEWS = {
   overview: ["Overview", () => true, viewOverview], claims: ["Claims", () => CLAIMS.length, viewClaims], claim: [null, () => CLAIMS.length, viewClaim],
   tables: ["Tables", () => TABLES.length, viewTables], table: [null, () => TABLES.length, viewTable], changes: ["Changes", () => BEFORE, viewChanges], gate: ["A and B", () => GATES.length, viewGate], ci: ["CI", () => GATES.length, viewCi],
-  checks: ["Checks", () => ["verify", "diff", "baseline", "bisect"].some(kind => records(kind).length), viewChecks], devices: ["Devices", () => DEVICES.length, viewDevices], pictures: ["Pictures", () => shots().length, viewPictures],
+  checks: ["Checks", () => ["verify", "diff", "baseline", "bisect"].some(kind => records(kind).length), viewChecks], devices: ["Devices", () => DEVICES.length, viewDevices], pictures: ["Pictures", () => shots().length + STRIPS.length, viewPictures],
 };
 const PARENT = {claim: "claims", table: "tables"};
 

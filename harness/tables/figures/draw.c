@@ -97,12 +97,14 @@ static bool write_page(const struct rg_figure_run *run)
     FILE *page = open_memstream(&text, &size);
     if (!page)
         return rg_harness_error("figures.md: out of memory; draw fewer figures at once");
-    fprintf(page, "# Figures\n\nDrawn by raingauge on %s. The scenes are not the papers'.\n",
+    fprintf(page,
+            "# Figures\n\nDrawn by raingauge on %s. The scenes are not the papers'. "
+            "Below each figure stand what is to be seen, and the paper's caption.\n",
             run->device->info.name);
     for (int i = 0; i < run->count; i++) {
         const struct rg_figure *figure = run->figures[i];
-        fprintf(page, "\n![%s](%s.png)\n\n**%s.** %s\n\n", figure->id, figure->id, figure->id,
-                figure->caption);
+        fprintf(page, "\n![%s](%s.png)\n\n**%s.** %s\n\n> %s\n\n", figure->id, figure->id,
+                figure->id, figure->caption, figure->printed);
         print_command(page, run, figure);
     }
     const bool written = fclose(page) == 0 && rg_output_write(run->folder, "figures.md", text);

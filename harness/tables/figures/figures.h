@@ -17,6 +17,7 @@ struct rg_figure {
     const float *greys;
     int side_px;
     const char *caption; // our own
+    const char *printed; // the paper's own; a long one's short form, as its list of figures has it
 };
 
 // All figures, grouped by paper; a row without an id ends them.

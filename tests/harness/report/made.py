@@ -23,12 +23,19 @@ def data_of(page):
     return json.loads(text.split(begin)[1].split("</script>")[0])
 
 
-def png(width, height, colour):
-    """A picture whose pixels are `colour(x, y)`, three numbers to 255."""
+def png(width, height, colour, level=6):
+    """A picture whose pixels are `colour(x, y)`, three numbers to 255; `level` is zlib's."""
     rows = b"".join(b"\0" + bytes(code for x in range(width) for code in colour(x, y)) for y in range(height))
     chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(
-        b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+        b"IDAT", zlib.compress(rows, level)) + chunk(b"IEND", b"")
+
+
+def draw(raingauge, folder, frames, size):
+    """Draws small frames of linear light: NAME.exr each."""
+    for name, frame in frames.items():
+        subprocess.run([raingauge, "render", "drops", "--size", size, "--frame", str(frame), "-o", name + ".exr", "--set", "environment=sky", "--set", "environment_px=16",
+                        "--set", "columns=32", "--set", "rows=32", "--set", "max_drops=700"], cwd=folder, check=True, capture_output=True)
 
 
 def bounded(value=None, width=0.01):

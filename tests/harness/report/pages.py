@@ -139,7 +139,7 @@ def check_pictures(raingauge, folder):
     outside.mkdir()
     red, blue = made.png(2, 2, lambda x, y: (255, 0, 0)), made.png(2, 2, lambda x, y: (0, 0, 255))
     (inside / "pictures" / "a.png").write_bytes(red)
-    (inside / "pictures" / "again.png").write_bytes(red)
+    (inside / "pictures" / "again.png").write_bytes(made.png(2, 2, lambda x, y: (255, 0, 0), level=0))
     (outside / "secret.png").write_bytes(blue)
     (inside / "text.png").write_text("no picture", encoding="utf-8")
     beside = folder / "in2"
@@ -149,12 +149,12 @@ def check_pictures(raingauge, folder):
     os.mkfifo(inside / "pipe.png")
     names = ["pictures/a.png", "pictures/again.png", "text.png", "link.png", "pipe.png", "../out/secret.png", "../in2/secret.png", str(outside / "secret.png"), "none.png"]
     made.write(inside / "gate.json", made.gate(made.case("a", "differs", attachments=names)))
-    made.write(inside / "figures.md", "# Figures\n\n![a](pictures/a.png)\n\n**a.** Red, `all` of\nit.\n\n    raingauge render\n\n![b](../out/secret.png)\n\nNone.\n")
+    made.write(inside / "figures.md", "# Figures\n\n![a](pictures/a.png)\n\n**a.** Red, `all` of\nit.\n\n> What the\n> paper\n> says.\n\n    raingauge render\n\n![b](../out/secret.png)\n\nNone.\n")
     data = page_of(raingauge, inside, ".")
     problems = [] if sorted(data["files"]) == ["pictures/a.png", "pictures/again.png"] and len(data["pictures"]) == 1 else [data["files"]]
-    if base64.b64decode(list(data["pictures"].values())[0].split(",")[1]) != red:
-        problems.append("the picture is another")
-    if data["gallery"] != [{"file": "pictures/a.png", "caption": "a. Red, all of it."}, {"file": "../out/secret.png", "caption": "b"}]:
+    if base64.b64decode(list(data["pictures"].values())[0].split(",")[1])[:4] != b"RIFF":
+        problems.append("the picture is no WebP")
+    if data["gallery"] != [{"file": "pictures/a.png", "caption": "a. Red, all of it.", "printed": "What the paper says."}, {"file": "../out/secret.png", "caption": "b"}]:
         problems.append(data["gallery"])
     return problems
 

@@ -26,20 +26,30 @@ void rg_gate_picture_path(const char *folder, const char *name, int picture, cha
 bool rg_gate_pictures_can_be_written(const char *folder, int64_t pixels)
 {
     enum { BYTES_A_PIXEL = 3 };
+    const int64_t linear = 2 * rg_picture_file_bytes("a.exr", pixels);
     if (strlen(folder) > PATH_MAX / 2)
         return rg_error("%.80s...: is too long a name for a folder; choose a shorter one", folder);
-    return rg_output_can_be_written(folder, RG_GATE_PICTURES * BYTES_A_PIXEL * pixels);
+    return rg_output_can_be_written(folder, RG_GATE_PICTURES * BYTES_A_PIXEL * pixels + linear);
+}
+
+// Writes a side's picture as a screen shows it, and its linear light.
+static bool write_side(const char *folder, const char *name, int side,
+                       const struct rg_picture *picture)
+{
+    char path[PATH_MAX];
+    rg_gate_picture_path(folder, name, side, path);
+    if (!rg_picture_write(path, picture, &(struct rg_write_options){0}))
+        return false;
+    memcpy(path + strlen(path) - 3, "exr", 3);
+    return rg_picture_write(path, picture, &(struct rg_write_options){.full_float = true});
 }
 
 bool rg_gate_pictures_write(const char *folder, const char *name, const struct rg_picture *a,
                             const struct rg_picture *b, const struct rg_comparison *comparison)
 {
-    char prefix[PATH_MAX], path[PATH_MAX];
-    bool ok = rg_output_folder(folder);
-    for (int i = 0; ok && i < 2; i++) {
-        rg_gate_picture_path(folder, name, i, path);
-        ok = rg_picture_write(path, i ? b : a, &(struct rg_write_options){0});
-    }
+    char prefix[PATH_MAX];
+    const bool ok = rg_output_folder(folder) && write_side(folder, name, 0, a) &&
+                    write_side(folder, name, 1, b);
     prefix_of(folder, name, prefix);
     return ok && rg_pair_heatmaps(prefix, a, b, comparison);
 }

@@ -17,8 +17,8 @@ void rg_gate_picture_path(const char *folder, const char *name, int picture, cha
 // logged line, if not.
 bool rg_gate_pictures_can_be_written(const char *folder, int64_t pixels);
 
-// Writes all of them; creates the folder if only its last part is missing. False, and one logged
-// line, if one cannot be written.
+// Writes all of them, and A's and B's linear light as NAME_HASH-a.exr and -b.exr; creates the
+// folder if only its last part is missing. False, and one logged line, if one cannot be written.
 bool rg_gate_pictures_write(const char *folder, const char *name, const struct rg_picture *a,
                             const struct rg_picture *b, const struct rg_comparison *comparison);
 

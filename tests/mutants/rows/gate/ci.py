@@ -51,7 +51,7 @@ ROWS = [
     Fault(RESULTS, "        if («!c->is_compared && !c->is_skipped» &&\n", "false", "what is expected of a device that is not there goes", tests=("command line, reports",)),
     Fault(COMMAND, "    if («o->against»)\n        rg_gate_pairs_left", "false", "what is expected of devices that one build was not asked for goes", tests=("command line, reports",)),
     Fault(COMMAND, "if («!rg_baseline_asks(o->devices.names, in->baseline.devices[i].name)»)", "false", "what is expected of devices that a baseline was not asked for goes", tests=("command line, reports",)),
-    Fault(PICTURES, "for (int i = 0; ok && i < «2»; i++) {", "1", "B's picture is not written"),
+    Fault(PICTURES, "«write_side(folder, name, 1, b)»;", "true", "B's picture is not written"),
     Fault(CASES, "if («broke_off(c)»)\n        return rg_ending_of", "false", "a side that does not start any more leaves it open", tests=("command line, gates",)),
     Fault(CASES, ".outcome = «broke_off(c)» ?", "false", "a cell that broke off while it was timed passed, to the expectations", tests=("command line, gates",)),
     Fault(CASES, "if («c->agreement.has_pictures»)", "false", "reports name no picture"),
