@@ -4,9 +4,10 @@
 # `make results` replaces the tables that the repository keeps; `make thorough` runs the tests that
 # take too long for every change; `make mutants` tries the tests themselves, with faults, and `make gate-selftest` the gate, with
 # builds that are the same and that are slower; `make claims` decides what papers claim, in a night, and
-# `make claims-selftest` tries that on cells whose truth is known; `make lint` has tools look for faults in the sources.
+# `make claims-selftest` tries that on cells whose truth is known; `make lint` has tools look for faults in the sources;
+# `make deb` builds a Debian package.
 .POSIX:
-.PHONY: all setup build whole look tables committed results claims test thorough mutants gate-selftest claims-selftest lint clean format
+.PHONY: all setup build whole look tables committed results claims test thorough mutants gate-selftest claims-selftest lint deb clean format
 
 BUILD = build
 ASAN = build-asan
@@ -23,7 +24,10 @@ KEPT = $$(! ls $(CLAIMS)/*.json >/dev/null 2>&1 || echo "--kept $(CLAIMS)")
 # empty. What `make mutants` tries: areas, as images, all unless it has any.
 WHAT =
 MODELS = /usr/share/doc/libcgal-dev/data.tar.gz
+JOBS = $$(nproc)
 STEPS = python3 tests/tools/steps.py
+# Warnings of a compiler that nobody has tried stop no user. Builds for sanitizers and those of meson by hand have them as errors.
+USERS = -Dwerror=false
 # `make look` builds for one level of processors alone, which is sooner done.
 ALL_LEVELS = test ! -e $(BUILD)/one-level || \
   { meson configure $(BUILD) -Dlevels=v2,v3,v4 && rm $(BUILD)/one-level; }
@@ -62,7 +66,7 @@ setup:
 $(BUILD)/build.ninja:
 	@$(MAKE) --no-print-directory setup
 	@echo "== configuring $(BUILD)"
-	@meson setup $(BUILD) >/dev/null || { cat $(BUILD)/meson-logs/meson-log.txt; exit 1; }
+	@meson setup $(BUILD) $(USERS) >/dev/null || { cat $(BUILD)/meson-logs/meson-log.txt; exit 1; }
 
 $(ASAN)/build.ninja:
 	@echo "== configuring $(ASAN), with address and undefined-behaviour sanitizers"
@@ -88,7 +92,7 @@ whole: $(BUILD)/build.ninja
 
 look: setup
 	@test -e $(BUILD)/build.ninja || { echo "== configuring $(BUILD) for one level of processors"; mkdir -p $(BUILD); \
-	  meson setup $(BUILD) -Dlevels=v3 >$(BUILD)/build.log 2>&1 || { cat $(BUILD)/build.log; exit 1; }; \
+	  meson setup $(BUILD) $(USERS) -Dlevels=v3 >$(BUILD)/build.log 2>&1 || { cat $(BUILD)/build.log; exit 1; }; \
 	  touch $(BUILD)/one-level; }
 	@echo "== building the program in $(BUILD)"
 	@$(STEPS) $(BUILD)/build.log ninja -C $(BUILD) program
@@ -175,6 +179,14 @@ lint: build
 	[ -z "$$missing" ] || $$as_root apt-get install -qy --no-install-recommends $$missing
 	@echo "== looking for faults in core, harness and backends: gcc's analyzer, cppcheck and clang-tidy, some minutes"
 	@python3 tests/tools/lint.py $(BUILD) gcc cppcheck clang-tidy
+
+# Of the last commit, with the packages of debian/control and lintian, in $(BUILD)/deb. The ITP is a bug that an upload closes.
+deb:
+	@echo "== building a Debian package in $(BUILD)/deb"
+	@rm -rf $(BUILD)/deb && git clone --quiet . $(BUILD)/deb/raingauge
+	@$(STEPS) $(BUILD)/deb/build.log sh -c 'cd $(BUILD)/deb/raingauge && dpkg-buildpackage -b -us -uc -j$(JOBS)'
+	@lintian --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs $(BUILD)/deb/*.changes
+	@ls $(BUILD)/deb/*.deb
 
 format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

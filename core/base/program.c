@@ -183,6 +183,32 @@ void rg_program_folder(char place[PATH_MAX])
         *slash = 0;
 }
 
+// Where parts lie, relative to the running program: beside it, installed, or in the build, whose
+// programs and tests lie at several depths.
+static const char *const places[] = {
+    "",
+    "../lib/raingauge/",
+    "../" RG_LIBDIR "/raingauge/",
+    "../core/",
+    "../../core/",
+    "../../../core/",
+    "../../../../core/",
+    "../../../../../core/",
+};
+
+bool rg_program_part(const char *name, char *path, size_t size)
+{
+    char folder[PATH_MAX];
+    rg_program_folder(folder);
+    for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++) {
+        const int written = snprintf(path, size, "%s/%s%s", folder, places[i], name);
+        if (written > 0 && (size_t)written < size && !access(path, R_OK))
+            return true;
+    }
+    snprintf(path, size, "%s", folder);
+    return false;
+}
+
 void rg_program_before_end(void (*act)(void))
 {
     for (int i = 0; i < MOST_ACTS; i++) {

@@ -40,6 +40,10 @@ void rg_program_last_line(FILE *printed, char *last, size_t size);
 const char *rg_program_self(void);
 // The folder of this program, without a slash at its end; "" where that cannot be found.
 void rg_program_folder(char place[PATH_MAX]);
+// The path of a file that belongs to this program, another one or a module: beside it, installed,
+// or in the build. False where there is none that can be read; `path` is then this program's
+// folder.
+bool rg_program_part(const char *name, char *path, size_t size);
 
 // --- its own end ---
 

@@ -1,6 +1,5 @@
 #include "core/scene/matrix.h"
 
-#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 
@@ -94,14 +93,16 @@ void rg_matrix_multiply(const float left[16], const float right[16], float produ
 
 bool rg_matrix_undo(const float to_clip[16], const float clip[3], float at[3])
 {
-    mat4 columns, inverse;
-    for (int i = 0; i < 16; i++)
-        columns[i % 4][i / 4] = to_clip[i];
-    glm_mat4_inv(columns, inverse);
-    vec4 from = {clip[0], clip[1], clip[2], 1}, to;
-    glm_mat4_mulv(inverse, from, to);
+    const struct rg_matrix clipped = rg_matrix_of(to_clip);
+    struct rg_matrix inverse;
+    if (!rg_matrix_inverse(&clipped, &inverse))
+        return false;
+    double to[4];
+    for (int i = 0; i < 4; i++)
+        to[i] = inverse.rows[i][0] * (double)clip[0] + inverse.rows[i][1] * (double)clip[1] +
+                inverse.rows[i][2] * (double)clip[2] + inverse.rows[i][3];
     for (int c = 0; c < 3; c++)
-        at[c] = to[c] / to[3];
+        at[c] = (float)(to[c] / to[3]);
     return isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]);
 }
 

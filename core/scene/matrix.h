@@ -26,8 +26,8 @@ struct rg_matrix rg_matrix_back(const struct rg_matrix *matrix);
 
 // left * right in floats, each operation rounded. `product` may be `left` or `right`.
 void rg_matrix_multiply(const float left[16], const float right[16], float product[16]);
-// The point that a matrix maps to a point of clip space, computed in floats. False, with no
-// message, if there is none.
+// The point that a matrix maps to a point of clip space, in double precision and rounded once.
+// False, with no message, if there is none.
 bool rg_matrix_undo(const float to_clip[16], const float clip[3], float at[3]);
 // The matrix from pixels and depth to the world, over w: the inverse of the matrix followed by the
 // viewport's. In double precision, since far away the last digits count. False, with no message, if

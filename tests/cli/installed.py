@@ -1,9 +1,11 @@
 """`meson install`: which files it installs where, and whether the installed program runs by itself."""
+import filecmp
 import json
 import os
 import subprocess
 import tempfile
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 TETRAHEDRON = """v -1 -1 -1
 v 1 1 -1
 v 1 -1 1
@@ -34,11 +36,41 @@ def check_install(runner):
             ("bindir", "raingauge"), ("libdir", "raingauge/raingauge_importer"),
             ("libdir", "raingauge/raingauge_picture_reader"), ("libdir", "raingauge/raingauge_oiio.so"),
             ("mandir", "man1/raingauge.1"), ("datadir", "bash-completion/completions/raingauge"))}
+        data = {"raingauge/" + name: "results/" + name for name in ("baseline.json", "expectations.txt")}
+        for to, source in (("raingauge/tables", "results/tables"), ("raingauge/published", "results/published"),
+                           ("doc/raingauge/examples/ci", "docs/ci")):
+            data.update({os.path.join(to, name): os.path.join(source, name) for name in os.listdir(os.path.join(ROOT, source))})
+        places |= {os.path.join(options["datadir"], name) for name in data}
         prefix = folder + options["prefix"]
         found = {os.path.relpath(os.path.join(path, name), prefix) for path, _, names in os.walk(folder) for name in names}
         if found != places:
             problems.append("installed: %s, not %s" % (sorted(found), sorted(places)))
-        return problems or draw(runner, os.path.join(prefix, options["bindir"], "raingauge"))
+        problems += ["%s: %s" % (name, line) for name in ("raingauge/raingauge_importer", "raingauge/raingauge_oiio.so")
+                     for line in run_path(os.path.join(prefix, options["libdir"], name))]
+        problems += ["%s: not the source's" % name for name, source in sorted(data.items())
+                     if not filecmp.cmp(os.path.join(prefix, options["datadir"], name), os.path.join(ROOT, source), shallow=False)]
+        installed = os.path.join(prefix, options["bindir"], "raingauge")
+        problems += run_path(installed)
+        with open(os.path.join(prefix, options["mandir"], "man1/raingauge.1")) as page:
+            if os.path.join(options["prefix"], options["datadir"], "raingauge/tables").replace("-", "\\-") not in page.read():
+                problems.append("the manual page does not say where tables lie")
+        return problems or draw(runner, installed) or judge(runner, installed, os.path.join(prefix, options["datadir"], "raingauge/tables"))
+
+
+def judge(runner, installed, tables):
+    """Problems if the installed program, alone in a folder, says something else of the installed tables than the build's of the source's."""
+    said = []
+    for program, folder in ((runner.raingauge, os.path.join(ROOT, "results", "tables")), (installed, tables)):
+        done = subprocess.run([program, "table", "--claims", "--from", folder], cwd="/", env=runner.variables({}),
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+        said.append((done.returncode, done.stdout))
+    return [] if said[0] == said[1] and said[0][1] else ["the installed program judges otherwise: %s" % (said,)]
+
+
+def run_path(path):
+    """The folders in which the loader looks for what the program needs, beside the system's; none is needed."""
+    done = subprocess.run(["readelf", "-d", path], stdout=subprocess.PIPE, encoding="utf-8", check=True)
+    return [line for line in done.stdout.splitlines() if "RPATH" in line or "RUNPATH" in line]
 
 
 def draw(runner, installed):

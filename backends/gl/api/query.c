@@ -22,7 +22,7 @@ static bool make_queries(struct gl_queries *queries, int count)
 // An offset into the bound buffer, as the pointer that calls take.
 static void *at_byte(size_t offset)
 {
-    return (char *)NULL + offset;
+    return (void *)(uintptr_t)offset;
 }
 
 // The driver writes results when it has them, so that nobody waits.

@@ -35,10 +35,6 @@ struct rg_caged {
 // lacks memory or a process for it.
 enum rg_caged_end { RG_CAGED_SOUND, RG_CAGED_FILE, RG_CAGED_MACHINE, RG_CAGED_LACKING };
 
-// The path of a caged program: beside the running one, installed, or in the build. False where
-// there is none; `path` is then the folder that was searched.
-bool rg_caged_find(const char *program, char *path, size_t size);
-
 // Runs args[0] for up to `timeout_s`, with a reply of up to `most_bytes`. `file` is the descriptor
 // that it reads, which stays the caller's; -1: none. 0 or the errno of what the machine refused;
 // `caged` is set either way.

@@ -15,32 +15,6 @@
 #include "core/base/program.h"
 #include "core/base/text/limits.h"
 
-// The folders of caged programs, relative to the running program's: its own, the installed one, or
-// the build's, whose programs and tests lie at several depths.
-static const char *const places[] = {
-    "",
-    "../lib/raingauge/",
-    "../" RG_LIBDIR "/raingauge/",
-    "../core/",
-    "../../core/",
-    "../../../core/",
-    "../../../../core/",
-    "../../../../../core/",
-};
-
-bool rg_caged_find(const char *program, char *path, size_t size)
-{
-    char folder[PATH_MAX];
-    rg_program_folder(folder);
-    for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++) {
-        const int written = snprintf(path, size, "%s/%s%s", folder, places[i], program);
-        if (written > 0 && (size_t)written < size && !access(path, X_OK))
-            return true;
-    }
-    snprintf(path, size, "%s", folder);
-    return false;
-}
-
 static int64_t now_ms(void)
 {
     struct timespec now;

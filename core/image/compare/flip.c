@@ -477,7 +477,7 @@ static bool make_map(struct job job, float pixels_per_degree, float *map)
         return rg_error("FLIP: %g pixels a degree is outside 1 to 200", (double)pixels_per_degree);
     const int width = job.width, height = job.height;
     job.filters = make_filters((double)pixels_per_degree);
-    job.cmax = powf(hyab(hunt_lab(0, 1, 0), hunt_lab(0, 0, 1)), 0.7f);
+    job.cmax = (float)pow((double)hyab(hunt_lab(0, 1, 0), hunt_lab(0, 0, 1)), (double)0.7f);
     job.linear = rg_srgb()->linear;
     job.map = map;
     int across = (width + TILE_WIDTH - 1) / TILE_WIDTH;

@@ -22,15 +22,18 @@ static char load_error[300];
 
 static void load(void)
 {
-    // Found by the executable's run path: next to the build's or the installation's files.
-    void *module = dlopen("raingauge_oiio.so", RTLD_LAZY | RTLD_LOCAL);
+    char path[PATH_MAX];
+    const bool found = rg_program_part("raingauge_oiio.so", path, sizeof(path));
+    void *module = found ? dlopen(path, RTLD_LAZY | RTLD_LOCAL) : NULL;
     const struct rg_oiio_functions *(*entry)(void) = NULL;
     if (module) {
         void *symbol = dlsym(module, "rg_oiio_module");
         memcpy(&entry, &symbol, sizeof(entry)); // ISO C has no cast from object to function
     }
     functions = entry ? entry() : NULL;
-    const char *error = functions ? NULL : dlerror();
+    const char *error = !found      ? "raingauge_oiio.so is not beside raingauge; install it again"
+                        : functions ? NULL
+                                    : dlerror();
     if (!functions)
         snprintf(load_error, sizeof(load_error), "OpenImageIO cannot be loaded: %s",
                  error ? error : "it does not start");
@@ -118,7 +121,7 @@ static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg
     const int64_t most_bytes = most_texels();
     char program[PATH_MAX], name[32], most[24];
     struct rg_caged caged;
-    if (!rg_caged_find("raingauge_picture_reader", program, sizeof(program)))
+    if (!rg_program_part("raingauge_picture_reader", program, sizeof(program)))
         return rg_why_set(why,
                           "raingauge_picture_reader is not beside raingauge; install it again");
     const char *extension = strrchr(path, '.');

@@ -35,7 +35,7 @@ static void find_column(float heights[SIDE][SIDE], int x, int z, float open[LEVE
         open[level] = 0;
     for (int way = 0; way < WAYS; way++) {
         const float angle = (float)(2 * M_PI) * ((float)way + 0.5f) / WAYS;
-        const float dx = cosf(angle), dz = sinf(angle);
+        const float dx = (float)cos((double)angle), dz = (float)sin((double)angle);
         float steepest[LEVELS] = {0};
         for (int step = 1; step <= FARTHEST_CELLS; step++) {
             const int at_x = (int)lrintf((float)x + dx * (float)step);

@@ -81,7 +81,7 @@ struct rg_mesh *rg_mesh_read_by(const char *program, int timeout_s, const char *
 
 static bool find_importer(char *path, size_t size)
 {
-    return rg_caged_find("raingauge_importer", path, size) ||
+    return rg_program_part("raingauge_importer", path, size) ||
            rg_error("meshes are read by raingauge_importer, which is not beside raingauge in %s; "
                     "build or install it again",
                     path);

@@ -117,8 +117,8 @@ static void print_examples(void)
         {"raingauge gate vulkan new=vulkan@DRIVER=/opt/mesa-25",
          "Judges a driver that was unpacked into a folder against the installed one."},
         {"raingauge table creus-5.4 --device cpu", "Measures a paper's table on the processor."},
-        {"raingauge table --claims --from results/tables", "Prints what the papers claim, and "
-                                                           "what kept records say of it."},
+        {"raingauge table --claims --from " RG_DATA "/tables",
+         "Prints what the papers claim, and what kept records say of it."},
         {"raingauge render streaks -o rain.png", "Draws rain in a city."},
     };
     printf(".SH EXAMPLES\n");

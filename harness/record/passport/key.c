@@ -126,6 +126,18 @@ void rg_key_difference(const json_t *now, const json_t *then, char text[RG_KEY_T
     }
 }
 
+static const json_t *libraries_of(const json_t *passport)
+{
+    return json_object_get(json_object_get(passport, "raingauge"), "libraries");
+}
+
+void rg_key_libraries(const json_t *now, const json_t *then, char text[RG_KEY_TEXT])
+{
+    *text = 0;
+    if (libraries_of(now) && libraries_of(then))
+        rg_key_difference(libraries_of(now), libraries_of(then), text);
+}
+
 void rg_key_text(const json_t *parts, char text[RG_KEY_TEXT])
 {
     size_t used = 0;

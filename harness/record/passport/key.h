@@ -21,6 +21,11 @@ void rg_key_hash(const json_t *parts, char key[RG_KEY_SIZE]);
 // and then. "" if none does.
 void rg_key_difference(const json_t *now, const json_t *then, char text[RG_KEY_TEXT]);
 
+// Likewise the libraries of two passports that raingauge computes with (docs/records.schema.json):
+// "glibc 2.41 and not 2.36". "" also if a passport has none, being an earlier program's. They are
+// no part of a key.
+void rg_key_libraries(const json_t *now, const json_t *then, char text[RG_KEY_TEXT]);
+
 // "cores 2; driver Mesa 22.3.6": all parts.
 void rg_key_text(const json_t *parts, char text[RG_KEY_TEXT]);
 

@@ -1,5 +1,6 @@
 #include "harness/record/passport/passport.h"
 
+#include <gnu/libc-version.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,14 +49,24 @@ static json_t *machine(void)
                      rg_json_text(m.clocks), "memory_bytes", (json_int_t)m.memory_bytes);
 }
 
+// The C library is that which runs; of the others the headers' versions are known.
+static json_t *libraries(void)
+{
+    json_t *all = json_pack("{ss}", "glibc", gnu_get_libc_version());
+    for (const struct rg_build_library *library = rg_build_libraries; library->name; library++)
+        json_object_set_new(all, library->name, json_string(library->version));
+    return all;
+}
+
 static json_t *build(void)
 {
     const char *folder = rg_kernel_override();
     char id[RG_BUILD_ID_SIZE];
     rg_program_id(id);
-    return json_pack("{ssssssssssso}", "version", rg_build_version, "commit", rg_build_commit,
+    return json_pack("{sssssssssssoso}", "version", rg_build_version, "commit", rg_build_commit,
                      "compiler", rg_build_compiler, "type", rg_build_type, "program", id,
-                     "kernel_dir", folder ? rg_json_text(folder) : json_null());
+                     "kernel_dir", folder ? rg_json_text(folder) : json_null(), "libraries",
+                     libraries());
 }
 
 json_t *rg_passport_device(const struct rg_device_info *info)

@@ -145,6 +145,11 @@ def check_changes(runner):
     def picture(row):
         row["picture"] = "0123456789abcdef"
 
+    def elsewhere(document):
+        for row in document["baseline"]:
+            work(row)
+        document["passport"]["raingauge"]["libraries"]["glibc"] = "2.0"
+
     def fell(row):
         row.update(outcome="crash", why="it fell", picture="", states={}, counters={}, launches_ms=[])
 
@@ -164,6 +169,10 @@ def check_changes(runner):
                 problems.append("%s: exit status %d, %s" % (edit.__name__, result.returncode, case))
             if ending == "differs" and "what raingauge computes" not in case["details"]:
                 problems.append("%s: details: %s" % (edit.__name__, case["details"]))
+        edited = change(path, elsewhere, files.path("edited.json"))
+        case = json.loads(gate(runner, files, edited).stdout)["gated"][0]
+        if "the host computes with, glibc" not in case["details"] or "and not 2.0, and not how" not in case["details"]:
+            problems.append("libraries: details: %s" % case["details"])
     return problems
 
 

@@ -11,6 +11,7 @@
 
 #include "core/base/log.h"
 #include "core/scene/camera.h"
+#include "tests/tools/expect.h"
 
 static void apply(const float matrix[16], const double point[3], double result[4])
 {
@@ -93,6 +94,25 @@ static void test_any_camera(void **state)
     }
 }
 
+// The C library's tangents of floats are not the nearest ones to these, in one version or another.
+static void test_angles_rounded_once(void **state)
+{
+    (void)state;
+    static const struct {
+        int angle_deg;
+        float scale;
+    } cases[] = {{45, 0x1.3504f2p+1f}, {58, 0x1.cdd612p+0f},  {60, 0x1.bb67bp+0f},
+                 {70, 0x1.6d9b18p+0f}, {72, 0x1.605a9p+0f},   {82, 0x1.267e8cp+0f},
+                 {96, 0x1.cd01c2p-1f}, {118, 0x1.33a402p-1f}, {141, 0x1.6a9e0ap-2f}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        struct rg_camera camera = plain;
+        float matrix[16];
+        camera.angle_deg = (float)cases[i].angle_deg;
+        assert_true(rg_camera_matrix(&camera, 1, matrix));
+        assert_equals((double)-matrix[5], (double)cases[i].scale);
+    }
+}
+
 static void expect_blind(struct rg_camera camera, float aspect, const char *why)
 {
     float matrix[16];
@@ -172,9 +192,8 @@ static void test_placements(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_corners_of_the_view),
-        cmocka_unit_test(test_any_camera),
-        cmocka_unit_test(test_cameras_that_see_nothing),
+        cmocka_unit_test(test_corners_of_the_view), cmocka_unit_test(test_any_camera),
+        cmocka_unit_test(test_angles_rounded_once), cmocka_unit_test(test_cameras_that_see_nothing),
         cmocka_unit_test(test_placements),
     };
     return cmocka_run_group_tests_name("cameras", tests, NULL, NULL);

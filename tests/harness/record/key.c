@@ -51,6 +51,35 @@ static void assert_changes(bool changes, const char *group, const char *field, j
         fail_msg("%s.%s: %s and %s", group, field, key, other);
 }
 
+// Sets the version of a library in a passport.
+static void set_library(json_t *passport, const char *name, const char *version)
+{
+    json_t *build = json_object_get(passport, "raingauge");
+    if (!json_object_get(build, "libraries"))
+        json_object_set_new(build, "libraries", json_object());
+    json_object_set_new(json_object_get(build, "libraries"), name, json_string(version));
+}
+
+static void libraries_that_differ_are_named(void **state)
+{
+    (void)state;
+    json_t *now = make_passport(), *then = make_passport();
+    char text[RG_KEY_TEXT] = "unset";
+    set_library(now, "glibc", "2.41");
+    rg_key_libraries(now, then, text); // an earlier program did not say
+    assert_string_equal(text, "");
+    set_library(then, "glibc", "2.36");
+    set_library(now, "meshoptimizer", "0.22");
+    set_library(then, "meshoptimizer", "0.22");
+    rg_key_libraries(now, then, text);
+    assert_string_equal(text, "glibc 2.41 and not 2.36");
+    set_library(now, "meshoptimizer", "0.18");
+    rg_key_libraries(now, then, text);
+    assert_string_equal(text, "glibc 2.41 and not 2.36; meshoptimizer 0.18 and not 0.22");
+    json_decref(now);
+    json_decref(then);
+}
+
 static void what_speed_depends_on_changes_it(void **state)
 {
     (void)state;
@@ -128,6 +157,7 @@ int main(void)
         cmocka_unit_test(what_else_changes_does_not),
         cmocka_unit_test(quotas_are_rounded),
         cmocka_unit_test(parts_are_told),
+        cmocka_unit_test(libraries_that_differ_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include "harness/judge/decide.h"
 #include "harness/compare/gate/sides/alike.h"
 #include "harness/compare/gate/sides/times.h"
+#include "harness/record/passport/key.h"
 
 enum { RG_BASELINE_FORMAT = 1, RG_BASELINE_LAUNCHES = RG_SHIFT_SAMPLES };
 
@@ -94,6 +95,8 @@ void rg_baseline_take(const struct rg_gate_cell *cell, struct rg_device *device,
 // cpu:reference, which draws the true pictures; opened on first use.
 struct rg_truth {
     struct rg_device *device; // NULL: not opened yet
+    // The host's libraries that are others than the baseline's (rg_key_libraries); "": none
+    char libraries[RG_KEY_TEXT];
 };
 // False, and one logged line, if it cannot be opened.
 bool rg_truth_open(struct rg_truth *truth);

@@ -50,7 +50,7 @@ static void check(struct rg_truth *truth, const struct rg_gate_cell *cell,
 
 static bool take_all(struct make *m, const struct rg_devices *devices, struct rg_progress *bar)
 {
-    struct rg_truth truth = {NULL};
+    struct rg_truth truth = {.device = NULL};
     bool ok = true;
     for (int d = 0; ok && d < devices->count; d++)
         for (int64_t i = 0; ok && i < m->asked->cells->count; i++) {

@@ -168,14 +168,17 @@ static bool find_stage(struct rg_gate_case *c, struct rg_device *truth)
 }
 
 // A baseline has no stages, but cpu:reference can be run now. If it `holds` the device's picture, a
-// difference from the baseline may come from what all devices compute.
+// difference from the baseline may come from what all devices compute, or from the host's
+// libraries.
 static void blame(struct rg_gate_case *c, struct rg_truth *truth, bool holds)
 {
     struct rg_agreement *found = &c->agreement;
     if (rg_truth_open(truth) && find_stage(c, truth->device) && holds && !*found->details)
         snprintf(found->details, RG_AGREEMENT_TEXT,
                  "cpu:reference leaves the same bits behind every stage now: what has changed is "
-                 "what raingauge computes, and not how the device does");
+                 "%s%.400s, and not how the device does",
+                 *truth->libraries ? "what the host computes with, " : "what raingauge computes",
+                 truth->libraries);
 }
 
 static void hold_against_before(struct rg_gate_case *c, const struct left *now,

@@ -126,6 +126,8 @@ static bool set_passport(struct rg_running_gate *r)
         if (*r->infos[side].name)
             there[count++] = r->infos[side];
     r->passport = rg_passport_json(there, count);
+    if (r->asked->baseline)
+        rg_key_libraries(r->passport, r->asked->baseline->passport, r->truth.libraries);
     char *text = r->passport ? json_dumps(r->passport, JSON_INDENT(1)) : NULL;
     const bool ok = text && rg_report_set_passport(&r->gate->report, text);
     free(text);

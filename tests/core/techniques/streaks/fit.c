@@ -126,8 +126,8 @@ static void test_frames_are_as_set(void **state)
     (void)state;
     static const char *const more[] = {
         "",
-        "depth_map=dynamic depth_map_period=5 far_layers=2 overlay=on packets=kd "
-        "packet_size=200",
+        ("depth_map=dynamic depth_map_period=5 far_layers=2 overlay=on packets=kd "
+         "packet_size=200"),
         "spectrum=best kept_share=0.1"};
     for (size_t i = 0; i < sizeof(more) / sizeof(more[0]); i++) {
         char settings[256];
