@@ -113,11 +113,11 @@ function viewGate(params) {
 function secondsSheet(gate) {
   const sum = d3.sum(gate.cases, c => isNumber(c.seconds) ? c.seconds : 0), top = [...gate.cases].filter(c => isNumber(c.seconds)).sort((a, b) => b.seconds - a.seconds).slice(0, 12);
   return top.length ? [el("p", {}, `All cases took ${seconds(sum)}.`), sheet("The cases that took longest", ["case", {text: "took", number: true}, {text: "share", number: true}],
-    top.map(c => [c.name, seconds(c.seconds), [`${Math.round(100 * c.seconds / sum)} % `, el("meter", {min: 0, max: 1, value: c.seconds / sum, "aria-hidden": "true"})]]))] : note("No case says how long it took.");
+    top.map(c => [c.name, seconds(c.seconds), [`${Math.round(100 * c.seconds / sum)} % `, el("meter", {min: 0, max: 1, value: c.seconds / sum, "aria-hidden": "true"})]]), "took")] : note("No case says how long it took.");
 }
-// The last runs of each case, oldest first, as a line around no change.
-function lastRuns() {
-  const runs = GATES.slice(-30), names = [...new Set(runs.flatMap(g => g.cases.map(c => c.name)))];
+// The last runs of the worst cases of those that are looked for, oldest first, as a line around no change.
+function lastRuns(found) {
+  const runs = GATES.slice(-30), names = found.slice(0, MOST).map(c => c.name);
   if (runs.length < 2) return null;
   const spark = name => {
     const values = runs.map(g => (g.cases.find(c => c.name === name) || {ratio: {}}).ratio.value), known = values.filter(v => isNumber(v) && v > 0);
@@ -128,16 +128,16 @@ function lastRuns() {
     svg.append("path").attr("class", "line d0").attr("d", d3.line().defined(v => isNumber(v) && v > 0).x((v, i) => x(i)).y(v => y(v))(values));
     return svg.node();
   };
-  return part("The last runs", sheet(`Ratios of ${plural(runs.length, "run")}, in the order of their files${DATA.gates_left_out ? `; ${plural(DATA.gates_left_out, "earlier one")} left out` : ""}`, ["case", "B by A", {text: "first", number: true}, {text: "last", number: true}, "last ending"], names.slice(0, 200).map(name => {
+  return part("The last runs", sheet(`Ratios of ${plural(runs.length, "run")}, in the order of their files${DATA.gates_left_out ? `; ${plural(DATA.gates_left_out, "earlier one")} left out` : ""}`, ["case", "B by A", {text: "first", number: true}, {text: "last", number: true}, "last ending"], names.map(name => {
     const at = runs.map(g => g.cases.find(c => c.name === name)).filter(Boolean);
     return [name, spark(name), ratioText(at[0]), ratioText(at[at.length - 1]), ending(at[at.length - 1].ending)];
-  })));
+  }), "last"));
 }
 function viewCi(params) {
   if (!GATES.length) return [head("CI"), note("This page holds no gate.")];
   const [gate, gates] = gateChoice(params), [found, form] = chosenCases(gate, params), one = gate.cases.find(c => c.name === params.get("case"));
   return [head("CI", el("p", {class: "lead " + (gate.cases.some(fails) ? "bad" : "good")}, verdictLine(gate))), el("form", {class: "choices", role: "search", onsubmit: event => event.preventDefault()}, gates, form),
     one ? viewCase(gate, one) : null, part("Cases", el("p", {role: "status"}, `${found.length} of ${plural(gate.cases.length, "case")}`), more(found, params), caseRows(first(found, params), "ci", true)),
-    lastRuns(), part("Where the seconds went", secondsSheet(gate)),
+    part("Where the seconds went", secondsSheet(gate)), lastRuns(found),
     part("What is known to go wrong", el("p", {}, "The file of expectations says which failures are known. Where this run makes it untrue, the same gate writes it anew:"), command("raingauge gate A B --expectations results/expectations.txt --update"))];
 }

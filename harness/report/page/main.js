@@ -15,7 +15,7 @@ const total = (title, number, text, more, to) => el("section", {class: "total"},
 
 function claimsTotal() {
   const stands = standings();
-  return total("Claims", [`${standing("holds")}`, el("small", {}, ` of ${CLAIMS.length} ${standing("holds") === 1 ? "holds" : "hold"}`)],
+  return total("Claims", [`${standing("holds")} `, el("small", {}, `of ${CLAIMS.length} ${standing("holds") === 1 ? "holds" : "hold"}`)],
     el("ul", {class: "plain"}, stands.map(([stand, text, cls]) => el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, text)))), bar(stands.map(([, , cls, n]) => [cls, n])));
 }
 function devicesTotal() {
@@ -23,7 +23,7 @@ function devicesTotal() {
   const isWell = d => doctor ? d.status === "ok" : !CELLS.some(c => c.device === d.name && ["fail", "error", "crash", "timeout"].includes(c.status));
   const well = asked.filter(isWell), ill = asked.filter(d => !isWell(d));
   if (!asked.length) return null;
-  return total("Devices", [`${well.length}`, el("small", {}, ` of ${asked.length} are well`)], [doctor ? "They compute and draw what C does. " : "Each did all that was asked of it. ", ill.length ? `Not: ${list(ill.map(d => d.name))}. ` : "", link("devices", {}, "The devices")], bar([["yes", well.length], ["no", ill.length]]));
+  return total("Devices", [`${well.length} `, el("small", {}, `of ${asked.length} are well`)], [doctor ? "They compute and draw what C does. " : "Each did all that was asked of it. ", ill.length ? `Not: ${list(ill.map(d => d.name))}. ` : "", link("devices", {}, "The devices")], bar([["yes", well.length], ["no", ill.length]]));
 }
 function picturesTotal() {
   const cells = CELLS.filter(c => ["ok", "fail"].includes(c.status) && objectOf(c.measured).ms !== undefined || c.status === "fail"), pairs = records("diff").flatMap(r => objectsOf(r.document.pairs));
@@ -32,7 +32,7 @@ function picturesTotal() {
   const same = cells.filter(c => c.status === "ok").length + pairs.filter(p => p.tier === "T0").length + gated.filter(c => c.ending !== "differs").length, all = cells.length + pairs.length + gated.length;
   if (!all) return null;
   const isExact = DEVICES.every(d => software(d.name)), what = isExact ? "identical" : "as the reference's";
-  return total("Pictures", [same.toLocaleString("en"), el("small", {}, ` of ${all.toLocaleString("en")} are ${what}`)], isExact ? "Every device must draw what the plain C reference draws, to the last bit, before its speed counts." : "Every device must draw what the plain C reference draws: to the last bit on software, up to rounding on hardware.", bar([["yes", same], ["no", all - same]]));
+  return total("Pictures", [same.toLocaleString("en") + " ", el("small", {}, `of ${all.toLocaleString("en")} are ${what}`)], isExact ? "Every device must draw what the plain C reference draws, to the last bit, before its speed counts." : "Every device must draw what the plain C reference draws: to the last bit on software, up to rounding on hardware.", bar([["yes", same], ["no", all - same]]));
 }
 
 function foundText() {
@@ -61,8 +61,8 @@ function viewOverview() {
     totals.length ? el("div", {class: "totals"}, totals) : null,
     pictures.length ? el("div", {class: "gallery three"}, pictures.map(shot)) : null,
     GATES.length ? part("The gate", el("p", {}, link("gate", {}, "What differs between A and B"), ", ", link("ci", {}, "what CI needs of it")), caseRows(GATES[GATES.length - 1].cases.slice(0, 5), "gate", false)) : null,
-    overviewPlot(), CLAIMS.length ? part("Claim by claim", matrix(CLAIMS), verdictKey(CLAIMS)) : null,
-    part("Make this yourself", el("p", {}, "On Debian 12, from raingauge's folder; the first line installs, builds and measures, within four minutes:"), command("make tables"), command("build/harness/raingauge report build/tables -o page.html"))];
+    overviewPlot(), part("Make this yourself", el("p", {}, "On Debian 12, from raingauge's folder; the first line installs, builds and measures, within four minutes:"), command("make tables"), command("build/harness/raingauge report build/tables -o page.html")),
+    CLAIMS.length ? part("Claim by claim", matrix(CLAIMS), verdictKey(CLAIMS)) : null];
 }
 
 // --- views ---

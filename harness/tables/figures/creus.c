@@ -62,6 +62,13 @@ const struct rg_figure rg_figures_creus[] = {
                 "top, at its ground and a few metres ahead. Red: the prism of the culling radius. "
                 "Corner: the depth map.",
      .printed = "Visualization errors caused by too narrow simulation volume."},
+    {.id = "creus-4.10",
+     .technique = "streaks",
+     .settings = OUTSIDE WHOLE "outside=space outside_map=depth drops=off splashes=off",
+     .frame = 30,
+     .caption = "The camera that defines the rain space looks straight down: the grey box is its "
+                "frustum, from the top to the ground. Its picture, the depth map, lies on the top.",
+     .printed = "Camera used to define the rain space."},
     {.id = "creus-4.11a",
      .technique = "streaks",
      .settings = OUTSIDE WHOLE "outside=space outside_map=density packets=kd packet_size=200",
