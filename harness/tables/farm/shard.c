@@ -23,6 +23,7 @@ struct measuring {
     struct rg_kept kept;
     struct rg_closing closing; // of what was measured now
     int groups, there;         // of the shard; among them those whose record was there
+    bool is_lost;              // a record could not be written, and nor could others
 };
 
 // Begins the result of a group: of its table's rows only its own are wanted.
@@ -63,10 +64,11 @@ static int measure(struct measuring *m, const struct rg_farm_group *group)
     int exit = ok ? rg_result_exit(&result) : rg_exit_of_error();
     if (ok && !rg_interrupted()) {
         rg_closing_add(&m->closing, &result);
-        if (rg_farm_record_write(m->plan, group, &result, seconds, m->folder))
-            tell(group, seconds);
-        else
+        m->is_lost = !rg_farm_record_write(m->plan, group, &result, seconds, m->folder);
+        if (m->is_lost)
             exit = rg_exit_worse(exit, rg_exit_of_error());
+        else
+            tell(group, seconds);
     }
     rg_result_free(&result);
     return exit;
@@ -101,11 +103,15 @@ static int do_group(struct measuring *m, const struct rg_farm_group *group)
 static int measure_all(struct measuring *m, const struct rg_farm_shard *shard, const int *shard_of)
 {
     int exit = RG_EXIT_PASS;
-    for (int64_t g = 0; g < m->plan->group_count && !rg_interrupted(); g++)
+    for (int64_t g = 0; g < m->plan->group_count && !rg_interrupted() && !m->is_lost; g++)
         if (shard_of[g] == shard->number)
             exit = rg_exit_worse(exit, do_group(m, &m->plan->groups[g]));
     if (rg_interrupted())
         return rg_exit_worse(exit, RG_EXIT_SIGNALLED + rg_interrupt_signal());
+    if (m->is_lost)
+        rg_info("shard %d of %d: ends here, for its next records would be lost as well; once they "
+                "can be written, the same command goes on",
+                shard->number, shard->count);
     if (!m->groups) {
         rg_error("shard %d of %d: has none of %lld groups; cut the plan into %lld shards at most",
                  shard->number, shard->count, (long long)m->plan->group_count,

@@ -28,18 +28,21 @@ WAYS = (
 
 
 class Farm:
-    """A plan and the records of its shards, which are measured once, each told in another way which it is."""
+    """A plan and the records of its shards, which are measured once, each told in another way which it is. A node has variables of its own."""
 
-    def __init__(self, runner):
+    def __init__(self, runner, tables=TABLES, node=lambda i: {}):
         self.runner, self.path = runner, tempfile.mkdtemp()
         atexit.register(shutil.rmtree, self.path, True)
         self.plan, self.records = self.path + "/plan.json", self.path + "/records"
-        self.planned = runner.run(["plan", *TABLES, "--device", "cpu", "--quick", "--shards", str(SHARDS), "-o", self.plan])
-        self.measured = [self.measure(i, WAYS[i - 1]) for i in range(1, SHARDS + 1)]
+        self.planned = runner.run(["plan", *tables, "--device", "cpu", "--quick", "--shards", str(SHARDS), "-o", self.plan])
+        self.measured = [self.measure(i, WAYS[i - 1], node(i)) for i in range(1, SHARDS + 1)]
 
-    def measure(self, number, way=WAYS[0]):
+    def shard(self, shard, folder):
+        return ["table", "--plan", self.plan, "--shard", shard, "-o", folder]
+
+    def measure(self, number, way=WAYS[0], more={}):
         env, shard = way(number)
-        return self.runner.run(["table", "--plan", self.plan, "--shard", shard, "-o", self.records], env)
+        return self.runner.run(self.shard(shard, self.records), {**env, **more})
 
     def files(self):
         """Of each record: when it was written."""
