@@ -6,7 +6,7 @@
 # builds that are the same and that are slower; `make claims` decides what papers claim, in a night, and
 # `make claims-selftest` tries that on cells whose truth is known; `make lint` has tools look for faults in the sources.
 .POSIX:
-.PHONY: all setup build whole look tables committed results claims test thorough mutants gate-selftest claims-selftest lint clean format
+.PHONY: all setup build whole look tables committed results claims test thorough test-farm mutants gate-selftest claims-selftest lint clean format
 
 BUILD = build
 ASAN = build-asan
@@ -158,6 +158,11 @@ thorough: whole
 	@echo "== testing at length, all devices"
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs --setup thorough --suite thorough || true
 	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog-thorough.json
+
+# With daemons of its own in a temporary folder. These packages are of this test alone.
+test-farm: build
+	@echo "== running a plan on two nodes of a Slurm that lives here, one of which falls; two minutes"
+	@python3 tests/harness/farm/slurm.py $(BUILD)/harness/raingauge
 
 mutants: whole
 	@echo "== trying the tests with faults in host code and kernels, one at a time"
