@@ -7,7 +7,7 @@
 # `make claims-selftest` tries that on cells whose truth is known; `make lint` has tools look for faults in the sources;
 # `make deb` builds a Debian package.
 .POSIX:
-.PHONY: all setup build whole look tables committed results claims test thorough mutants gate-selftest claims-selftest lint deb clean format
+.PHONY: all setup build whole look tables committed results claims test thorough test-farm mutants gate-selftest claims-selftest lint deb clean format
 
 BUILD = build
 ASAN = build-asan
@@ -157,6 +157,11 @@ thorough: whole
 	@echo "== testing at length, all devices"
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs --setup thorough --suite thorough || true
 	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog-thorough.json
+
+# With daemons of its own in a temporary folder. These packages are of this test alone.
+test-farm: build
+	@echo "== running a plan on two nodes of a Slurm that lives here, one of which falls; two minutes"
+	@python3 tests/harness/farm/slurm.py $(BUILD)/harness/raingauge
 
 mutants: whole
 	@echo "== trying the tests with faults in host code and kernels, one at a time"

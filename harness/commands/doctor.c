@@ -12,6 +12,7 @@
 #include "harness/devices/names.h"
 #include "harness/doctor/compile.h"
 #include "harness/doctor/doctor.h"
+#include "harness/doctor/prologue.h"
 #include "harness/record/passport/passport.h"
 #include "harness/devices/workers/worker.h"
 
@@ -20,7 +21,7 @@ struct doctor_options {
     char *kernels; // to compile; NULL: devices are examined
     int timeout_s;
     int64_t memory_bytes;
-    bool json;
+    bool json, prologue;
 };
 
 #define AT(field) offsetof(struct doctor_options, field)
@@ -35,6 +36,11 @@ static const struct rg_option options[] = {
               "kernel needs no input. Names them with commas, or all. Prints those that a driver "
               "cannot compile",
      .offset = AT(kernels)},
+    {RG_OPTION_FLAG, "prologue",
+     .about = "prints no report, and ends with status 75 and one line if this machine should "
+              "measure nothing now: others use its processors, they are slowed for heat, or a "
+              "device is not well",
+     .offset = AT(prologue), .excludes = "kernels json"},
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -153,6 +159,29 @@ static int compile(const struct rg_doctor_report *report, const struct doctor_op
                                      : rg_exit_worse(exit, complain_of_listing(&report->list));
 }
 
+// The status of all that was examined, whose failures are logged.
+static int judge(const struct rg_doctor_report *report, const struct doctor_options *o)
+{
+    complain(report);
+    return rg_exit_worse(verdict(report), strcmp(o->devices, "all")
+                                              ? RG_EXIT_PASS
+                                              : complain_of_listing(&report->list));
+}
+
+// A device that is not there is no reason to try again later.
+static int prologue(struct rg_doctor_report *report, const struct doctor_options *o)
+{
+    struct rg_prologue prologue = {.watch = rg_processors_now, .root = ""};
+    if (!rg_prologue_begin(&prologue))
+        return RG_EXIT_LATER;
+    if (!examine(report))
+        return rg_exit_of_error();
+    const int exit = judge(report, o);
+    if (exit == RG_EXIT_PASS)
+        return rg_prologue_end(&prologue) ? RG_EXIT_PASS : RG_EXIT_LATER;
+    return exit == RG_EXIT_UNSUPPORTED ? exit : RG_EXIT_LATER;
+}
+
 static int run(struct rg_doctor_report *report, const struct doctor_options *o)
 {
     rg_memory_allow(o->memory_bytes);
@@ -164,6 +193,8 @@ static int run(struct rg_doctor_report *report, const struct doctor_options *o)
         return rg_exit_of_error();
     if (o->kernels)
         return compile(report, o);
+    if (o->prologue)
+        return prologue(report, o);
     if (!examine(report))
         return rg_exit_of_error();
     describe(report);
@@ -171,10 +202,7 @@ static int run(struct rg_doctor_report *report, const struct doctor_options *o)
         rg_doctor_print_json(report);
     else
         rg_doctor_print_text(report);
-    complain(report);
-    return rg_exit_worse(verdict(report), strcmp(o->devices, "all")
-                                              ? RG_EXIT_PASS
-                                              : complain_of_listing(&report->list));
+    return judge(report, o);
 }
 
 static int doctor(const void *values, const struct rg_words *arguments)
@@ -195,7 +223,7 @@ static int doctor(const void *values, const struct rg_words *arguments)
 const struct rg_command rg_command_doctor = {
     .name = "doctor",
     .reader = RG_FOR_DRIVERS,
-    .usage = "[--device D,...|all] [--kernels NAMES|all] [--json]",
+    .usage = "[--device D,...|all] [--kernels NAMES|all] [--prologue|--json]",
     .about = "examines the machine and its drivers: arithmetic, drawing and timers",
     .options = options,
     .options_size = sizeof(struct doctor_options),

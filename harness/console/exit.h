@@ -15,6 +15,7 @@ enum rg_exit {
     RG_EXIT_INCONCLUSIVE = 3,
     RG_EXIT_NOTHING = 4,      // nothing was compared or measured
     RG_EXIT_HARNESS = 71,     // raingauge itself lacked memory, processes, descriptors or disk
+    RG_EXIT_LATER = 75,       // this machine can measure nothing now (doctor --prologue)
     RG_EXIT_UNSUPPORTED = 77, // not supported on this machine
     RG_EXIT_GIT_SKIP = 125,   // for `git bisect run` only: this commit cannot be tested
     RG_EXIT_SIGNALLED = 128,  // plus the signal's number: ended early on request

@@ -155,7 +155,7 @@ double rg_probe_ms(void)
     return 1e3 * (given ? strtod(given, NULL) : 1);
 }
 
-void rg_machine_probe(rg_watch *watch)
+double rg_machine_busy(rg_watch *watch)
 {
     enum { STEP_MS = 10 };
     const double probe_ms = rg_probe_ms();
@@ -164,8 +164,15 @@ void rg_machine_probe(rg_watch *watch)
         nanosleep(&(struct timespec){.tv_nsec = STEP_MS * 1000000}, NULL);
     const struct rg_processors after = watch(NULL, 0);
     const struct rg_taken taken = rg_taken_between(&before, &after);
-    if (probe_ms > 0 && taken.stolen + taken.others > RG_MOST_TAKEN)
+    const double share = taken.stolen + taken.others;
+    return probe_ms > 0 && share > RG_MOST_TAKEN ? share : 0;
+}
+
+void rg_machine_probe(rg_watch *watch)
+{
+    const double share = rg_machine_busy(watch);
+    if (share > 0)
         rg_warning("others take %.0f %% of this machine's processors, so that what is measured now "
                    "is slower than it is; end them, or measure later",
-                   100 * (taken.stolen + taken.others));
+                   100 * share);
 }

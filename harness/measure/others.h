@@ -39,7 +39,10 @@ struct rg_taken rg_taken_between(const struct rg_processors *before,
 // that nobody looks, and no sample is taken again.
 double rg_probe_ms(void);
 // Watches the machine for that time, in which this process does nothing, by readings of `watch`.
-// Logs one warning if it is busy. Ends early on an interruption.
+// Returns the share that others take, if the machine is busy; else 0, as where nobody looks. Ends
+// early on an interruption.
+double rg_machine_busy(rg_watch *watch);
+// The same; logs one warning if it is busy.
 void rg_machine_probe(rg_watch *watch);
 
 #endif

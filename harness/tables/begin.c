@@ -35,11 +35,12 @@ static void copy_or_none(char *to, size_t size, const char *from)
 }
 
 // Chooses the requested work, or all works that a device of the result can do.
-static void name_works(struct rg_result *result, const struct rg_table *table, const char *wanted,
-                       const struct rg_devices *devices)
+static void name_works(struct rg_result *result, const struct rg_table *table,
+                       const struct rg_table_part *part, const struct rg_devices *devices)
 {
+    const bool is_possible = !part->is_everywhere && any_has_queries(devices);
     for (const struct rg_table_work *work = table->works; work->name; work++) {
-        if (wanted ? strcmp(work->name, wanted) != 0 : work->elsewhere && !any_has_queries(devices))
+        if (part->work ? strcmp(work->name, part->work) != 0 : work->elsewhere && !is_possible)
             continue;
         struct rg_result_work *named = &result->works[result->work_count++];
         rg_text_copy(named->name, sizeof(named->name), work->name);
@@ -68,7 +69,7 @@ void rg_table_begin(struct rg_result *result, const struct rg_table *table,
     for (const struct rg_table_variant *v = table->variants; v->name; v++)
         if (!part->variant || !strcmp(v->name, part->variant))
             rg_text_copy(result->variants[result->variant_count++], RG_NAME_SIZE, v->name);
-    name_works(result, table, part->work, devices);
+    name_works(result, table, part, devices);
     name_devices(result, devices);
 }
 

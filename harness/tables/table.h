@@ -13,6 +13,7 @@ struct rg_table_part {
     const char *work;    // "paper", "ours" and so on; NULL: all, if the table distinguishes works
     const char *variant; // NULL: all
     const char *set;     // over the settings of all cells, "key=value key=value"; NULL: none
+    bool is_everywhere;  // only works that every device can do
 };
 
 // Fills a zeroed result with the descriptions of the table, its part and the devices, without rows.

@@ -2,6 +2,8 @@
 import json
 import os
 import re
+import subprocess
+import sys
 import tempfile
 
 import forms
@@ -53,6 +55,32 @@ def check_passport(runner):
         problems.append("commit: %s" % passport["raingauge"]["commit"])
     if passport["machine"]["cores_allowed"] != len(os.sched_getaffinity(0)):
         problems.append("cores_allowed: %d" % passport["machine"]["cores_allowed"])
+    return problems
+
+
+def check_prologue(runner):
+    """--prologue says nothing of a machine that is well, and in one line with status 75 why one that is busy, or whose driver fails, takes no cells"""
+    problems = []
+    spin = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(os.cpu_count() or 1)]
+    try:
+        busy = runner.run(["doctor", "--prologue", "--device", "cpu"], {"RG_PROBE_S": "0.3"})
+    finally:
+        for process in spin:
+            process.kill()
+            process.wait()
+    says = r"raingauge: this machine takes no cells now: others take \d+ % of its processors; end them, or measure elsewhere\n"
+    if busy.returncode != 75 or busy.stdout or not re.fullmatch(says, busy.stderr):
+        problems.append("busy: %s" % busy)
+    well = runner.run(["doctor", "--prologue", "--device", "cpu,cpu:reference"], {"RG_PROBE_S": "0"})
+    if well.returncode or well.stdout or well.stderr:
+        problems.append("well: %s" % well)
+    with tempfile.TemporaryDirectory() as folder:
+        fails = runner.run(["doctor", "--prologue", "--device", "vulkan"], {"RG_PROBE_S": "0", **runner.crashing_vulkan(folder)})
+    if fails.returncode != 75 or fails.stdout or fails.stderr.count("\n") != 1:
+        problems.append("fails: %s" % fails)
+    absent = runner.run(["doctor", "--prologue", "--device", "vulkan"], {"RG_PROBE_S": "0", **NO_DRIVERS})
+    if absent.returncode != 77 or absent.stdout or absent.stderr.count("\n") != 1:
+        problems.append("absent: %s" % absent)
     return problems
 
 
@@ -194,4 +222,4 @@ def check_full(runner):
     return []
 
 
-CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic, check_drawing, check_own_rounding, check_own_blending, check_full]
+CHECKS = [check_devices, check_passport, check_prologue, check_missing, check_warnings, check_crash, check_wrong_arithmetic, check_drawing, check_own_rounding, check_own_blending, check_full]

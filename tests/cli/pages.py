@@ -11,7 +11,7 @@ import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-COMMANDS = ("doctor", "list", "render", "table", "claims", "sweep", "diff", "shrink", "verify", "gate", "baseline", "bisect", "figures", "atlas", "report", "trace")
+COMMANDS = ("doctor", "list", "render", "table", "claims", "sweep", "plan", "merge", "diff", "shrink", "verify", "gate", "baseline", "bisect", "figures", "atlas", "report", "trace")
 PARTS = r"\.(TH|SH|SS|TP|PP)\b"  # the macros that the page uses
 ESCAPES = r"\\(f[BIR]|[-&e])"
 

@@ -11,6 +11,8 @@
            results  what table, diff, render and atlas print, and what is refused for its size, on the CPU
            clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
+           farm     plans, shards and merges
+           befallen  the same, of records that are cut, copied, of another commit, or that a full disk loses
            losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
            long     what verify prints, tables that are counted, set in a row, begun or measured anew, an atlas that is not kept
            failing  drivers that are there and cannot be used, and what is absent
@@ -42,12 +44,13 @@ import signal
 import sys
 
 sys.dont_write_bytecode = True  # the sources' folder stays unchanged
-for room in ("devices", "drivers", "printed"):
+for room in ("devices", "drivers", "printed", "tables"):
     sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), room))
 
 import acts
 import atlases
 import baselines
+import befallen
 import besides
 import bisecting
 import cases
@@ -56,6 +59,7 @@ import clips
 import compiling
 import doctor
 import failing
+import farm
 import gates
 import installed
 import kept
@@ -85,6 +89,8 @@ SUITES = {
     "results": lambda runner: runner.check_all(tables.CHECKS + pictures.CHECKS + besides.CHECKS + atlases.CHECKS + limits.CHECKS),
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(stored.CHECKS),
+    "farm": lambda runner: runner.check_all(farm.CHECKS),
+    "befallen": lambda runner: runner.check_all(befallen.CHECKS),
     "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
     "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + atlases.LONG + limits.LONG + kept.LONG),
     "failing": lambda runner: runner.check_all(failing.CHECKS),

@@ -13,7 +13,7 @@ import threading
 
 # Variables that change what raingauge or a driver does; each test sets those that it needs. RG_MUTANT, which selects a
 # fault, belongs to `make mutants`.
-CHANGES = re.compile(r"^(RG_(?!MUTANT$)|LP_|OMP_|GOMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_|GTEST_)")
+CHANGES = re.compile(r"^(RG_(?!MUTANT$)|LP_|OMP_|GOMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_|GTEST_|SLURM_|CI_NODE_)")
 NO_DRIVERS = {
     "VK_DRIVER_FILES": "/nonexistent",
     "OCL_ICD_VENDORS": "/nonexistent",

@@ -91,6 +91,7 @@ static void print_statuses(void)
         {RG_EXIT_NOTHING, "nothing was compared or measured"},
         {RG_EXIT_HARNESS,
          "raingauge itself lacked something: memory, a process, open files, room on the disk"},
+        {RG_EXIT_LATER, "not now"},
         {RG_EXIT_UNSUPPORTED, "not supported on this machine"},
         {RG_EXIT_GIT_SKIP, "for git: `bisect` inside `git bisect run` skips this commit"},
         {RG_EXIT_SIGNALLED, "for git: `bisect` inside `git bisect run` ends the search"},

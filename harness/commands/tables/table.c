@@ -11,8 +11,10 @@
 #include "harness/commands/cli/command.h"
 #include "harness/commands/cli/shared.h"
 #include "harness/commands/cli/subject.h"
+#include "harness/commands/tables/chosen.h"
 #include "harness/commands/tables/inputs.h"
 #include "harness/commands/tables/sets.h"
+#include "harness/commands/tables/shard.h"
 #include "harness/commands/tables/verdicts.h"
 #include "harness/console/duration.h"
 #include "harness/console/exit.h"
@@ -39,6 +41,7 @@ struct table_options {
     char *budget;         // "4m"; NULL: none
     bool fresh, claims, wide, json, compile;
     int64_t memory_bytes;
+    char *plan, *shard;                 // NULL: none
     char *kept;                         // a folder of launches; NULL: none
     struct rg_stored *kept_results;     // what it holds
     struct rg_claim_outcomes *outcomes; // collected for --claims
@@ -84,6 +87,17 @@ static const struct rg_option options[] = {
      .offset = AT(compile),
      .excludes = "full quick rows work variant set from fresh budget claims kept format wide "
                  "output json"},
+    RG_GROUP("A plan of several machines (docs/farm.md)"),
+    {RG_OPTION_TEXT, "plan", .argument = "FILE",
+     .about = "measures what `raingauge plan -o` planned, on its devices; -o names the folder of "
+              "the records, one a group of cells, and what is there is not measured again",
+     .offset = AT(plan), .names = RG_NAMES_FILE,
+     .excludes = "rows work variant set quick full budget fresh from compile device require claims "
+                 "kept format wide json"},
+    {RG_OPTION_TEXT, "shard", .argument = "I/N|auto",
+     .about = "only this shard of N, from 1; auto reads Slurm's, CI_NODE_INDEX' or googletest's "
+              "variables",
+     .offset = AT(shard)},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -177,16 +191,6 @@ static bool take_sets(const struct rg_words *sets, const struct rg_table *const 
     return ok;
 }
 
-static bool refuse_table(const char *id)
-{
-    struct rg_nearest nearest = {0};
-    for (int i = 0; rg_tables[i]; i++)
-        rg_nearest_try(&nearest, id, rg_tables[i]->id);
-    return rg_error("table '%s': unknown; the nearest is '%s', and `raingauge list tables` prints "
-                    "them",
-                    id, nearest.name);
-}
-
 // The named tables, or all that have the work and the variant. False, and one logged line, if one
 // is unknown or lacks them.
 static bool choose(const struct rg_words *ids, const struct table_options *o,
@@ -197,7 +201,7 @@ static bool choose(const struct rg_words *ids, const struct table_options *o,
     for (int i = 0; i < ids->count; i++) {
         chosen[(*count)++] = rg_table_find(ids->items[i]);
         if (!chosen[i])
-            return refuse_table(ids->items[i]);
+            return rg_table_refuse(ids->items[i]);
         if (!has_work(chosen[i], work))
             return rg_error("--work %s: table '%s' has no such work; choose paper or ours", work,
                             ids->items[i]);
@@ -383,6 +387,18 @@ static bool needs_claims(const struct table_options *o)
     return o->claims || rg_error("--kept: is about claims; add --claims, or leave it out");
 }
 
+static int measure_shard(const struct table_options *o, const struct rg_words *arguments)
+{
+    const struct rg_shard_asked asked = {o->plan, o->shard, o->output, o->devices.timeout_s};
+    if (o->plan && !arguments->count)
+        return rg_shard_run(&asked);
+    if (o->plan)
+        rg_error("--plan: the plan names the tables; leave out '%s'", arguments->items[0]);
+    else
+        rg_error("--shard: is of a plan; name it, as --plan plan.json");
+    return rg_exit_of_error();
+}
+
 static int table(const void *values, const struct rg_words *arguments)
 {
     struct table_options o = *(const struct table_options *)values;
@@ -391,6 +407,8 @@ static int table(const void *values, const struct rg_words *arguments)
     o.outcomes = &outcomes;
     o.printed = &printed;
     rg_memory_allow(o.memory_bytes);
+    if (o.plan || o.shard)
+        return measure_shard(&o, arguments);
     struct rg_stored kept = {0};
     o.kept_results = &kept;
     if (!rg_sets_join(&o.sets, &o.set))
@@ -410,7 +428,8 @@ const struct rg_command rg_command_table = {
              "paper|reading|ours|queries] "
              "[--variant NAME] [--set KEY=VALUE]... [--claims] [--kept DIR] [--wide] [--format "
              "F|--json] [-o DIR] "
-             "[--budget TIME] [--fresh] [--from FILE|DIR] [--compile]",
+             "[--budget TIME] [--fresh] [--from FILE|DIR] [--compile] [--plan FILE [--shard "
+             "I/N|auto]]",
     .about = "measures the papers' tables on every device, beside the published numbers",
     .options = options,
     .options_size = sizeof(struct table_options),

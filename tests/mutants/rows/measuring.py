@@ -10,13 +10,18 @@ SESSION = "harness/devices/frames/local.c"
 PROGRESS = "harness/console/progress.c"
 SAMPLING = "harness/measure/sampling.c"
 OTHERS, RECORD = "harness/measure/others.c", "harness/record/record.c"
+PROLOGUE = "harness/doctor/prologue.c"
 
 ROWS = [
     Fault(OTHERS, "now->idle_ms += («ticks[IDLE] + ticks[IOWAIT]») * tick_ms;", "ticks[IDLE]", "a processor that waits for a disk is busy"),
     Fault(OTHERS, "? «(double)NAN» : process_ms(clock);", "0.0", "a process of ours that has gone counts as another's"),
     Fault(OTHERS, "stolen_ms «- own_ms» - after->grain_ms;", "", "what raingauge does itself counts as others'"),
     Fault(OTHERS, "- own_ms «- after->grain_ms»;", "", "what Linux rounds away counts as others'"),
-    Fault(OTHERS, "if (probe_ms > 0 && «taken.stolen + taken.others > RG_MOST_TAKEN»)", "false", "a busy machine is not told"),
+    Fault(OTHERS, "return probe_ms > 0 && «share > RG_MOST_TAKEN» ? share : 0;", "false", "a busy machine is not told"),
+    Fault(PROLOGUE, "    return «times <= 0» ||", "true", "a hot machine takes cells", tests=("others",)),
+    Fault("harness/commands/doctor.c", "return exit == RG_EXIT_UNSUPPORTED ? exit : «RG_EXIT_LATER»;", "exit", "a driver that fails is no reason to go elsewhere", tests=("command line, doctor",)),
+    Fault(PROLOGUE, "sum += «fscanf(file, \"%lld\", &count) == 1» ? count : 0;", "fscanf(file, \"%lld\", &count) == 1 && core == 0", "only the first core's heat counts", tests=("others",)),
+    Fault(PROLOGUE, "    return «!(share > 0)» ||", "true", "a busy machine takes cells", tests=("others",)),
     Fault(MEASURE, "is_patient && i < «RETAKES» && has_time(r)", "0", "disturbed samples are kept"),
     Fault(MEASURE, "is_patient ? «r->patience - 1» : 0;", "PATIENCE", "a machine that stays busy is waited for"),
     Fault(MEASURE, "«now_ms + (now_ms - r->before.at_ms)» <= r->end_ms", "0", "samples are taken again after the end of a budget"),

@@ -1,9 +1,10 @@
-"""Budgets of time: the order in which cells are measured, the skipped ones, and the time left."""
+"""Budgets of time: the order in which cells are measured, the skipped ones, and the time left. Plans of several machines."""
 from fault import Fault
 
 TESTS = ("priority", "within a budget", "time left", "foreseen")
 
 ORDER, CELL, BUDGET = "harness/tables/runs/order.c", "harness/tables/measuring/cell.c", "harness/tables/runs/budget.c"
+FARM, PLANS, MERGES = "harness/tables/farm/", ("plans of a farm",), ("merges of a farm",)
 COMPILE, PROGRESS, MEASURE = "harness/tables/runs/compile.c", "harness/console/progress.c", "harness/tables/measuring/measure.c"
 
 ROWS = [
@@ -49,4 +50,23 @@ ROWS = [
     Fault(CELL, "f->open_ms = fmax(opened - start «- f->frame_ms», 0);", "- 0", "the first frame counts as opening", tests=("foreseen",)),
     Fault(CELL, "fmax(frames - 2, 0) * «f->step_ms» +", "f->frame_ms", "frames that are simulated are drawn", tests=("foreseen",)),
     Fault(CELL, "return fmin(fmax(o->warm_up_frames, 1), «floor(o->warm_up_ms / ms) + 1»);", "20.0", "long frames warm up as often as short ones", tests=("foreseen",)),
+    Fault(FARM + "make.c", "rows->group[row] = full || «!table->quick_rows || chosen[row]» ? row : -1;", "true", "quick mode plans all rows", tests=PLANS),
+    Fault(FARM + "make.c", "        join(rows, first, «row»);", "first", "the rows of a claim are apart", tests=PLANS),
+    Fault(FARM + "make.c", "if (work->name && «work->elsewhere»)", "false", "a work is planned that few devices can do", tests=PLANS),
+    Fault(FARM + "cut.c", "(«x->seconds < y->seconds» ? 1 : -1)", "x->seconds > y->seconds", "the smallest group goes first", tests=PLANS),
+    Fault(FARM + "cut.c", "found = «seconds[i] < seconds[found]» ? i : found;", "false", "one shard has all", tests=PLANS),
+    Fault(FARM + "expect.c", "found = «result->full == e->plan->full» ? record : NULL;", "false", "records of this length count as those of the other", tests=PLANS),
+    Fault(FARM + "expect.c", "        if («near[i]->count») {", "false", "records of other cells tell nothing", tests=PLANS),
+    Fault(FARM + "plan_file.c", "if («rg_unseal(document) != RG_SEAL_WHOLE») {", "rg_unseal(document) != RG_SEAL_WHOLE && !document", "an edited plan is measured", tests=PLANS),
+    Fault(FARM + "plan_file.c", "if («format != RG_FARM_FORMAT»)", "false", "a plan of another format is measured", tests=PLANS),
+    Fault(FARM + "record.c", "if («strcmp(text_of(build, \"commit\"), plan->commit) != 0»)", "false", "another commit is merged", tests=MERGES),
+    Fault(FARM + "record.c", "return «!strcmp(text_of(of, \"plan\"), plan->digest)» ||", "true", "another plan is merged", tests=MERGES),
+    Fault(FARM + "record.c", "(«!is_checked && !rg_cells_are_whole(path, document, why)») ||", "false", "a changed record is merged", tests=MERGES),
+    Fault(FARM + "found.c", "        if («found->records[i].machine == machine»)", "true", "two keys are one", tests=MERGES),
+    Fault(FARM + "found.c", "    if («before») {", "false", "a record counts twice", tests=MERGES),
+    Fault(FARM + "found.c", "return «*entry->d_name != '.'» &&", "true", "a copy under way is a record", tests=MERGES),
+    Fault(FARM + "merge.c", "table->left_out[row - table->first_row] = «!rg_farm_has_row(m->plan, m->first, m->end, row)»;", "false", "rows without a plan are missing", tests=MERGES),
+    Fault(FARM + "shard.c", "!rg_interrupted() && «!m->is_lost»; g++)", "true", "a shard measures on though its records are lost", tests=("command line, befallen",)),
+    Fault(FARM + "shard.c", "    if («found != RG_FARM_WHOLE»)", "true", "a shard that runs again measures all", tests=("command line, befallen",)),
+    Fault(FARM + "merge.c", "table->left_out[row - table->first_row] = «true»;", "false", "rows of another machine are missing", tests=MERGES),
 ]

@@ -12,7 +12,7 @@ import tempfile
 
 import forms
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 KEPT = os.path.join(ROOT, "results", "tables")
 KEEP = os.path.join(ROOT, "results", "keep.py")
 WALK = os.path.join(ROOT, "results", "walk.py")
