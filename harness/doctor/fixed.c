@@ -1,0 +1,155 @@
+#include "harness/doctor/fixed.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/console/clock.h"
+#include "harness/console/exit.h"
+#include "harness/devices/devices.h"
+#include "harness/devices/workers/device.h"
+#include "harness/measure/serving/fixed.h"
+#include "harness/record/named.h"
+
+static json_t *hash_json(uint64_t hash)
+{
+    return json_sprintf("%016" PRIx64, hash);
+}
+
+// --- drawing ---
+
+// What failed has been logged, and its worker may have ended. A fault that is not the driver's ends
+// the draws as well.
+static enum rg_outcome note_failure(struct rg_device *device, json_t *row)
+{
+    const struct rg_failure failure = rg_failure_take();
+    rg_outcome_set(row, failure.outcome);
+    json_object_set_new(row, "why", rg_json_text(failure.line));
+    rg_worker_renew(rg_remote_worker(device));
+    return failure.outcome;
+}
+
+// Judges a draw by its own digests, and logs one line where it fails.
+static enum rg_outcome judge(const struct rg_device *device, const struct rg_fixed_draw *draw,
+                             const struct rg_fixed_told *told, json_t *row)
+{
+    char why[300] = "";
+    if (*told->lacks)
+        snprintf(why, sizeof(why), "lacks %s", told->lacks);
+    else if (told->is_constant)
+        snprintf(why, sizeof(why), "leaves a picture that is the same everywhere");
+    else if (told->digest == told->neighbour)
+        snprintf(why, sizeof(why), "leaves what its neighbour does, whose %s is %d", draw->field,
+                 draw->to);
+    const enum rg_outcome outcome = *told->lacks ? RG_UNSUPPORTED : *why ? RG_FAIL : RG_OK;
+    rg_outcome_set(row, outcome);
+    if (!*told->lacks) {
+        json_object_set_new(row, "digest", hash_json(told->digest));
+        json_object_set_new(row, "neighbour", hash_json(told->neighbour));
+    }
+    json_object_set_new(row, "why", rg_json_text(why));
+    if (outcome == RG_FAIL)
+        rg_error("device '%s': feature '%s': %s", device->info.name, draw->feature, why);
+    return outcome;
+}
+
+static enum rg_outcome draw_one(struct rg_device *device, int i, json_t *draws)
+{
+    const struct rg_fixed_draw *draw = &rg_fixed_draws[i];
+    struct rg_fixed_told told;
+    json_t *row = json_pack("{ss}", "feature", draw->feature);
+    json_array_append_new(draws, row);
+    return rg_fixed_ask(device, i, &told) ? judge(device, draw, &told, row)
+                                          : note_failure(device, row);
+}
+
+// A device's status is its worst draw's; one that draws nothing is unsupported.
+static int draw_all(struct rg_device *device, json_t *row)
+{
+    const double start_ms = rg_now_ms();
+    int counts[RG_OUTCOME_COUNT] = {0};
+    json_t *draws = json_array();
+    for (int i = 0; i < rg_fixed_count(); i++)
+        counts[draw_one(device, i, draws)]++;
+    json_object_set_new(row, "draws", draws);
+    json_object_set_new(row, "ms", json_real(rg_now_ms() - start_ms));
+    const int exit = rg_exit_of_all(counts);
+    const int failed = rg_fixed_count() - counts[RG_OK] - counts[RG_UNSUPPORTED];
+    if (failed)
+        json_object_set_new(row, "why", json_sprintf("%d draws fail", failed));
+    rg_outcome_set(row, exit == RG_EXIT_PASS          ? RG_OK
+                        : exit == RG_EXIT_UNSUPPORTED ? RG_UNSUPPORTED
+                                                      : RG_FAIL);
+    return exit;
+}
+
+static int tell_none(json_t *row)
+{
+    rg_outcome_set(row, RG_UNSUPPORTED);
+    json_object_set_new(row, "why", json_string("has no fixed functions"));
+    return RG_EXIT_UNSUPPORTED;
+}
+
+int rg_doctor_fixed(const char *name, struct rg_device_info *info, json_t *devices)
+{
+    struct rg_device *device = rg_devices_open_one(name);
+    json_t *row =
+        json_pack("{sosssf s[]}", "name", rg_json_text(name), "why", "", "ms", 0.0, "draws");
+    json_array_append_new(devices, row);
+    if (!device) {
+        const struct rg_failure failure = rg_failure_take();
+        rg_outcome_set(row, failure.outcome);
+        json_object_set_new(row, "why", rg_json_text(failure.line));
+        return failure.fault == RG_FAULT_INPUT ? RG_EXIT_USAGE : rg_exit_of(failure.outcome);
+    }
+    *info = device->info;
+    const int exit = device->info.limits.has_fixed ? draw_all(device, row) : tell_none(row);
+    return rg_device_close(device) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
+}
+
+// --- printing ---
+
+static const char *text_of(const json_t *row, const char *key)
+{
+    const char *text = json_string_value(json_object_get(row, key));
+    return text ? text : "";
+}
+
+static int count(const json_t *draws, const char *status)
+{
+    size_t i;
+    json_t *draw;
+    int found = 0;
+    json_array_foreach(draws, i, draw) found += !strcmp(text_of(draw, "status"), status);
+    return found;
+}
+
+static void print_draw(const json_t *draw)
+{
+    const char *status = text_of(draw, "status");
+    if (!strcmp(status, "ok"))
+        printf("  %-26s %s\n", text_of(draw, "feature"), text_of(draw, "digest"));
+    else
+        printf("  %-26s %s: %s\n", text_of(draw, "feature"), status, text_of(draw, "why"));
+}
+
+void rg_doctor_fixed_print(const json_t *devices)
+{
+    size_t i, d;
+    json_t *device, *draw;
+    json_array_foreach(devices, i, device)
+    {
+        const json_t *draws = json_object_get(device, "draws");
+        const int all = (int)json_array_size(draws), ok = count(draws, "ok");
+        const int lacking = count(draws, "unsupported");
+        if (all)
+            printf("%s: %d draws of fixed functions, %d unsupported, %d fail, in %.0f ms\n",
+                   text_of(device, "name"), all, lacking, all - ok - lacking,
+                   json_real_value(json_object_get(device, "ms")));
+        else
+            printf("%s: %s: %s\n", text_of(device, "name"), text_of(device, "status"),
+                   text_of(device, "why"));
+        json_array_foreach(draws, d, draw) print_draw(draw);
+    }
+}
