@@ -165,8 +165,9 @@ static void print_fixed(json_t *devices, const struct rg_device_info *infos, int
         rg_doctor_fixed_print(devices);
         return;
     }
-    json_t *root = json_pack("{si so sO}", "format", 1, "passport", rg_passport_json(infos, count),
-                             "fixed_functions", devices);
+    json_t *root =
+        json_pack("{si so sO}", "format", 1, "passport",
+                  rg_doctor_fixed_passport(devices, infos, count), "fixed_functions", devices);
     json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
     printf("\n");
     json_decref(root);

@@ -1,6 +1,5 @@
 #include "harness/doctor/fixed.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,60 +7,50 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/devices/devices.h"
-#include "harness/devices/workers/device.h"
 #include "harness/measure/serving/fixed.h"
 #include "harness/record/named.h"
+#include "harness/record/passport/passport.h"
 
-static json_t *hash_json(uint64_t hash)
+static const char *text_of(const json_t *row, const char *key)
 {
-    return json_sprintf("%016" PRIx64, hash);
+    const char *text = json_string_value(json_object_get(row, key));
+    return text ? text : "";
 }
 
 // --- drawing ---
 
-// What failed has been logged, and its worker may have ended. A fault that is not the driver's ends
-// the draws as well.
 static enum rg_outcome note_failure(struct rg_device *device, json_t *row)
 {
-    const struct rg_failure failure = rg_failure_take();
+    const struct rg_failure failure = rg_fixed_failure(device);
     rg_outcome_set(row, failure.outcome);
     json_object_set_new(row, "why", rg_json_text(failure.line));
-    rg_worker_renew(rg_remote_worker(device));
     return failure.outcome;
 }
 
-// Judges a draw by its own digests, and logs one line where it fails.
-static enum rg_outcome judge(const struct rg_device *device, const struct rg_fixed_draw *draw,
-                             const struct rg_fixed_told *told, json_t *row)
+// Notes how a draw is judged, and logs one line where it fails.
+static enum rg_outcome note(const struct rg_device *device, int i, const struct rg_fixed_told *told,
+                            json_t *row)
 {
-    char why[300] = "";
-    if (*told->lacks)
-        snprintf(why, sizeof(why), "lacks %s", told->lacks);
-    else if (told->is_constant)
-        snprintf(why, sizeof(why), "leaves a picture that is the same everywhere");
-    else if (told->digest == told->neighbour)
-        snprintf(why, sizeof(why), "leaves what its neighbour does, whose %s is %d", draw->field,
-                 draw->to);
-    const enum rg_outcome outcome = *told->lacks ? RG_UNSUPPORTED : *why ? RG_FAIL : RG_OK;
+    char why[RG_FIXED_WHY];
+    const enum rg_outcome outcome = rg_fixed_judge(i, told, why);
     rg_outcome_set(row, outcome);
-    if (!*told->lacks) {
-        json_object_set_new(row, "digest", hash_json(told->digest));
-        json_object_set_new(row, "neighbour", hash_json(told->neighbour));
+    if (outcome != RG_UNSUPPORTED) {
+        json_object_set_new(row, "digest", rg_fixed_hash(told->digest));
+        json_object_set_new(row, "neighbour", rg_fixed_hash(told->neighbour));
     }
     json_object_set_new(row, "why", rg_json_text(why));
     if (outcome == RG_FAIL)
-        rg_error("device '%s': feature '%s': %s", device->info.name, draw->feature, why);
+        rg_error("device '%s': feature '%s': %s", device->info.name, rg_fixed_draws[i].feature,
+                 why);
     return outcome;
 }
 
 static enum rg_outcome draw_one(struct rg_device *device, int i, json_t *draws)
 {
-    const struct rg_fixed_draw *draw = &rg_fixed_draws[i];
     struct rg_fixed_told told;
-    json_t *row = json_pack("{ss}", "feature", draw->feature);
+    json_t *row = json_pack("{ss}", "feature", rg_fixed_draws[i].feature);
     json_array_append_new(draws, row);
-    return rg_fixed_ask(device, i, &told) ? judge(device, draw, &told, row)
-                                          : note_failure(device, row);
+    return rg_fixed_ask(device, i, &told) ? note(device, i, &told, row) : note_failure(device, row);
 }
 
 // A device's status is its worst draw's; one that draws nothing is unsupported.
@@ -108,13 +97,26 @@ int rg_doctor_fixed(const char *name, struct rg_device_info *info, json_t *devic
     return rg_device_close(device) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 
-// --- printing ---
-
-static const char *text_of(const json_t *row, const char *key)
+json_t *rg_doctor_fixed_passport(const json_t *devices, const struct rg_device_info *infos,
+                                 int count)
 {
-    const char *text = json_string_value(json_object_get(row, key));
-    return text ? text : "";
+    json_t *passport = rg_passport_json(infos, count), *device, *draw;
+    size_t i, d;
+    json_array_foreach(devices, i, device)
+    {
+        json_t *digests = json_object();
+        json_array_foreach(json_object_get(device, "draws"), d, draw)
+        {
+            if (!strcmp(text_of(draw, "status"), "ok"))
+                json_object_set(digests, text_of(draw, "feature"), json_object_get(draw, "digest"));
+        }
+        rg_fixed_put(passport, text_of(device, "name"), json_object_size(digests) ? digests : NULL);
+        json_decref(digests);
+    }
+    return passport;
 }
+
+// --- printing ---
 
 static int count(const json_t *draws, const char *status)
 {

@@ -13,6 +13,10 @@
 // opens. Returns an enum rg_exit, after one logged line for each failure.
 int rg_doctor_fixed(const char *name, struct rg_device_info *info, json_t *devices);
 
+// The passport of these devices, with the digests in such rows; the caller releases it.
+json_t *rg_doctor_fixed_passport(const json_t *devices, const struct rg_device_info *infos,
+                                 int count);
+
 // Prints such rows for people.
 void rg_doctor_fixed_print(const json_t *devices);
 

@@ -1,12 +1,17 @@
 #include "harness/measure/serving/fixed.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <xxhash.h>
 
 #include "core/base/alloc.h"
+#include "harness/console/interrupt.h"
 #include "harness/devices/workers/device.h"
 #include "harness/measure/serving/services.h"
+
+// --- a draw ---
 
 const struct rg_field rg_fixed_fields[] = {
     RG_FIELD_TEXT(struct rg_fixed_told, lacks),
@@ -73,4 +78,76 @@ bool rg_fixed_ask(struct rg_device *device, int row, struct rg_fixed_told *told)
     const bool ok = rg_worker_fetch(worker, RG_CALL_FIXED, &request, rg_fixed_fields, told);
     rg_message_free(&request);
     return ok;
+}
+
+struct rg_failure rg_fixed_failure(struct rg_device *device)
+{
+    const struct rg_failure failure = rg_failure_take();
+    rg_worker_renew(rg_remote_worker(device));
+    return failure;
+}
+
+enum rg_outcome rg_fixed_judge(int row, const struct rg_fixed_told *told, char why[RG_FIXED_WHY])
+{
+    const struct rg_fixed_draw *draw = &rg_fixed_draws[row];
+    *why = 0;
+    if (*told->lacks)
+        snprintf(why, RG_FIXED_WHY, "lacks %s", told->lacks);
+    else if (told->is_constant)
+        snprintf(why, RG_FIXED_WHY, "leaves a picture that is the same everywhere");
+    else if (told->digest == told->neighbour)
+        snprintf(why, RG_FIXED_WHY, "leaves what its neighbour does, whose %s is %d", draw->field,
+                 draw->to);
+    return *told->lacks ? RG_UNSUPPORTED : *why ? RG_FAIL : RG_OK;
+}
+
+// --- digests of a device ---
+
+json_t *rg_fixed_hash(uint64_t hash)
+{
+    return json_sprintf("%016" PRIx64, hash);
+}
+
+json_t *rg_fixed_digests(struct rg_device *device)
+{
+    const int count = device->info.limits.has_fixed ? rg_fixed_count() : 0;
+    json_t *digests = NULL;
+    for (int i = 0; i < count && !rg_interrupted(); i++) {
+        struct rg_fixed_told told;
+        char why[RG_FIXED_WHY];
+        if (!rg_fixed_ask(device, i, &told)) {
+            rg_fixed_failure(device);
+        } else if (rg_fixed_judge(i, &told, why) == RG_OK) {
+            digests = digests ? digests : json_object();
+            json_object_set_new(digests, rg_fixed_draws[i].feature, rg_fixed_hash(told.digest));
+        }
+    }
+    return digests;
+}
+
+static json_t *find(const json_t *passport, const char *name)
+{
+    size_t i;
+    json_t *device;
+    json_array_foreach(json_object_get(passport, "devices"), i, device)
+    {
+        const char *its = json_string_value(json_object_get(device, "name"));
+        if (its && !strcmp(its, name))
+            return device;
+    }
+    return NULL;
+}
+
+static const char key[] = "fixed_functions";
+
+void rg_fixed_put(json_t *passport, const char *device, json_t *digests)
+{
+    if (digests)
+        json_object_set(find(passport, device), key, digests);
+}
+
+const json_t *rg_fixed_kept(const json_t *passport, const char *device)
+{
+    const json_t *digests = json_object_get(find(passport, device), key);
+    return json_is_object(digests) ? digests : NULL;
 }

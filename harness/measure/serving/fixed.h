@@ -2,6 +2,9 @@
 #ifndef RG_HARNESS_MEASURE_SERVING_FIXED_H
 #define RG_HARNESS_MEASURE_SERVING_FIXED_H
 
+#include <jansson.h>
+
+#include "core/base/log.h"
 #include "core/device/device.h"
 #include "harness/devices/workers/fields.h"
 
@@ -18,5 +21,23 @@ bool rg_fixed_take(struct rg_device *device, int row, struct rg_fixed_told *told
 
 // The same in the device's worker, or here if it has none.
 bool rg_fixed_ask(struct rg_device *device, int row, struct rg_fixed_told *told);
+// After a failure of rg_fixed_ask, which has been logged: takes it, and starts the device's worker
+// again, which may have ended.
+struct rg_failure rg_fixed_failure(struct rg_device *device);
+
+enum { RG_FIXED_WHY = 300 };
+// Judges a draw by its own digests: OK; unsupported; or fail, where its picture is the same
+// everywhere or its neighbour's. `why` says so in one line; "": OK.
+enum rg_outcome rg_fixed_judge(int row, const struct rg_fixed_told *told, char why[RG_FIXED_WHY]);
+
+// A digest in 16 hexadecimal digits.
+json_t *rg_fixed_hash(uint64_t hash);
+// Draws all rows, and returns the digests of those that are OK by their features. NULL: none is.
+// One logged line for each draw that the driver fails. The caller releases it.
+json_t *rg_fixed_digests(struct rg_device *device);
+// Puts such digests, or NULL, into a device of a passport (harness/record/passport/passport.h).
+void rg_fixed_put(json_t *passport, const char *device, json_t *digests);
+// The digests in a passport; NULL: the device is not in it, or has none.
+const json_t *rg_fixed_kept(const json_t *passport, const char *device);
 
 #endif

@@ -6,8 +6,12 @@ import tempfile
 
 import forms
 import misbehaving
+from baselines import change, gate, make
+from gates import TORUS, Files, endings
+from runner import LATER
 
 APIS = ("gl", "vulkan")
+WARM_MS = 3000  # of a device whose driver has compiled the draws before
 # What turns a part of llvmpipe off, and features whose digests must tell.
 SWITCHES = {
     "LP_PERF=no_linear": {"linear", "trilinear", "cube seams"},
@@ -18,6 +22,9 @@ SWITCHES = {
     "LP_PERF=no_blend": {"blending RGBA8", "blending RGBA16F", "blending RGBA32F", "dual source"},
     "GALLIVM_PERF=no_aos_sampling": {"linear"},
 }
+# Draws that prove nothing any more, and how they are refused.
+REFUSED = (("LP_PERF=no_blend", "blending RGBA8", "leaves what its neighbour does, whose blend is 1"),
+           ("LP_PERF=no_depth", "depth test", "leaves a picture that is the same everywhere"))
 
 
 def draw(runner, devices, env={}):
@@ -51,7 +58,25 @@ def check_digests(runner):
             problems += ["%s: differs from %s in %s" % (name, api, feature) for feature in differing(plain, found[name])]
         again = draw(runner, [api])[0][api]
         problems += ["%s: differs the second time in %s" % (api, feature) for feature in differing(plain, again)]
+        if min(plain["ms"], again["ms"]) > WARM_MS:
+            problems.append("%s: takes %.0f and %.0f ms" % (api, plain["ms"], again["ms"]))
     return problems
+
+
+def check_apis(runner):
+    """Mesa's two APIs leave the same digests, but for the lines' ends and what one of them lacks."""
+    found = draw(runner, APIS)[0]
+    told = [{draw["feature"]: draw["digest"] for draw in found[api]["draws"] if draw["status"] == "ok"} for api in APIS]
+    if not all(told) or "Mesa" not in passport(runner, "vulkan")["driver"]:
+        return []
+    differ = [feature for feature, digest in told[0].items() if told[1].get(feature, digest) != digest]
+    return [] if differ in ([], ["lines"]) else ["gl and vulkan differ in %s" % differ]
+
+
+def passport(runner, api):
+    """A device as the passport of doctor has it."""
+    report = json.loads(runner.run(["doctor", "--fixed-function", "--json", "--device", api]).stdout)
+    return report["passport"]["devices"][0]
 
 
 def check_switches(runner):
@@ -65,6 +90,10 @@ def check_switches(runner):
             differ = differing(found[api], found["%s@%s" % (api, switch)])
             if not features <= set(differ):
                 problems.append("%s: %s changes %s" % (api, switch, differ))
+        for switch, feature, why in REFUSED:
+            told = next(row for row in found["%s@%s" % (api, switch)]["draws"] if row["feature"] == feature)
+            if (told["status"], told["why"]) != ("fail", why):
+                problems.append("%s: %s: %s" % (api, switch, told))
     return problems
 
 
@@ -122,4 +151,81 @@ def check_crash(runner):
     return problems
 
 
-CHECKS = [check_digests, check_switches, check_none, check_text, check_page, check_crash]
+def kept(device, **digests):
+    """Edits a baseline: digests of a device by feature."""
+    def edit(document):
+        next(d for d in document["passport"]["devices"] if d["name"] == device)["fixed_functions"].update(digests)
+    return edit
+
+
+def moved(name, value):
+    """Edits a baseline: a part of gl's key is another."""
+    def edit(document):
+        next(d for d in document["devices"] if d["name"] == "gl")["of"][name] = value
+    return edit
+
+
+def others(report):
+    """Endings and messages of the cases of fixed functions that do not plainly pass."""
+    return {case["name"]: (case["ending"], case["message"]) for case in report["gated"] if case["technique"] == "fixed" and
+            case["ending"] != "pass"}
+
+
+def check_kept(runner):
+    """a baseline keeps the digests, and a gate tells which are others: with the feature, unless expectations name it"""
+    problems = []
+    with Files(TORUS) as files:
+        path, _ = make(runner, files, "--pictures", device="cpu,gl,vulkan")
+        with open(path) as file:
+            document = json.load(file)
+        problems += forms.problems("baseline", document)
+        devices = {device["name"]: device.get("fixed_functions", {}) for device in document["passport"]["devices"]}
+        if not devices.get("gl"):
+            return problems
+        if devices["cpu"] or any(devices[api] != passport(runner, api)["fixed_functions"] for api in APIS):
+            problems.append("kept: %s" % devices)
+
+        def held(edit, status, expected, *args):
+            """Gates against an edited baseline."""
+            edited = change(path, edit, files.path("edited.json"))
+            result = gate(runner, files, edited, *args)
+            report = json.loads(result.stdout)
+            told = {name: ending for name, (ending, _) in others(report).items()}
+            if result.returncode != status or told != expected or "fixed.gl" not in endings(report):
+                problems.append("%s: exit status %d, %s, %s" % (expected, result.returncode, others(report), result.stderr))
+            return {case["name"]: case["message"] for case in report["gated"]}
+
+        all_gl = len(devices["gl"])
+        told = held(lambda document: None, 0, {})
+        if told["fixed.gl"] != "%d digests are the baseline's" % all_gl:
+            problems.append("same: %s" % told)
+        two = kept("gl", **{"mip nearest": "0" * 16, "stencil": "1" * 16})
+        told = held(two, 1, {"fixed/mip-nearest.gl": "differs", "fixed/stencil.gl": "differs"})
+        if told["fixed.gl"] != "%d digests are the baseline's, and 2 are not" % (all_gl - 2) or \
+                told["fixed/stencil.gl"] != "%s and not %s, which is the baseline's" % (devices["gl"]["stencil"], "1" * 16):
+            problems.append("two: %s" % told)
+        known = files.path("known.txt", "".join(
+            "fail fixed/%s\n  device gl\n  outcome fail\n  reason it is another unit\n  since 2026-01-01\n  until %s\n" % (feature, LATER)
+            for feature in ("stencil", "linear")))
+        held(two, 1, {"fixed/mip-nearest.gl": "differs", "fixed/stencil.gl": "expected failure", "fixed/linear.gl": "unexpected pass"},
+             "--expectations", known)
+        told = held(moved("cpu", "another processor"), 0, {"fixed.gl": "skipped"})
+        if not told["fixed.gl"].startswith("%d digests are not compared: cpu " % all_gl):
+            problems.append("another processor: %s" % told)
+        width = next(d for d in document["devices"] if d["name"] == "gl")["of"]["device"]
+        held(moved("device", re.sub(r"\d+ bits", "512 bits", width)), 0, {"fixed.gl": "skipped"})
+        held(moved("device", re.sub(r"LLVM [\d.]+", "LLVM 1.2", width)), 0, {})
+        held(moved("driver", "another Mesa"), 0, {})
+        problems += updates(runner, files, change(path, two, files.path("edited.json")))
+    return problems
+
+
+def updates(runner, files, path):
+    """An update prints each digest that is another."""
+    result = runner.run(["baseline", "--device", "cpu,gl,vulkan", "--pictures", "--cells", files.cells, "-o", path])
+    lines = ["~ fixed function '%s' of gl: another digest" % feature for feature in ("mip nearest", "stencil")]
+    missing = [line for line in lines if line not in result.stdout.splitlines()]
+    return ["update: exit status %d, %s" % (result.returncode, result.stdout)] if missing or result.returncode != 1 else []
+
+
+CHECKS = [check_digests, check_apis, check_switches, check_none, check_text, check_page, check_crash, check_kept]
