@@ -27,29 +27,37 @@ static enum rg_outcome note_failure(struct rg_device *device, json_t *row)
     return failure.outcome;
 }
 
-// Notes how a draw is judged, and logs one line where it fails.
+static const char *feature_of(int row)
+{
+    const int draws = rg_fixed_count();
+    return row < draws ? rg_fixed_draws[row].feature : rg_fixed_closed[row - draws].feature;
+}
+
+// Notes how a pair is judged, and logs one line where it fails.
 static enum rg_outcome note(const struct rg_device *device, int i, const struct rg_fixed_told *told,
                             json_t *row)
 {
     char why[RG_FIXED_WHY];
     const enum rg_outcome outcome = rg_fixed_judge(i, told, why);
     rg_outcome_set(row, outcome);
-    if (outcome != RG_UNSUPPORTED) {
+    if (outcome != RG_UNSUPPORTED && i < rg_fixed_count()) {
         json_object_set_new(row, "digest", rg_fixed_hash(told->digest));
-        json_object_set_new(row, "neighbour", rg_fixed_hash(told->neighbour));
+        json_object_set_new(row, "neighbour", rg_fixed_hash(told->other));
     }
     json_object_set_new(row, "why", rg_json_text(why));
     if (outcome == RG_FAIL)
-        rg_error("device '%s': feature '%s': %s", device->info.name, rg_fixed_draws[i].feature,
-                 why);
+        rg_error("device '%s': feature '%s': %s", device->info.name, feature_of(i), why);
     return outcome;
 }
 
-static enum rg_outcome draw_one(struct rg_device *device, int i, json_t *draws)
+static enum rg_outcome draw_one(struct rg_device *device, int i, json_t *draws, json_t *closed)
 {
     struct rg_fixed_told told;
-    json_t *row = json_pack("{ss}", "feature", rg_fixed_draws[i].feature);
-    json_array_append_new(draws, row);
+    const int count = rg_fixed_count();
+    json_t *row = json_pack("{ss}", "feature", feature_of(i));
+    if (i >= count)
+        json_object_set_new(row, "case", json_string(rg_fixed_closed[i - count].about));
+    json_array_append_new(i < count ? draws : closed, row);
     return rg_fixed_ask(device, i, &told) ? note(device, i, &told, row) : note_failure(device, row);
 }
 
@@ -58,13 +66,14 @@ static int draw_all(struct rg_device *device, json_t *row)
 {
     const double start_ms = rg_now_ms();
     int counts[RG_OUTCOME_COUNT] = {0};
-    json_t *draws = json_array();
-    for (int i = 0; i < rg_fixed_count(); i++)
-        counts[draw_one(device, i, draws)]++;
+    json_t *draws = json_array(), *closed = json_array();
+    for (int i = 0; i < rg_fixed_pairs(); i++)
+        counts[draw_one(device, i, draws, closed)]++;
     json_object_set_new(row, "draws", draws);
+    json_object_set_new(row, "closed", closed);
     json_object_set_new(row, "ms", json_real(rg_now_ms() - start_ms));
     const int exit = rg_exit_of_all(counts);
-    const int failed = rg_fixed_count() - counts[RG_OK] - counts[RG_UNSUPPORTED];
+    const int failed = rg_fixed_pairs() - counts[RG_OK] - counts[RG_UNSUPPORTED];
     if (failed)
         json_object_set_new(row, "why", json_sprintf("%d draws fail", failed));
     rg_outcome_set(row, exit == RG_EXIT_PASS          ? RG_OK
@@ -83,8 +92,8 @@ static int tell_none(json_t *row)
 int rg_doctor_fixed(const char *name, struct rg_device_info *info, json_t *devices)
 {
     struct rg_device *device = rg_devices_open_one(name);
-    json_t *row =
-        json_pack("{sosssf s[]}", "name", rg_json_text(name), "why", "", "ms", 0.0, "draws");
+    json_t *row = json_pack("{sosssf s[] s[]}", "name", rg_json_text(name), "why", "", "ms", 0.0,
+                            "draws", "closed");
     json_array_append_new(devices, row);
     if (!device) {
         const struct rg_failure failure = rg_failure_take();
@@ -143,15 +152,22 @@ void rg_doctor_fixed_print(const json_t *devices)
     json_array_foreach(devices, i, device)
     {
         const json_t *draws = json_object_get(device, "draws");
+        const json_t *closed = json_object_get(device, "closed");
         const int all = (int)json_array_size(draws), ok = count(draws, "ok");
         const int lacking = count(draws, "unsupported");
         if (all)
-            printf("%s: %d draws of fixed functions, %d unsupported, %d fail, in %.0f ms\n",
-                   text_of(device, "name"), all, lacking, all - ok - lacking,
-                   json_real_value(json_object_get(device, "ms")));
+            printf("%s: %d draws of fixed functions, %d unsupported, %d fail; %d of %d closed "
+                   "cases hold; in %.0f ms\n",
+                   text_of(device, "name"), all, lacking, all - ok - lacking, count(closed, "ok"),
+                   (int)json_array_size(closed), json_real_value(json_object_get(device, "ms")));
         else
             printf("%s: %s: %s\n", text_of(device, "name"), text_of(device, "status"),
                    text_of(device, "why"));
         json_array_foreach(draws, d, draw) print_draw(draw);
+        json_array_foreach(closed, d, draw)
+        {
+            if (strcmp(text_of(draw, "status"), "ok") != 0)
+                print_draw(draw);
+        }
     }
 }

@@ -1,4 +1,4 @@
-// Draws of one fixed function each: the table, and the meshes, texels and shaders that they use.
+// Draws of one fixed function each: the tables, and the meshes, texels and shaders that they use.
 //
 // A draw goes through a driver's own pipeline, so that its bits are the driver's. Its neighbour is
 // the same draw with one field of the state changed, whose bits must differ: otherwise the draw
@@ -70,6 +70,7 @@ enum rg_fixed_between {
 
 enum rg_fixed_mesh {
     RG_FIXED_PANE,   // a quadrangle over most of the target, turned a little
+    RG_FIXED_SQUARE, // one over all of it, with a texel of level 0 a pixel
     RG_FIXED_FLOOR,  // one in perspective, far away at the top
     RG_FIXED_SHARDS, // triangles through each other
     RG_FIXED_BEYOND, // triangles through the near plane, the eye's plane and far out of the target
@@ -92,6 +93,13 @@ enum rg_fixed_texels {
     RG_FIXED_TEXELS_BC1,
     RG_FIXED_TEXELS_BC3,
     RG_FIXED_TEXELS_ETC2,
+};
+
+// What a texture and the colours of vertices are made of.
+enum rg_fixed_plain {
+    RG_FIXED_ANY,
+    RG_FIXED_CONSTANT, // all texels the same; one colour a triangle
+    RG_FIXED_EXTREMES, // texels of 0 and 255 alone; one colour a triangle
 };
 
 enum rg_fixed_filter { RG_FIXED_NEAREST, RG_FIXED_LINEAR };
@@ -135,6 +143,7 @@ struct rg_fixed_state {
     int between;  // enum rg_fixed_between
     int nudge;    // moves vertices by so many 1/256 of a pixel
     int shift;    // moves texture coordinates by so many 1/4096 of a texture
+    int plain;    // enum rg_fixed_plain
     int value;    // what shaders make of it
 
     // Vertices.
@@ -196,6 +205,16 @@ struct rg_fixed_draw {
 extern const struct rg_fixed_draw rg_fixed_draws[];
 int rg_fixed_count(void);
 struct rg_fixed_state rg_fixed_neighbour(const struct rg_fixed_draw *draw);
+
+// A case that has one right picture, however a driver filters or interpolates: two ways to draw it
+// must leave the same bits.
+struct rg_fixed_closed {
+    const char *feature; // that of a draw
+    const char *about;   // one line
+    struct rg_fixed_state state, same;
+};
+extern const struct rg_fixed_closed rg_fixed_closed[];
+int rg_fixed_closed_count(void);
 
 const char *rg_fixed_fragment_name(int fragment);
 const char *rg_fixed_vertex_name(int vertex);

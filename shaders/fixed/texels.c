@@ -31,11 +31,14 @@ static size_t size_of(const struct rg_fixed_state *state, int level)
 size_t rg_fixed_make_texels(const struct rg_fixed_state *state, int layer, int level,
                             uint8_t *texels)
 {
+    static const uint8_t constant[] = {201, 118, 37, 164};
     const size_t size = size_of(state, level);
     uint32_t seed = (uint32_t)(100 + layer * 16 + level);
     for (size_t i = 0; i < size; i++) {
         seed = seed * 1664525u + 1013904223u;
-        texels[i] = (uint8_t)(seed >> 24);
+        texels[i] = state->plain == RG_FIXED_CONSTANT   ? constant[i % 4]
+                    : state->plain == RG_FIXED_EXTREMES ? (uint8_t)(seed >> 31 ? 255 : 0)
+                                                        : (uint8_t)(seed >> 24);
     }
     for (size_t i = 0; state->texels == RG_FIXED_TEXELS_D32F && i < size / 4; i++) {
         const float depth = (float)texels[4 * i] / 256;

@@ -43,6 +43,8 @@ static const float pane[4][6] = {{-0.90625f, -0.8125f, 1, 0, 0, 0},
                                  {0.84375f, -0.9375f, 1, 1.25f, 0.125f, 4},
                                  {-0.78125f, 0.875f, 1, 0.0625f, 1.25f, 0},
                                  {0.90625f, 0.8125f, 1, 1.25f, 1.25f, 4}};
+static const float square[4][6] = {
+    {-1, -1, 1, 0, 0, 0}, {1, -1, 1, 2, 0, 0}, {-1, 1, 1, 0, 2, 0}, {1, 1, 1, 2, 2, 0}};
 static const float ground[4][6] = {{-0.96875f, -0.9375f, 1, 0, 0, 0},
                                    {0.9375f, -0.96875f, 1, 2, 0.25f, 4},
                                    {-0.8125f, 0.90625f, 8, 0.125f, 6, 0},
@@ -114,15 +116,23 @@ static void fill_indices(struct rg_fixed_vertices *made)
     }
 }
 
+static void make_mesh(int mesh, struct rg_fixed_vertices *made)
+{
+    if (mesh == RG_FIXED_SHARDS)
+        shards(made);
+    else if (mesh == RG_FIXED_BEYOND)
+        beyond(made);
+    else
+        quadrangle(mesh == RG_FIXED_PANE ? pane : mesh == RG_FIXED_SQUARE ? square : ground, made);
+}
+
 void rg_fixed_make_vertices(const struct rg_fixed_state *state, struct rg_fixed_vertices *made)
 {
     memset(made, 0, sizeof(*made));
-    if (state->mesh == RG_FIXED_PANE || state->mesh == RG_FIXED_FLOOR)
-        quadrangle(state->mesh == RG_FIXED_PANE ? pane : ground, made);
-    else if (state->mesh == RG_FIXED_SHARDS)
-        shards(made);
-    else
-        beyond(made);
+    make_mesh(state->mesh, made);
+    for (int i = 0; state->plain && i < made->count; i++)
+        memcpy(made->vertices[i].colour, made->vertices[i / 3 * 3].colour,
+               sizeof(made->vertices[i].colour));
     fill_formats(made, state->texels ? 0 : state->flip);
     fill_indices(made);
     for (int i = 1; i < RG_FIXED_INSTANCES; i++) {

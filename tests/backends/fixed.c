@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,6 +71,43 @@ static void textures_fit_their_room(void **state)
     }
 }
 
+static void closed_cases_are_of_draws(void **state)
+{
+    (void)state;
+    for (int i = 0; i < rg_fixed_closed_count(); i++) {
+        const struct rg_fixed_closed *closed = &rg_fixed_closed[i];
+        int found = 0;
+        for (int d = 0; d < rg_fixed_count(); d++)
+            found += !strcmp(closed->feature, rg_fixed_draws[d].feature);
+        assert_int_equal(found, 1);
+        assert_at_least(differing_fields(&closed->state, &closed->same), 1);
+    }
+}
+
+static enum rg_outcome judge(int row, uint64_t other, bool is_constant, const char *lacks)
+{
+    struct rg_fixed_told told = {.digest = 7, .other = other, .is_constant = is_constant};
+    char why[RG_FIXED_WHY];
+    snprintf(told.lacks, sizeof(told.lacks), "%s", lacks);
+    const enum rg_outcome outcome = rg_fixed_judge(row, &told, why);
+    assert_int_equal(!*why, outcome == RG_OK);
+    return outcome;
+}
+
+// A draw must differ from its neighbour, and the two ways of a closed case must not.
+static void pairs_are_judged(void **state)
+{
+    (void)state;
+    const int draw = rg_fixed_count() - 1, closed = rg_fixed_count();
+    assert_int_equal(judge(draw, 8, false, ""), RG_OK);
+    assert_int_equal(judge(draw, 7, false, ""), RG_FAIL);
+    assert_int_equal(judge(closed, 7, false, ""), RG_OK);
+    assert_int_equal(judge(closed, 8, false, ""), RG_FAIL);
+    assert_int_equal(judge(draw, 8, true, ""), RG_FAIL);
+    assert_int_equal(judge(closed, 7, true, ""), RG_FAIL);
+    assert_int_equal(judge(draw, 7, true, "a feature"), RG_UNSUPPORTED);
+}
+
 // --- a device ---
 
 // What a device can draw is no constant, is not its neighbour's, and is the same once more.
@@ -89,13 +127,25 @@ static void draws_are_told_from_their_neighbours(void **state)
         drawn++;
         if (told.is_constant)
             fail_msg("%s: is the same everywhere", feature);
-        if (told.digest == told.neighbour)
+        if (told.digest == told.other)
             fail_msg("%s: its neighbour looks the same", feature);
-        if (told.digest != again.digest || told.neighbour != again.neighbour)
+        if (told.digest != again.digest || told.other != again.other)
             fail_msg("%s: another picture the second time", feature);
     }
     if (device->info.software)
         assert_at_least(drawn, rg_fixed_count() - 2);
+}
+
+static void closed_cases_hold(void **state)
+{
+    struct rg_device *device = *state;
+    char why[RG_FIXED_WHY] = "";
+    for (int i = rg_fixed_count(); i < rg_fixed_pairs(); i++) {
+        const struct rg_fixed_closed *closed = &rg_fixed_closed[i - rg_fixed_count()];
+        struct rg_fixed_told told = {0};
+        if (!rg_fixed_take(device, i, &told) || rg_fixed_judge(i, &told, why) == RG_FAIL)
+            fail_msg("%s, %s: %s", closed->feature, closed->about, why);
+    }
 }
 
 static int open_device(void **state)
@@ -115,10 +165,13 @@ int main(int argc, char **argv)
         cmocka_unit_test(neighbours_differ_in_one_field),
         cmocka_unit_test(shaders_are_there),
         cmocka_unit_test(textures_fit_their_room),
+        cmocka_unit_test(closed_cases_are_of_draws),
+        cmocka_unit_test(pairs_are_judged),
     };
     const struct CMUnitTest of_device[] = {
         cmocka_unit_test_setup_teardown(draws_are_told_from_their_neighbours, open_device,
                                         close_device),
+        cmocka_unit_test_setup_teardown(closed_cases_hold, open_device, close_device),
     };
     const int skipped = 77;
     name = argc > 1 ? argv[1] : NULL;

@@ -16,7 +16,7 @@
 const struct rg_field rg_fixed_fields[] = {
     RG_FIELD_TEXT(struct rg_fixed_told, lacks),
     RG_FIELD_BYTES(struct rg_fixed_told, digest),
-    RG_FIELD_BYTES(struct rg_fixed_told, neighbour),
+    RG_FIELD_BYTES(struct rg_fixed_told, other),
     RG_FIELD_FLAG(struct rg_fixed_told, is_constant),
     RG_FIELDS_END,
 };
@@ -33,14 +33,33 @@ static bool digest(struct rg_device *device, const char *feature,
     return true;
 }
 
-static bool take(struct rg_device *device, const struct rg_fixed_draw *draw,
+struct pair {
+    const char *feature;
+    struct rg_fixed_state first, other;
+};
+
+static struct pair pair_of(int row)
+{
+    const int draws = rg_fixed_count();
+    if (row < draws)
+        return (struct pair){rg_fixed_draws[row].feature, rg_fixed_draws[row].state,
+                             rg_fixed_neighbour(&rg_fixed_draws[row])};
+    const struct rg_fixed_closed *closed = &rg_fixed_closed[row - draws];
+    return (struct pair){closed->feature, closed->state, closed->same};
+}
+
+int rg_fixed_pairs(void)
+{
+    return rg_fixed_count() + rg_fixed_closed_count();
+}
+
+static bool take(struct rg_device *device, const struct pair *pair,
                  struct rg_fixed_picture *picture, struct rg_fixed_told *told)
 {
-    const struct rg_fixed_state neighbour = rg_fixed_neighbour(draw);
-    if (!digest(device, draw->feature, &draw->state, picture, &told->digest))
+    if (!digest(device, pair->feature, &pair->first, picture, &told->digest))
         return false;
     told->is_constant = !picture->size || picture->is_constant;
-    if (!picture->lacks[0] && !digest(device, draw->feature, &neighbour, picture, &told->neighbour))
+    if (!picture->lacks[0] && !digest(device, pair->feature, &pair->other, picture, &told->other))
         return false;
     snprintf(told->lacks, sizeof(told->lacks), "%s", picture->lacks);
     return true;
@@ -50,7 +69,8 @@ bool rg_fixed_take(struct rg_device *device, int row, struct rg_fixed_told *told
 {
     struct rg_fixed_picture picture = {.bytes = rg_alloc(1, RG_FIXED_PICTURE_BYTES, "picture"),
                                        .room = RG_FIXED_PICTURE_BYTES};
-    const bool ok = picture.bytes && take(device, &rg_fixed_draws[row], &picture, told);
+    const struct pair pair = pair_of(row);
+    const bool ok = picture.bytes && take(device, &pair, &picture, told);
     free(picture.bytes);
     return ok;
 }
@@ -59,7 +79,7 @@ bool rg_serve_fixed(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_fixed_told told = {0};
     struct rg_device *device = rg_served_device(rg_take_text(request));
-    const int row = rg_take_index(request, rg_fixed_count());
+    const int row = rg_take_index(request, rg_fixed_pairs());
     if (!device || request->failed || !rg_fixed_take(device, row, &told))
         return false;
     rg_put_fields(reply, rg_fixed_fields, &told);
@@ -87,17 +107,33 @@ struct rg_failure rg_fixed_failure(struct rg_device *device)
     return failure;
 }
 
+static void judge_draw(const struct rg_fixed_draw *draw, const struct rg_fixed_told *told,
+                       char why[RG_FIXED_WHY])
+{
+    if (told->digest == told->other)
+        snprintf(why, RG_FIXED_WHY, "leaves what its neighbour does, whose %s is %d", draw->field,
+                 draw->to);
+}
+
+static void judge_closed(const struct rg_fixed_closed *closed, const struct rg_fixed_told *told,
+                         char why[RG_FIXED_WHY])
+{
+    if (told->digest != told->other)
+        snprintf(why, RG_FIXED_WHY, "does not hold: %s", closed->about);
+}
+
 enum rg_outcome rg_fixed_judge(int row, const struct rg_fixed_told *told, char why[RG_FIXED_WHY])
 {
-    const struct rg_fixed_draw *draw = &rg_fixed_draws[row];
+    const int draws = rg_fixed_count();
     *why = 0;
     if (*told->lacks)
         snprintf(why, RG_FIXED_WHY, "lacks %s", told->lacks);
     else if (told->is_constant)
         snprintf(why, RG_FIXED_WHY, "leaves a picture that is the same everywhere");
-    else if (told->digest == told->neighbour)
-        snprintf(why, RG_FIXED_WHY, "leaves what its neighbour does, whose %s is %d", draw->field,
-                 draw->to);
+    else if (row < draws)
+        judge_draw(&rg_fixed_draws[row], told, why);
+    else
+        judge_closed(&rg_fixed_closed[row - draws], told, why);
     return *told->lacks ? RG_UNSUPPORTED : *why ? RG_FAIL : RG_OK;
 }
 

@@ -119,6 +119,9 @@ def check_text(runner):
     if not found["draws"]:
         return []
     problems = [] if len(lines) == 1 + len(found["draws"]) else ["%d lines" % len(lines)]
+    cases = len(found["closed"])
+    if not cases or "0 fail; %d of %d closed cases hold;" % (cases, cases) not in lines[0]:
+        problems.append("%d closed cases: %s" % (cases, lines[0]))
     for line, (feature, digest) in zip(lines[1:], digests(found).items()):
         if not line.startswith("  %s " % feature) or not line.endswith(digest):
             problems.append("%s, %s: %s" % (feature, digest, line))
@@ -126,11 +129,16 @@ def check_text(runner):
 
 
 def check_page(runner):
-    """docs/native.md lists the features in the table's order."""
+    """docs/native.md lists the features and the closed cases in their tables' order."""
     with open(os.path.join(forms.DOCS, "native.md")) as file:
-        listed = re.findall(r"^\| ([^|]+?) \| [^|]+ \| `\w+` = ", file.read(), re.M)
-    found = draw(runner, ["gl"])[0]["gl"]["draws"]
-    return [] if not found or listed == [row["feature"] for row in found] else ["it lists %s" % listed]
+        text = file.read()
+    listed = re.findall(r"^\| ([^|]+?) \| [^|]+ \| `\w+` = ", text, re.M)
+    closed = re.findall(r"^\| ([^|]+?) \| ([^|]+?) \|$", text.partition("## Closed cases")[2].partition("\n## ")[0], re.M)[1:]
+    found = draw(runner, ["gl"])[0]["gl"]
+    if not found["draws"]:
+        return []
+    problems = [] if listed == [row["feature"] for row in found["draws"]] else ["it lists %s" % listed]
+    return problems + ([] if closed == [(row["feature"], row["case"]) for row in found["closed"]] else ["closed: %s" % closed])
 
 
 def check_crash(runner):

@@ -75,6 +75,8 @@ ROWS = [
     Fault(VK_TEXTURE, ".mipLodBias = «(float)s->bias_16 / 16»,", "0.0f", "vulkan: the bias of levels is ignored", tests=OF_FIXED_VK),
     Fault(VK_RECORD, "fixed->begin_feedback(commands, 0, 0, NULL, NULL);\n    }\n    «call(job);»", ";", "vulkan: nothing is drawn", tests=OF_FIXED_VK),
     Fault("shaders/fixed/parts.c", "if («size > texel && !memcmp(part, part + texel, size - texel)»)", "true", "every picture is constant", tests=OF_FIXED_GL + OF_FIXED_VK),
+    Fault("shaders/fixed/texels.c", "RG_FIXED_CONSTANT   ? «constant[i % 4]»", "(uint8_t)i", "a constant texture is not constant", tests=OF_FIXED_GL + OF_FIXED_VK),
+    Fault("harness/measure/serving/fixed.c", "if («told->digest != told->other»)", "false", "every closed case holds", tests=("fixed functions",)),
     Fault("shaders/fixed/texels.c", "if («state->flip && layer == 0 && level == 0»)", "false", "no bit of a texture is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault("shaders/fixed/vertices.c", "if («flip»)", "false", "no bit of a vertex is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault("harness/doctor/fixed.c", "rg_exit_of_all(«counts»)", "(int[RG_OUTCOME_COUNT]){[RG_OK] = 1}", "a crash of a draw passes", tests=("command line, fixed",)),

@@ -147,7 +147,7 @@ static bool hold_side(struct rg_running_gate *r, int side)
     snprintf(r->gate->drivers[side / RG_SIDES], sizeof(r->gate->drivers[0]), "%s",
              r->infos[side].driver);
     if (!*r->infos[side].name)
-        return skip(&h, RG_ENDING_UNSUPPORTED, "the device is not there");
+        return skip(&h, RG_ENDING_UNSUPPORTED, "the device did not open");
     put_unlike(r, side, why);
     if (*why)
         return skip(&h, RG_ENDING_SKIPPED, why);
