@@ -121,7 +121,7 @@ static bool hold_all(struct held *h, struct rg_side *side)
     const double start_ms = rg_now_ms();
     bool is_ours, ok = true;
     char why[RG_AGREEMENT_TEXT];
-    if (!side->device && !rg_side_launch(side)) {
+    if (!rg_side_launch(side)) {
         const enum rg_outcome outcome = rg_side_failure(&is_ours, why, sizeof(why));
         return add_case(h, RG_GATE_FIXED, rg_ending_of(outcome), why, 0);
     }
@@ -134,7 +134,8 @@ static bool hold_all(struct held *h, struct rg_side *side)
     if (h->other)
         snprintf(why, sizeof(why), "%d digests are the baseline's, and %d are not", h->same,
                  h->other);
-    return ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS, why, (rg_now_ms() - start_ms) / 1000);
+    return rg_interrupted() ||
+           (ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS, why, (rg_now_ms() - start_ms) / 1000));
 }
 
 static bool hold_side(struct rg_running_gate *r, int side)
