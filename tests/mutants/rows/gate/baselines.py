@@ -15,6 +15,7 @@ ROWS = [
     Fault(FIXED, "if («*why»)\n        return skip(&h, RG_ENDING_SKIPPED", "false", "digests of another processor are compared", tests=OF_FIXED),
     Fault(FIXED, "rest + («llvm ? strspn(rest, \"0123456789.\") : 0»)", "0", "digests of another LLVM are not compared", tests=OF_FIXED),
     Fault(FIXED, "if (!was || (same && «row < 0»))", "true", "an expectation of a fixed function never passes unexpectedly", tests=OF_FIXED),
+    Fault("harness/compare/gate/cells/unused.c", "any = «rg_glob(row->cell, rg_gate_fixed_cell(i))»;", "false", "an expectation of a fixed function is said to be of no cell", tests=OF_FIXED),
     Fault(CHANGES, "    if («json_equal(was, is)»)\n        return 0;", "true", "another digest is no change of a baseline", tests=OF_FIXED),
     Fault(FUNCTIONS, "if («told->digest == told->other»)", "false", "a draw that leaves what its neighbour does is kept", tests=OF_FIXED),
     Fault(FUNCTIONS, "else if («told->is_constant»)", "false", "a picture that is the same everywhere is kept", tests=OF_FIXED),
