@@ -23,6 +23,7 @@
 #include "backends/kernel.h"
 #include "backends/library.h"
 #include "core/base/tier.h"
+#include "shaders/fixed/fixed.h"
 
 struct rg_extent {
     int width, height, depth; // items
@@ -48,6 +49,7 @@ struct rg_limits {
     char no_draws[120];               // why DRAW programs cannot run: "has no queue that draws"
     bool has_clock;                   // `time` works
     bool has_queries;                 // the API's own occlusion queries
+    bool has_fixed;                   // fixed_draw works
 };
 
 // Sizes: a name with settings, which may include several paths; and the libraries of a driver's
@@ -239,6 +241,11 @@ struct rg_backend {
     // native code. The caller frees `*bytes`, which is NULL if there is none. False, and one logged
     // line, on failure. Drivers compile late, so ask after the pass has run. NULL: the API cannot.
     bool (*pass_code)(struct rg_pass *pass, void **bytes, size_t *size);
+
+    // Draws once through the driver's own pipeline, and waits. `picture` is empty, and has room for
+    // RG_FIXED_PICTURE_BYTES. NULL: the API has no fixed functions.
+    bool (*fixed_draw)(struct rg_device *device, const char *feature,
+                       const struct rg_fixed_state *state, struct rg_fixed_picture *picture);
 
     // Waits for all queued work. False if a part of it failed.
     bool (*sync)(struct rg_device *device);

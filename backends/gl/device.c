@@ -33,6 +33,7 @@ static struct rg_limits read_limits(void)
                      .out_images = integer(GL_MAX_IMAGE_UNITS)},
         .has_clock = true,
         .has_queries = true,
+        .has_fixed = true,
     };
     // OpenGL 4.5 requires all formats for all uses.
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
@@ -111,6 +112,7 @@ static bool open_at(int index, struct gl_egl *egl)
 static bool gl_destroy(struct rg_device *device)
 {
     struct gl_device *gl = (struct gl_device *)device;
+    gl_fixed_close(gl);
     if (gl_use(gl)) {
         gl_params_destroy(gl);
         gl_draw_end(gl);
@@ -164,6 +166,7 @@ const struct rg_backend rg_backend_gl = {
     .pass_destroy = gl_pass_destroy,
     .pass_code = gl_pass_code,
     .pass_run = gl_pass_run,
+    .fixed_draw = gl_fixed_draw,
     .sync = gl_sync,
     .time = gl_time,
 };

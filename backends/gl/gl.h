@@ -102,6 +102,8 @@ struct gl_queries {
     int count;
 };
 
+struct gl_fixed; // backends/gl/api/fixed/fixed.h
+
 struct gl_device {
     struct rg_device pub;
     struct gl_egl egl;
@@ -111,8 +113,9 @@ struct gl_device {
     GLuint no_vertices; // vertex array
     GLuint timestamp;   // query
     struct gl_queries queries;
-    char fault[256]; // the driver's first message since the last gl_check; "": none
-    bool is_lost;    // the driver reported a lost context, after which nothing more is logged
+    struct gl_fixed *fixed; // made by the first draw of a fixed function
+    char fault[256];        // the driver's first message since the last gl_check; "": none
+    bool is_lost; // the driver reported a lost context, after which nothing more is logged
 };
 
 struct gl_buf {
@@ -149,6 +152,9 @@ int gl_judge(const struct gl_search *search, int count, char *why, size_t why_si
 bool gl_is_driver_asked(const struct gl_egl *egl, char *why, size_t why_size);
 // Makes the search fail if the last opened device did not answer its queries.
 void gl_search_check(struct gl_search *search);
+// Opens another context on a device's display and makes it current. False, and one logged line, on
+// failure.
+bool gl_egl_beside(const struct gl_device *device, struct gl_egl *beside);
 void gl_egl_close(struct gl_egl *egl);
 
 // backend->functions
@@ -260,6 +266,11 @@ struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel 
 void gl_pass_destroy(struct rg_pass *pass);
 bool gl_pass_code(struct rg_pass *pass, void **bytes, size_t *size);
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run);
+
+// api/fixed/fixed.c: backend->fixed_draw, and the end of what it made.
+bool gl_fixed_draw(struct rg_device *device, const char *feature,
+                   const struct rg_fixed_state *state, struct rg_fixed_picture *picture);
+void gl_fixed_close(struct gl_device *device);
 
 // time.c
 bool gl_sync(struct rg_device *device);

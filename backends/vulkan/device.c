@@ -58,27 +58,13 @@ static bool choose_physical(struct vk_device *device, int index)
     return true;
 }
 
-static bool has_extension(VkPhysicalDevice physical, const char *name)
-{
-    uint32_t count = 0;
-    bool is_there = false;
-    vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL);
-    VkExtensionProperties *all = rg_alloc(count + 1, sizeof(*all), "extensions");
-    if (!all || vkEnumerateDeviceExtensionProperties(physical, NULL, &count, all) < VK_SUCCESS)
-        count = 0;
-    for (uint32_t i = 0; i < count; i++)
-        is_there = is_there || !strcmp(all[i].extensionName, name);
-    free(all);
-    return is_there;
-}
-
 // Whether a pixel's fragments may run in the order of items and read what it holds.
 static bool find_order(VkPhysicalDevice physical,
                        VkPhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT *order)
 {
     VkPhysicalDeviceFeatures2 able = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                                       .pNext = order};
-    if (!has_extension(physical, VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME))
+    if (!vk_has_extension(physical, VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME))
         return false;
     vkGetPhysicalDeviceFeatures2(physical, &able);
     order->rasterizationOrderDepthAttachmentAccess = VK_FALSE;
@@ -158,6 +144,7 @@ static bool vk_destroy(struct rg_device *device)
     if (vk->handle) {
         is_idle =
             vk_check(vkDeviceWaitIdle(vk->handle), "vkDeviceWaitIdle", "device", device->info.name);
+        vk_fixed_close(vk);
         vk_draw_close(vk);
         vk_batches_destroy(vk);
         vkDestroyQueryPool(vk->handle, vk->timestamp, NULL);
@@ -210,6 +197,7 @@ const struct rg_backend rg_backend_vulkan = {
     .pass_destroy = vk_pass_destroy,
     .pass_code = vk_pass_code,
     .pass_run = vk_pass_run,
+    .fixed_draw = vk_fixed_draw,
     .sync = vk_sync,
     .time = vk_time,
 };

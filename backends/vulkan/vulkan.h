@@ -66,6 +66,7 @@ struct vk_family {
 enum { VK_COLOURS = RG_RGBA32F + 1, VK_DEPTHS = 2, VK_BLENDS = 2 };
 
 struct vk_framebuffer;
+struct vk_fixed; // backends/vulkan/api/fixed/fixed.h
 
 struct vk_device {
     struct rg_device pub;
@@ -94,6 +95,7 @@ struct vk_device {
     struct vk_framebuffer *framebuffers;                          // likewise; a list
     struct rg_buf *no_samples; // bound by draws that count nothing; made with the first DRAW pass
     struct rg_image *no_depth;
+    struct vk_fixed *fixed;                    // made by the first draw of a fixed function
     PFN_vkSetDebugUtilsObjectNameEXT set_name; // NULL without the validation layer
 };
 
@@ -166,6 +168,7 @@ bool vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info
 struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
                            const VkPhysicalDeviceLimits *limits, uint64_t max_allocation_bytes,
                            VkResult *result);
+bool vk_has_extension(VkPhysicalDevice physical, const char *name);
 
 // api/error.c
 const char *vk_result_name(VkResult result);
@@ -314,6 +317,11 @@ struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel 
 void vk_pass_destroy(struct rg_pass *pass);
 bool vk_pass_code(struct rg_pass *pass, void **bytes, size_t *size);
 bool vk_pass_run(struct rg_pass *pass, const struct rg_run *run);
+
+// api/fixed/fixed.c: backend->fixed_draw, and the end of what it made.
+bool vk_fixed_draw(struct rg_device *device, const char *feature,
+                   const struct rg_fixed_state *state, struct rg_fixed_picture *picture);
+void vk_fixed_close(struct vk_device *device);
 
 // time.c
 bool vk_sync(struct rg_device *device);

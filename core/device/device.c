@@ -191,6 +191,17 @@ bool rg_device_time(struct rg_device *device, int64_t *time_ns)
     return rg_limits_allow_time(&device->info) && device->backend->time(device, time_ns);
 }
 
+bool rg_device_fixed_draw(struct rg_device *device, const char *feature,
+                          const struct rg_fixed_state *state, struct rg_fixed_picture *picture)
+{
+    if (!rg_limits_allow_fixed(&device->info))
+        return false;
+    rg_doing_begin("drawing feature", feature);
+    const bool ok = device->backend->fixed_draw(device, feature, state, picture);
+    rg_doing_waited();
+    return ok;
+}
+
 // More memory than this is counted before it is taken: taking it costs seconds, and counting costs
 // little.
 #define MOST_UNCOUNTED_BYTES ((int64_t)1 << 30)

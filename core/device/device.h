@@ -52,6 +52,12 @@ bool rg_device_sync(struct rg_device *device);
 // does. False, and one logged line, on failure; unsupported where the device has no clock.
 bool rg_device_time(struct rg_device *device, int64_t *time_ns);
 
+// Draws once through the driver's own pipeline, and waits. `feature` names the draw in messages.
+// False, and one logged line, on failure; unsupported where the API has no fixed functions. What a
+// device lacks for this draw alone stands in picture->lacks, and is no failure.
+bool rg_device_fixed_draw(struct rg_device *device, const char *feature,
+                          const struct rg_fixed_state *state, struct rg_fixed_picture *picture);
+
 // Begins to measure the memory of things that are opened after this call and closed before
 // rg_room_end. `room` is RG_ROOM_COUNTED, or RG_ROOM_WATCHED, which takes the memory unless it
 // exceeds a quarter of what is left, or a GiB. Nothing is logged while objects are only counted.

@@ -132,3 +132,10 @@ bool rg_limits_allow_time(const struct rg_device_info *info)
     return info->limits.has_clock ||
            rg_unsupported("device '%s': its driver has no clock; use wall clock", info->name);
 }
+
+bool rg_limits_allow_fixed(const struct rg_device_info *info)
+{
+    return info->limits.has_fixed ||
+           rg_unsupported("device '%s': has no fixed functions, for it draws by its own programs",
+                          info->name);
+}

@@ -20,5 +20,6 @@ bool rg_limits_allow_kernel(const struct rg_device_info *info, const struct rg_k
 bool rg_limits_allow_draw(const struct rg_device_info *info, const struct rg_kernel *kernel,
                           const struct rg_draw *draw);
 bool rg_limits_allow_time(const struct rg_device_info *info);
+bool rg_limits_allow_fixed(const struct rg_device_info *info);
 
 #endif

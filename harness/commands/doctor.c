@@ -12,6 +12,7 @@
 #include "harness/devices/names.h"
 #include "harness/doctor/compile.h"
 #include "harness/doctor/doctor.h"
+#include "harness/doctor/fixed.h"
 #include "harness/doctor/prologue.h"
 #include "harness/record/passport/passport.h"
 #include "harness/devices/workers/worker.h"
@@ -21,6 +22,7 @@ struct doctor_options {
     char *kernels; // to compile; NULL: devices are examined
     int timeout_s;
     int64_t memory_bytes;
+    bool fixed_function;
     bool json, prologue;
 };
 
@@ -36,11 +38,15 @@ static const struct rg_option options[] = {
               "kernel needs no input. Names them with commas, or all. Prints those that a driver "
               "cannot compile",
      .offset = AT(kernels)},
+    {RG_OPTION_FLAG, "fixed-function", .excludes = "kernels",
+     .about = "draws one fixed function after the other instead, through each driver's own "
+              "pipeline, and prints a digest of each",
+     .offset = AT(fixed_function)},
     {RG_OPTION_FLAG, "prologue",
      .about = "prints no report, and ends with status 75 and one line if this machine should "
               "measure nothing now: others use its processors, they are slowed for heat, or a "
               "device is not well",
-     .offset = AT(prologue), .excludes = "kernels json"},
+     .offset = AT(prologue), .excludes = "kernels json fixed-function"},
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -182,6 +188,45 @@ static int prologue(struct rg_doctor_report *report, const struct doctor_options
     return exit == RG_EXIT_UNSUPPORTED ? exit : RG_EXIT_LATER;
 }
 
+static void print_fixed(json_t *devices, const struct rg_device_info *infos, int count, bool json)
+{
+    if (!json) {
+        rg_doctor_fixed_print(devices);
+        return;
+    }
+    json_t *root =
+        json_pack("{si so sO}", "format", 1, "passport",
+                  rg_doctor_fixed_passport(devices, infos, count), "fixed_functions", devices);
+    json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+    printf("\n");
+    json_decref(root);
+}
+
+// Passes where some device draws all that it can; a failure outweighs that.
+static int draw_fixed(const struct rg_doctor_report *report, const struct doctor_options *o)
+{
+    struct rg_device_info infos[RG_MAX_DEVICES];
+    json_t *devices = json_array();
+    int count = 0, exit = RG_EXIT_PASS;
+    bool any = false;
+    for (int i = 0; i < report->count; i++) {
+        infos[count] = (struct rg_device_info){0};
+        const int ended =
+            rg_doctor_fixed(report->examinations[i].info.name, &infos[count], devices);
+        count += *infos[count].name != 0;
+        any = any || ended == RG_EXIT_PASS;
+        if (ended != RG_EXIT_UNSUPPORTED)
+            exit = rg_exit_worse(exit, ended);
+    }
+    if (exit != RG_EXIT_USAGE)
+        print_fixed(devices, infos, count, o->json);
+    json_decref(devices);
+    if (exit == RG_EXIT_PASS && !any)
+        exit = RG_EXIT_UNSUPPORTED;
+    return strcmp(o->devices, "all") ? exit
+                                     : rg_exit_worse(exit, complain_of_listing(&report->list));
+}
+
 static int run(struct rg_doctor_report *report, const struct doctor_options *o)
 {
     rg_memory_allow(o->memory_bytes);
@@ -195,6 +240,8 @@ static int run(struct rg_doctor_report *report, const struct doctor_options *o)
         return compile(report, o);
     if (o->prologue)
         return prologue(report, o);
+    if (o->fixed_function)
+        return draw_fixed(report, o);
     if (!examine(report))
         return rg_exit_of_error();
     describe(report);
@@ -223,7 +270,7 @@ static int doctor(const void *values, const struct rg_words *arguments)
 const struct rg_command rg_command_doctor = {
     .name = "doctor",
     .reader = RG_FOR_DRIVERS,
-    .usage = "[--device D,...|all] [--kernels NAMES|all] [--prologue|--json]",
+    .usage = "[--device D,...|all] [--kernels NAMES|all] [--fixed-function] [--prologue|--json]",
     .about = "examines the machine and its drivers: arithmetic, drawing and timers",
     .options = options,
     .options_size = sizeof(struct doctor_options),

@@ -33,6 +33,7 @@
            named    a driver that is named wrongly is refused
            sides    a second driver in a folder runs, and keeps its code apart
            doctor   the report about this machine, and a timeline of frames
+           fixed    fixed functions of drivers, and what turns parts of them off
            pages    the manual page and bash's completion
            kept     the tables that the repository keeps
            install  what meson installs
@@ -60,6 +61,7 @@ import compiling
 import doctor
 import failing
 import farm
+import fixed
 import gates
 import installed
 import kept
@@ -111,6 +113,7 @@ SUITES = {
     "compiling": lambda runner: runner.check_all(compiling.CHECKS),
     "wrong": lambda runner: runner.check_all(wrong.CHECKS),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS + traces.CHECKS),
+    "fixed": lambda runner: runner.check_all(fixed.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),
     "kept": lambda runner: runner.check_all(kept.CHECKS),
     "install": lambda runner: runner.check_all(installed.CHECKS),

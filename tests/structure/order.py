@@ -30,6 +30,7 @@ FLOORS = [
     "core/device",
     "backends/asked",
     "backends",
+    "shaders/fixed",
     "core/base",
     "shaders",
     "kernels/T kernels/packing kernels/probe kernels/scan",
@@ -49,7 +50,7 @@ FENCES = {
     "core/scene": "core/image core/device core/base kernels/scenery kernels/dialect",
     "core/image": "core/base",
     # A backend runs any kernel, so it knows none.
-    "backends/B": "backends core/base kernels/dialect",
+    "backends/B": "backends shaders/fixed core/base kernels/dialect",
     "core/base": "",
     # A verdict follows from numbers alone, whoever measured them.
     "harness/judge": "core/base kernels/dialect",

@@ -272,6 +272,18 @@ void gl_search_check(struct gl_search *search)
          code);
 }
 
+bool gl_egl_beside(const struct gl_device *device, struct gl_egl *beside)
+{
+    struct gl_search search = {0};
+    *beside = device->egl;
+    pthread_mutex_lock(&displays_lock);
+    const bool ok = open_context(&search, beside);
+    if (ok)
+        displays[place_of(beside->display)].users++;
+    pthread_mutex_unlock(&displays_lock);
+    return ok || rg_driver_error("device '%s': %s", device->pub.info.name, search.why);
+}
+
 void gl_egl_close(struct gl_egl *egl)
 {
     pthread_mutex_lock(&displays_lock);

@@ -3,7 +3,10 @@
 
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "core/base/alloc.h"
 #include "kernels/dialect/draw/clip.h"
 
 static int at_most_int(uint64_t value)
@@ -86,6 +89,20 @@ static bool counts_exactly(VkPhysicalDevice device)
     return able.occlusionQueryPrecise;
 }
 
+bool vk_has_extension(VkPhysicalDevice physical, const char *name)
+{
+    uint32_t count = 0;
+    bool is_there = false;
+    vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL);
+    VkExtensionProperties *all = rg_alloc(count + 1, sizeof(*all), "extensions");
+    if (!all || vkEnumerateDeviceExtensionProperties(physical, NULL, &count, all) < VK_SUCCESS)
+        count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        is_there = is_there || !strcmp(all[i].extensionName, name);
+    free(all);
+    return is_there;
+}
+
 struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
                            const VkPhysicalDeviceLimits *l, uint64_t max_allocation_bytes,
                            VkResult *result)
@@ -112,6 +129,7 @@ struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *fami
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
         limits.formats[f] = format_limits(device, (enum rg_format)f, family->draws, result);
     limits.has_queries = family->draws && counts_exactly(device);
+    limits.has_fixed = family->draws;
     say_no_draws(device, l, family->draws, limits.no_draws, sizeof(limits.no_draws));
     return limits;
 }

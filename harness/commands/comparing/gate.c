@@ -19,6 +19,7 @@
 #include "harness/devices/drivers/side.h"
 #include "harness/devices/names.h"
 #include "harness/devices/workers/worker.h"
+#include "harness/measure/serving/fixed.h"
 #include "harness/record/disk/hold.h"
 #include "harness/record/output.h"
 
@@ -126,17 +127,23 @@ struct gate_input {
     struct rg_known known;
 };
 
-static bool add_names(const struct rg_gate_cells *cells, const char *device,
-                      struct rg_report *report)
+static bool add_name(const char *cell, const char *device, struct rg_report *report)
+{
+    char *name = rg_gate_case_name(cell, device);
+    const bool ok =
+        name &&
+        rg_report_add(report, &(struct rg_report_case){.name = name, .ending = RG_ENDING_SKIPPED});
+    free(name);
+    return ok;
+}
+
+static bool add_names(const struct gate_input *in, const char *device, struct rg_report *report)
 {
     bool ok = true;
-    for (int64_t i = 0; ok && i < cells->count; i++) {
-        char *name = rg_gate_case_name(&cells->cells[i], device);
-        ok = name && rg_report_add(report, &(struct rg_report_case){.name = name,
-                                                                    .ending = RG_ENDING_SKIPPED});
-        free(name);
-    }
-    return ok;
+    for (int64_t i = 0; ok && i < in->cells.count; i++)
+        ok = add_name(in->cells.cells[i].name, device, report);
+    return ok && (!rg_fixed_kept(in->baseline.passport, device) ||
+                  add_name(RG_GATE_FIXED, device, report));
 }
 
 static int list_cases(const struct gate_options *o, const struct gate_input *in)
@@ -144,7 +151,7 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
     struct rg_report report = {.case_count = 0};
     bool ok = true;
     for (int i = 0; ok && i < in->pairs.count; i++)
-        ok = add_names(&in->cells, in->pairs.all[i].names[RG_SIDE_B], &report);
+        ok = add_names(in, in->pairs.all[i].names[RG_SIDE_B], &report);
     if (ok)
         rg_gtest_list(stdout, &report, o->gtest.filter ? o->gtest.filter : "*");
     rg_report_free(&report);

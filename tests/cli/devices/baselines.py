@@ -195,7 +195,7 @@ def check_miscompiled(runner):
         again = gate(runner, files, files.path("wrong.json"), env={"RG_KERNEL_DIR": kernels})
     problems = []
     if result.returncode != 1 or {n: c["ending"] for n, c in found.items()} != {
-            "raster/torus.gl": "pass", "flow/pane.gl": "differs", "raster/torus.cpu": "pass", "flow/pane.cpu": "pass"}:
+            "raster/torus.gl": "pass", "flow/pane.gl": "differs", "fixed.gl": "pass", "raster/torus.cpu": "pass", "flow/pane.cpu": "pass"}:
         problems.append("exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
     if kept != ["a.exr", "a.png", "b.exr", "b.png", "difference.png", "flip.png"]:
         problems.append("pictures: %s" % kept)
@@ -416,9 +416,11 @@ def check_absent(runner):
     problems = []
     if kept.returncode != 1 or kept.stderr.count("\n") != 1 or "on 4 devices" not in kept.stdout:
         problems.append("made: exit status %d, %s%s" % (kept.returncode, kept.stdout, kept.stderr))
-    if absent.returncode != 1 or endings(json.loads(absent.stdout)) != {"raster/torus.cpu": "pass", "raster/torus.vulkan": "differs"}:
+    if absent.returncode != 1 or endings(json.loads(absent.stdout)) != {"raster/torus.cpu": "pass", "raster/torus.vulkan": "differs",
+                                                                    "fixed.vulkan": "unsupported"}:
         problems.append("exit status %d, %s" % (absent.returncode, absent.stdout))
-    if fallen.returncode != 1 or endings(json.loads(fallen.stdout)) != {"raster/torus.cpu": "pass", "raster/torus.vulkan": "crash"}:
+    if fallen.returncode != 1 or endings(json.loads(fallen.stdout)) != {"raster/torus.cpu": "pass", "raster/torus.vulkan": "crash",
+                                                                    "fixed.vulkan": "unsupported"}:
         problems.append("exit status %d, %s" % (fallen.returncode, fallen.stdout))
     return problems
 

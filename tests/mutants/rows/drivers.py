@@ -19,6 +19,11 @@ OWN_GL, OWN_VK = ("device suite, draws, gl, own blending",), ("device suite, dra
 
 MANIFESTS, OF_FAILING = "backends/manifests.c", ("command line, failing",)
 
+# Draws of fixed functions.
+OF_FIXED_GL, OF_FIXED_VK = ("fixed functions, gl",), ("fixed functions, vulkan",)
+GL_STATE, GL_TEXTURE, GL_TARGET = (f"backends/gl/api/fixed/{name}.c" for name in ("state", "texture", "target"))
+VK_PIPELINE, VK_TEXTURE, VK_RECORD = (f"backends/vulkan/api/fixed/{name}.c" for name in ("pipeline", "texture", "record"))
+
 ROWS = [
     Fault(MANIFESTS, "return walk->is_failing ? RG_LIST_FAILED : «RG_LIST_BROKEN»;", "RG_LIST_FAILED", "a file that is broken is the driver's fault", tests=OF_FAILING),
     Fault(MANIFESTS, "name another\", walk->named_by);\n        return «RG_LIST_BROKEN»;", "RG_LIST_FAILED", "a variable that names a driver without a device is the driver's fault", tests=OF_FAILING),
@@ -60,4 +65,20 @@ ROWS = [
     Fault(CL_BUF, "staged ? CL_FALSE : CL_TRUE,\n                                       «offset», size, staged", "0", "opencl: writes begin at 0", tests=OF_CL),
     Fault(CL_PASS, "return (width + group «- 1») / group * group;", "- group", "opencl: the last work group is left out", tests=OF_CL),
     Fault(CL_TIME, "*time_ns = (int64_t)end_ns;", "*time_ns = (int64_t)end_ns / 1000;", "opencl: time is in microseconds", tests=OF_CL),
+    Fault(GL_STATE, "enable(GL_DEPTH_CLAMP, «state->depth_clamp»);", "false", "gl: depth is never clamped", tests=OF_FIXED_GL),
+    Fault(GL_STATE, "glPolygonOffset((float)state->offset_slope_16 / 16, «(float)state->offset_units»);", "4.0f", "gl: every offset is 4 units", tests=OF_FIXED_GL),
+    Fault(GL_STATE, "glSampleMaski(0, «~(GLbitfield)state->samples_off»);", "~(GLbitfield)0", "gl: the sample mask is ignored", tests=OF_FIXED_GL),
+    Fault(GL_TEXTURE, "GL_TEXTURE_LOD_BIAS, «(float)state->bias_16 / 16»);", "0.0f", "gl: the bias of levels is ignored", tests=OF_FIXED_GL),
+    Fault(GL_TARGET, "state->blit == 1 + RG_FIXED_LINEAR ? «GL_LINEAR» : GL_NEAREST", "GL_NEAREST", "gl: a blit never filters", tests=OF_FIXED_GL),
+    Fault(VK_PIPELINE, ".depthClampEnable = «s->depth_clamp»,", "VK_FALSE", "vulkan: depth is never clamped", tests=OF_FIXED_VK),
+    Fault(VK_PIPELINE, ".pNext = s->provokes_last ? «&d->provoking» : NULL,", "NULL", "vulkan: the first vertex always provokes", tests=OF_FIXED_VK),
+    Fault(VK_TEXTURE, ".mipLodBias = «(float)s->bias_16 / 16»,", "0.0f", "vulkan: the bias of levels is ignored", tests=OF_FIXED_VK),
+    Fault(VK_RECORD, "fixed->begin_feedback(commands, 0, 0, NULL, NULL);\n    }\n    «call(job);»", ";", "vulkan: nothing is drawn", tests=OF_FIXED_VK),
+    Fault("shaders/fixed/parts.c", "if («size > texel && !memcmp(part, part + texel, size - texel)»)", "true", "every picture is constant", tests=OF_FIXED_GL + OF_FIXED_VK),
+    Fault("shaders/fixed/texels.c", "RG_FIXED_CONSTANT   ? «constant[i % 4]»", "(uint8_t)i", "a constant texture is not constant", tests=OF_FIXED_GL + OF_FIXED_VK),
+    Fault("harness/measure/serving/fixed.c", "if («told->digest != told->other»)", "false", "every closed case holds", tests=("fixed functions",)),
+    Fault("shaders/fixed/texels.c", "if («state->flip && layer == 0 && level == 0»)", "false", "no bit of a texture is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
+    Fault("shaders/fixed/vertices.c", "if («flip»)", "false", "no bit of a vertex is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
+    Fault("harness/doctor/fixed.c", "rg_exit_of_all(«counts»)", "(int[RG_OUTCOME_COUNT]){[RG_OK] = 1}", "a crash of a draw passes", tests=("command line, fixed",)),
+    Fault("core/device/device.c", "rg_doing_begin(\"drawing feature\", «feature»);", "\"\"", "a crash does not name its feature", tests=("command line, fixed",)),
 ]

@@ -5,6 +5,7 @@
 
 #include "core/base/text/add.h"
 #include "harness/compare/gate/baseline/baseline.h"
+#include "harness/measure/serving/fixed.h"
 #include "harness/record/passport/key.h"
 
 // Appends to the changes of a cell, in one line.
@@ -92,6 +93,42 @@ static void put_row(char line[LINE], const struct rg_baseline_row *then,
         put_times(line, rows, &then->launches, &now->launches);
 }
 
+// --- fixed functions ---
+
+static int print_digest(const char *device, const char *feature, const json_t *was,
+                        const json_t *is, FILE *out)
+{
+    if (json_equal(was, is))
+        return 0;
+    fprintf(out, "%c fixed function '%s' of %s: %s\n",
+            !was ? '+'
+            : is ? '~'
+                 : '-',
+            feature, device,
+            !was ? "new"
+            : is ? "another digest"
+                 : "gone");
+    return 1;
+}
+
+static int print_fixed(const json_t *then, const json_t *now, const char *device, FILE *out)
+{
+    json_t *was = (json_t *)rg_fixed_kept(then, device), *is = (json_t *)rg_fixed_kept(now, device);
+    const char *feature;
+    json_t *digest;
+    int count = 0;
+    json_object_foreach(is, feature, digest)
+    {
+        count += print_digest(device, feature, json_object_get(was, feature), digest, out);
+    }
+    json_object_foreach(was, feature, digest)
+    {
+        if (!json_object_get(is, feature))
+            count += print_digest(device, feature, digest, NULL, out);
+    }
+    return count;
+}
+
 // --- all changes ---
 
 static int print_devices(const struct rg_baseline *then, const struct rg_baseline *now, FILE *out)
@@ -137,6 +174,8 @@ int rg_baseline_print_changes(const struct rg_baseline *then, const struct rg_ba
                               FILE *out)
 {
     int count = print_devices(then, now, out);
+    for (int i = 0; i < now->device_count; i++)
+        count += print_fixed(then->passport, now->passport, now->devices[i].name, out);
     for (int64_t i = 0; i < now->count; i++)
         count += print_row(then, now, &now->rows[i], out);
     for (int64_t i = 0; i < then->count; i++) {

@@ -7,6 +7,7 @@
 #include "core/base/log.h"
 #include "harness/console/interrupt.h"
 #include "harness/console/progress.h"
+#include "harness/measure/serving/fixed.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
 
@@ -68,6 +69,18 @@ static bool take_all(struct make *m, const struct rg_devices *devices, struct rg
         }
     m->clean = rg_truth_close(&truth) && m->clean;
     return ok;
+}
+
+static bool take_fixed(struct make *m, const struct rg_devices *devices, struct rg_progress *bar)
+{
+    for (int i = 0; i < devices->count && !rg_interrupted(); i++) {
+        struct rg_device *device = devices->devices[i];
+        rg_progress_label(bar, "fixed functions on %s", device->info.name);
+        json_t *digests = rg_fixed_digests(device);
+        rg_fixed_put(m->made->passport, device->info.name, digests);
+        json_decref(digests);
+    }
+    return !rg_interrupted();
 }
 
 // --- times ---
@@ -156,7 +169,8 @@ bool rg_baseline_make(const struct rg_baseline_request *request, struct rg_devic
     const int64_t rows = request->cells->count * devices->count;
     rg_interrupt_watch();
     rg_progress_start(&bar, rows * (1 + request->launches));
-    bool ok = set_devices(baseline, devices) && take_all(&m, devices, &bar);
+    bool ok = set_devices(baseline, devices) && take_all(&m, devices, &bar) &&
+              take_fixed(&m, devices, &bar);
     m.clean = rg_devices_close(devices) && m.clean;
     ok = ok && (!request->launches || take_times(&m, &bar));
     rg_progress_end(&bar);

@@ -11,6 +11,7 @@
 #include "core/base/log.h"
 #include "core/base/text/place.h"
 #include "harness/compare/text/lines.h"
+#include "shaders/fixed/fixed.h"
 
 enum { MAX_SIZE_PX = 16384, MAX_FRAMES = 100000 };
 
@@ -211,4 +212,14 @@ void rg_digest_of_cell(const struct rg_gate_cell *cell, char digest[RG_DIGEST_SI
         hash = XXH3_64bits_withSeed(line, strlen(line), hash);
     }
     snprintf(digest, RG_DIGEST_SIZE, "%016" PRIx64, hash);
+}
+
+const char *rg_gate_fixed_cell(int draw)
+{
+    static char names[RG_FIXED_MAX_DRAWS][RG_GATE_NAME_SIZE];
+    snprintf(names[draw], RG_GATE_NAME_SIZE, "%s/%s", RG_GATE_FIXED, rg_fixed_draws[draw].feature);
+    for (char *c = names[draw]; *c; c++)
+        if (*c == ' ')
+            *c = '-';
+    return names[draw];
 }

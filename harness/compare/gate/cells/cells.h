@@ -29,6 +29,11 @@ bool rg_gate_cells_of(const char *name, const char *text, size_t size, struct rg
 const struct rg_gate_cell *rg_gate_cells_find(const struct rg_gate_cells *cells, const char *name);
 void rg_gate_cells_free(struct rg_gate_cells *cells);
 
+// A device's fixed functions are cells of a gate too, each by its place in rg_fixed_draws:
+// "fixed/mip-nearest". All of them together are RG_GATE_FIXED.
+#define RG_GATE_FIXED "fixed"
+const char *rg_gate_fixed_cell(int draw);
+
 // Digests: equal for equal things.
 enum { RG_DIGEST_SIZE = 17 };
 

@@ -5,12 +5,15 @@
 
 #include "core/base/log.h"
 #include "harness/compare/gate/text/glob.h"
+#include "shaders/fixed/fixed.h"
 
 static bool is_of_none(const struct rg_expectation *row, const struct rg_gate_cells *cells)
 {
     bool any = false;
     for (int64_t i = 0; !any && i < cells->count; i++)
         any = rg_glob(row->cell, cells->cells[i].name);
+    for (int i = 0; !any && i < rg_fixed_count(); i++)
+        any = rg_glob(row->cell, rg_gate_fixed_cell(i));
     return !any;
 }
 

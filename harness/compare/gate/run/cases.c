@@ -2,11 +2,25 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "harness/compare/gate/report/texts.h"
 #include "harness/compare/text/shell.h"
 #include "harness/devices/names.h"
+
+char *rg_gate_case_name(const char *cell, const char *device)
+{
+    const size_t size = strlen(cell) + strlen(device) + 2;
+    char *name = rg_alloc(size, 1, "gate"), *clean;
+    if (!name)
+        return NULL;
+    snprintf(name, size, "%s.%s", cell, device);
+    clean = rg_texts_clean(name, true);
+    free(name);
+    return clean;
+}
 
 const char *rg_gate_case_device(const struct rg_gate_case *c)
 {

@@ -60,6 +60,11 @@ struct rg_gate_case {
     char (*paths)[PATH_MAX]; // of the written pictures; owned by the gate
 };
 
+// The name of a cell's case on B: "streaks/rain.vulkan@VK_DRIVER_FILES=new.json". Characters that a
+// report cannot hold are replaced, so that filters use the names that lists show. The caller frees
+// it. NULL, and one logged line, without memory.
+char *rg_gate_case_name(const char *cell, const char *device);
+
 // The device whose case this is.
 const char *rg_gate_case_device(const struct rg_gate_case *of);
 // Finds the case's expectation, by B's driver if B is open.

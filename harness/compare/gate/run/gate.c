@@ -8,30 +8,19 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/cells/unused.h"
-#include "harness/compare/gate/report/texts.h"
 #include "harness/compare/gate/run/agree.h"
+#include "harness/compare/gate/run/fixed.h"
 #include "harness/compare/gate/run/timing.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/names.h"
+#include "harness/measure/serving/fixed.h"
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
 
 // --- choosing cells ---
-
-char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
-{
-    const size_t size = strlen(cell->name) + strlen(device) + 2;
-    char *name = rg_alloc(size, 1, "gate"), *clean;
-    if (!name)
-        return NULL;
-    snprintf(name, size, "%s.%s", cell->name, device);
-    clean = rg_texts_clean(name, true);
-    free(name);
-    return clean;
-}
 
 // Whether the filter selects a case of this name, and the shard includes it.
 static bool is_chosen(struct rg_running_gate *r, const char *name)
@@ -48,7 +37,7 @@ static bool add_case(struct rg_running_gate *r, const struct rg_gate_cell *cell,
     const struct rg_baseline *baseline = r->asked->baseline;
     struct rg_side *sides = &r->sides[pair * RG_SIDES];
     const char *device = sides[RG_SIDE_B].name;
-    char *name = rg_gate_case_name(cell, device);
+    char *name = rg_gate_case_name(cell->name, device);
     if (!name || !is_chosen(r, name)) {
         free(name);
         return name != NULL;
@@ -66,6 +55,19 @@ static bool add_case(struct rg_running_gate *r, const struct rg_gate_cell *cell,
     return true;
 }
 
+// The fixed functions of a device are one more case if the baseline has digests of them.
+static bool add_fixed(struct rg_running_gate *r, int pair)
+{
+    const int b = pair * RG_SIDES + RG_SIDE_B;
+    const struct rg_baseline *baseline = r->asked->baseline;
+    if (!baseline || !rg_fixed_kept(baseline->passport, r->sides[b].name))
+        return true;
+    char *name = rg_gate_case_name(RG_GATE_FIXED, r->sides[b].name);
+    r->has_fixed[b] = name && is_chosen(r, name);
+    free(name);
+    return name;
+}
+
 // All pairs become sides, even those without a chosen case.
 static bool choose(struct rg_running_gate *r)
 {
@@ -79,9 +81,11 @@ static bool choose(struct rg_running_gate *r)
         const char *name = pairs->all[i / RG_SIDES].names[i % RG_SIDES];
         r->sides[i].name = *name ? name : NULL;
     }
-    for (int pair = 0; pair < pairs->count; pair++)
+    for (int pair = 0; ok && pair < pairs->count; pair++) {
         for (int64_t i = 0; ok && i < cells->count; i++)
             ok = add_case(r, &cells->cells[i], pair);
+        ok = ok && add_fixed(r, pair);
+    }
     return ok;
 }
 
@@ -228,16 +232,11 @@ static bool launch_for(struct rg_running_gate *r, struct rg_gate_case *c)
     return true;
 }
 
-static bool is_over(const struct rg_running_gate *r)
-{
-    return r->end_ms > 0 && rg_now_ms() >= r->end_ms;
-}
-
 static void compare(struct rg_running_gate *r, struct rg_gate_case *c)
 {
     const double start_ms = rg_now_ms();
     // The first is compared in any case, so that it is known how long that takes.
-    const bool over = is_over(r) && c != r->gate->cases, there = !over && launch_for(r, c);
+    const bool over = rg_gate_is_over(r) && c != r->gate->cases, there = !over && launch_for(r, c);
     rg_gate_case_expect(c, r->asked);
     c->is_compared = there && !c->is_skipped;
     c->is_over = over && !c->is_skipped;
@@ -283,7 +282,7 @@ static void expect_look(struct rg_running_gate *r, const struct rg_gate_case *ca
     for (int i = 0; i < count; i++)
         compared += !cases[i].is_over;
     const double compare_ms = (rg_now_ms() - r->start_ms) * count / fmax(compared, 1);
-    if (is_over(r))
+    if (rg_gate_is_over(r))
         r->look_ms = fmax(r->look_ms, compare_ms * (1 + first_look(r)));
 }
 
@@ -302,7 +301,7 @@ static bool run_all(struct rg_running_gate *r)
         expect_look(r, &cases[i], end - i);
         ok = rg_gate_time(r, &cases[i], end - i);
     }
-    return ok && (rg_interrupted() || rg_gate_report(r->asked, r->gate));
+    return ok && (rg_interrupted() || (rg_gate_report(r->asked, r->gate) && rg_gate_hold_fixed(r)));
 }
 
 // The enum rg_exit of the findings. A budget in which no case came as far as its first look is

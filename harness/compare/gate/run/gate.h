@@ -13,15 +13,11 @@ struct rg_gate {
     int case_count;
     struct rg_gate_case *cases;
     int64_t result_count;
-    struct rg_known_result *results; // for rg_known_mend: cases, and cells that were left out
-    char *note;                      // text for people above the report; owned
+    struct rg_known_result *results;   // for rg_known_mend: cases, and cells that were left out
+    char *note;                        // text for people above the report; owned
+    char drivers[RG_MAX_DEVICES][160]; // of results of fixed functions
 };
 void rg_gate_free(struct rg_gate *gate);
-
-// The name of a cell's case on B: "streaks/rain.vulkan@VK_DRIVER_FILES=new.json". Characters that a
-// report cannot hold are replaced, so that filters use the names that lists show. The caller frees
-// it. NULL, and one logged line, without memory.
-char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device);
 
 // Runs the gate: compares first, then times. A baseline's times are compared if the device's
 // comparison key is the same; otherwise they are reported together with the yardsticks, and fail

@@ -7,6 +7,7 @@
 #include "core/base/log.h"
 #include "harness/console/exit.h"
 #include "harness/devices/names.h"
+#include "shaders/fixed/fixed.h"
 
 // The result of a cell that did not run on a device.
 static struct rg_known_result unknown(const char *cell, const char *device)
@@ -21,7 +22,8 @@ static struct rg_known_result unknown(const char *cell, const char *device)
 static bool make_results(const struct rg_gate_request *asked, struct rg_gate *gate)
 {
     const int64_t left = asked->left.count * asked->cells->count;
-    const size_t count = (size_t)(gate->case_count + left);
+    const int64_t fixed = asked->baseline ? asked->pairs->count * RG_FIXED_MAX_DRAWS : 0;
+    const size_t count = (size_t)(gate->case_count + left + fixed);
     gate->results = rg_alloc(count ? count : 1, sizeof(*gate->results), "gate");
     for (int64_t i = 0; gate->results && i < left; i++)
         gate->results[gate->result_count++] =

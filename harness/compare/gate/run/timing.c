@@ -7,11 +7,17 @@
 #include "core/base/alloc.h"
 #include "core/base/text/add.h"
 #include "harness/compare/gate/run/agree.h"
+#include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 
 int rg_gate_courses(const struct rg_running_gate *r)
 {
     return r->asked->baseline ? 1 : r->asked->pairs->count;
+}
+
+bool rg_gate_is_over(const struct rg_running_gate *r)
+{
+    return r->end_ms > 0 && rg_now_ms() >= r->end_ms;
 }
 
 // Cases that are timed in one course.

@@ -18,8 +18,9 @@ struct rg_running_gate {
     struct rg_device_info infos[RG_GATE_MOST_SIDES]; // of the sides that are present
     json_t *passport;                                // of the sides that are present
     // For sides that are present and run alone.
-    json_t *parts[RG_GATE_MOST_SIDES]; // of their comparison keys
-    bool same_key[RG_GATE_MOST_SIDES]; // equal to the baseline's key
+    json_t *parts[RG_GATE_MOST_SIDES];  // of their comparison keys
+    bool same_key[RG_GATE_MOST_SIDES];  // equal to the baseline's key
+    bool has_fixed[RG_GATE_MOST_SIDES]; // its fixed functions are among the cases
     struct rg_truth truth;
     struct rg_launches yardsticks[RG_YARDSTICKS];
     double start_ms, end_ms;         // of the pair that runs; end 0: no limit
@@ -31,6 +32,8 @@ struct rg_running_gate {
 
 // How many courses share the budget and the error: one with a baseline.
 int rg_gate_courses(const struct rg_running_gate *run);
+// Whether the time of the pair that runs is over.
+bool rg_gate_is_over(const struct rg_running_gate *run);
 // Times the cases of a pair, or all that run alone, and notes when a first look was due.
 bool rg_gate_time(struct rg_running_gate *run, struct rg_gate_case *cases, int count);
 

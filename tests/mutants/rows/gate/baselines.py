@@ -8,7 +8,17 @@ COMPARE, RUN = "harness/compare/gate/run/agree.c", "harness/compare/gate/run/gat
 CHANGES, MAKE, TAKE = "harness/compare/gate/baseline/changes.c", "harness/compare/gate/baseline/make.c", "harness/compare/gate/baseline/take.c"
 COMMAND, ALIKE = "harness/commands/comparing/baseline.c", "harness/compare/gate/sides/alike.c"
 
+FIXED, FUNCTIONS, OF_FIXED = "harness/compare/gate/run/fixed.c", "harness/measure/serving/fixed.c", ("command line, fixed",)
+
 ROWS = [
+    Fault(FIXED, "const bool same = «was && is && !strcmp(was, is)»;", "true", "every digest of a fixed function is the baseline's", tests=OF_FIXED),
+    Fault(FIXED, "if («*why»)\n        return skip(&h, RG_ENDING_SKIPPED", "false", "digests of another processor are compared", tests=OF_FIXED),
+    Fault(FIXED, "rest + («llvm ? strspn(rest, \"0123456789.\") : 0»)", "0", "digests of another LLVM are not compared", tests=OF_FIXED),
+    Fault(FIXED, "if (!was || (same && «row < 0»))", "true", "an expectation of a fixed function never passes unexpectedly", tests=OF_FIXED),
+    Fault("harness/compare/gate/cells/unused.c", "any = «rg_glob(row->cell, rg_gate_fixed_cell(i))»;", "false", "an expectation of a fixed function is said to be of no cell", tests=OF_FIXED),
+    Fault(CHANGES, "    if («json_equal(was, is)»)\n        return 0;", "true", "another digest is no change of a baseline", tests=OF_FIXED),
+    Fault(FUNCTIONS, "if («told->digest == told->other»)", "false", "a draw that leaves what its neighbour does is kept", tests=OF_FIXED),
+    Fault(FUNCTIONS, "else if («told->is_constant»)", "false", "a picture that is the same everywhere is kept", tests=OF_FIXED),
     Fault(BASELINE, "«strchr(name, '@')» && rg_baseline_asks", "false", "a baseline starts programs"),
     Fault(FILE, "!read_format(&r, document) || «!rg_document_unseal(path, document, true, why)»)", "(json_object_del(document, \"checksum\"), false)", "a baseline that was edited is taken"),
     Fault(FILE, "return «format == RG_BASELINE_FORMAT» ||", "true", "a baseline of another version is taken"),

@@ -1,0 +1,189 @@
+#include "harness/measure/serving/fixed.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "core/base/alloc.h"
+#include "harness/console/interrupt.h"
+#include "harness/devices/workers/device.h"
+#include "harness/measure/serving/services.h"
+
+// --- a draw ---
+
+const struct rg_field rg_fixed_fields[] = {
+    RG_FIELD_TEXT(struct rg_fixed_told, lacks),
+    RG_FIELD_BYTES(struct rg_fixed_told, digest),
+    RG_FIELD_BYTES(struct rg_fixed_told, other),
+    RG_FIELD_FLAG(struct rg_fixed_told, is_constant),
+    RG_FIELDS_END,
+};
+
+static bool digest(struct rg_device *device, const char *feature,
+                   const struct rg_fixed_state *state, struct rg_fixed_picture *picture,
+                   uint64_t *hash)
+{
+    picture->size = 0;
+    picture->is_constant = false;
+    if (!rg_device_fixed_draw(device, feature, state, picture))
+        return false;
+    *hash = XXH3_64bits(picture->bytes, picture->size);
+    return true;
+}
+
+struct pair {
+    const char *feature;
+    struct rg_fixed_state first, other;
+};
+
+static struct pair pair_of(int row)
+{
+    const int draws = rg_fixed_count();
+    if (row < draws)
+        return (struct pair){rg_fixed_draws[row].feature, rg_fixed_draws[row].state,
+                             rg_fixed_neighbour(&rg_fixed_draws[row])};
+    const struct rg_fixed_closed *closed = &rg_fixed_closed[row - draws];
+    return (struct pair){closed->feature, closed->state, closed->same};
+}
+
+int rg_fixed_pairs(void)
+{
+    return rg_fixed_count() + rg_fixed_closed_count();
+}
+
+static bool take(struct rg_device *device, const struct pair *pair,
+                 struct rg_fixed_picture *picture, struct rg_fixed_told *told)
+{
+    if (!digest(device, pair->feature, &pair->first, picture, &told->digest))
+        return false;
+    told->is_constant = !picture->size || picture->is_constant;
+    if (!picture->lacks[0] && !digest(device, pair->feature, &pair->other, picture, &told->other))
+        return false;
+    snprintf(told->lacks, sizeof(told->lacks), "%s", picture->lacks);
+    return true;
+}
+
+bool rg_fixed_take(struct rg_device *device, int row, struct rg_fixed_told *told)
+{
+    struct rg_fixed_picture picture = {.bytes = rg_alloc(1, RG_FIXED_PICTURE_BYTES, "picture"),
+                                       .room = RG_FIXED_PICTURE_BYTES};
+    const struct pair pair = pair_of(row);
+    const bool ok = picture.bytes && take(device, &pair, &picture, told);
+    free(picture.bytes);
+    return ok;
+}
+
+bool rg_serve_fixed(struct rg_message *request, struct rg_message *reply)
+{
+    struct rg_fixed_told told = {0};
+    struct rg_device *device = rg_served_device(rg_take_text(request));
+    const int row = rg_take_index(request, rg_fixed_pairs());
+    if (!device || request->failed || !rg_fixed_take(device, row, &told))
+        return false;
+    rg_put_fields(reply, rg_fixed_fields, &told);
+    return true;
+}
+
+bool rg_fixed_ask(struct rg_device *device, int row, struct rg_fixed_told *told)
+{
+    struct rg_worker *worker = rg_remote_worker(device);
+    struct rg_message request = {0};
+    *told = (struct rg_fixed_told){0};
+    if (!worker)
+        return rg_fixed_take(device, row, told);
+    rg_put_text(&request, device->info.full);
+    rg_put_int(&request, row);
+    const bool ok = rg_worker_fetch(worker, RG_CALL_FIXED, &request, rg_fixed_fields, told);
+    rg_message_free(&request);
+    return ok;
+}
+
+struct rg_failure rg_fixed_failure(struct rg_device *device)
+{
+    const struct rg_failure failure = rg_failure_take();
+    rg_worker_renew(rg_remote_worker(device));
+    return failure;
+}
+
+static void judge_draw(const struct rg_fixed_draw *draw, const struct rg_fixed_told *told,
+                       char why[RG_FIXED_WHY])
+{
+    if (told->digest == told->other)
+        snprintf(why, RG_FIXED_WHY, "leaves what its neighbour does, whose %s is %d", draw->field,
+                 draw->to);
+}
+
+static void judge_closed(const struct rg_fixed_closed *closed, const struct rg_fixed_told *told,
+                         char why[RG_FIXED_WHY])
+{
+    if (told->digest != told->other)
+        snprintf(why, RG_FIXED_WHY, "does not hold: %s", closed->about);
+}
+
+enum rg_outcome rg_fixed_judge(int row, const struct rg_fixed_told *told, char why[RG_FIXED_WHY])
+{
+    const int draws = rg_fixed_count();
+    *why = 0;
+    if (*told->lacks)
+        snprintf(why, RG_FIXED_WHY, "lacks %s", told->lacks);
+    else if (told->is_constant)
+        snprintf(why, RG_FIXED_WHY, "leaves a picture that is the same everywhere");
+    else if (row < draws)
+        judge_draw(&rg_fixed_draws[row], told, why);
+    else
+        judge_closed(&rg_fixed_closed[row - draws], told, why);
+    return *told->lacks ? RG_UNSUPPORTED : *why ? RG_FAIL : RG_OK;
+}
+
+// --- digests of a device ---
+
+json_t *rg_fixed_hash(uint64_t hash)
+{
+    return json_sprintf("%016" PRIx64, hash);
+}
+
+json_t *rg_fixed_digests(struct rg_device *device)
+{
+    const int count = device->info.limits.has_fixed ? rg_fixed_count() : 0;
+    json_t *digests = NULL;
+    for (int i = 0; i < count && !rg_interrupted(); i++) {
+        struct rg_fixed_told told;
+        char why[RG_FIXED_WHY];
+        if (!rg_fixed_ask(device, i, &told)) {
+            rg_fixed_failure(device);
+        } else if (rg_fixed_judge(i, &told, why) == RG_OK) {
+            digests = digests ? digests : json_object();
+            json_object_set_new(digests, rg_fixed_draws[i].feature, rg_fixed_hash(told.digest));
+        }
+    }
+    return digests;
+}
+
+static json_t *find(const json_t *passport, const char *name)
+{
+    size_t i;
+    json_t *device;
+    json_array_foreach(json_object_get(passport, "devices"), i, device)
+    {
+        const char *its = json_string_value(json_object_get(device, "name"));
+        if (its && !strcmp(its, name))
+            return device;
+    }
+    return NULL;
+}
+
+static const char key[] = "fixed_functions";
+
+void rg_fixed_put(json_t *passport, const char *device, json_t *digests)
+{
+    if (digests)
+        json_object_set(find(passport, device), key, digests);
+}
+
+const json_t *rg_fixed_kept(const json_t *passport, const char *device)
+{
+    const json_t *digests = json_object_get(find(passport, device), key);
+    return json_is_object(digests) ? digests : NULL;
+}

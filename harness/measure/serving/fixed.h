@@ -1,0 +1,48 @@
+// Draws of fixed functions in pairs, on the device of a worker: a draw and its neighbour, which
+// must differ, or the two ways of a closed case, which must not.
+#ifndef RG_HARNESS_MEASURE_SERVING_FIXED_H
+#define RG_HARNESS_MEASURE_SERVING_FIXED_H
+
+#include <jansson.h>
+
+#include "core/base/log.h"
+#include "core/device/device.h"
+#include "harness/devices/workers/fields.h"
+
+struct rg_fixed_told {
+    char lacks[80];         // what the device lacks for either; "": nothing
+    uint64_t digest, other; // XXH3 of all that each left
+    bool is_constant;       // a part of the first is the same everywhere
+};
+
+extern const struct rg_field rg_fixed_fields[];
+
+// A pair has a row: those of rg_fixed_draws come first, then those of rg_fixed_closed.
+int rg_fixed_pairs(void);
+
+// Draws a pair. False, and one logged line, on failure.
+bool rg_fixed_take(struct rg_device *device, int row, struct rg_fixed_told *told);
+
+// The same in the device's worker, or here if it has none.
+bool rg_fixed_ask(struct rg_device *device, int row, struct rg_fixed_told *told);
+// After a failure of rg_fixed_ask, which has been logged: takes it, and starts the device's worker
+// again, which may have ended.
+struct rg_failure rg_fixed_failure(struct rg_device *device);
+
+enum { RG_FIXED_WHY = 300 };
+// Judges a pair: OK; unsupported; or fail, where the first picture is the same everywhere, a draw
+// leaves what its neighbour does, or a closed case does not hold. `why` says so in one line; "":
+// OK.
+enum rg_outcome rg_fixed_judge(int row, const struct rg_fixed_told *told, char why[RG_FIXED_WHY]);
+
+// A digest in 16 hexadecimal digits.
+json_t *rg_fixed_hash(uint64_t hash);
+// Draws rg_fixed_draws, and returns the digests of those that are OK by their features. NULL: none
+// is. One logged line for each draw that the driver fails. The caller releases it.
+json_t *rg_fixed_digests(struct rg_device *device);
+// Puts such digests, or NULL, into a device of a passport (harness/record/passport/passport.h).
+void rg_fixed_put(json_t *passport, const char *device, json_t *digests);
+// The digests in a passport; NULL: the device is not in it, or has none.
+const json_t *rg_fixed_kept(const json_t *passport, const char *device);
+
+#endif
