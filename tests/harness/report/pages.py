@@ -149,7 +149,7 @@ def check_pictures(raingauge, folder):
     os.mkfifo(inside / "pipe.png")
     names = ["pictures/a.png", "pictures/again.png", "text.png", "link.png", "pipe.png", "../out/secret.png", "../in2/secret.png", str(outside / "secret.png"), "none.png"]
     made.write(inside / "gate.json", made.gate(made.case("a", "differs", attachments=names)))
-    made.write(inside / "figures.md", "# Figures\n\n![a](pictures/a.png)\n\n**a.** Red, `all` of\nit.\n\n> What the\n> paper\n> says.\n\n    raingauge render\n\n![b](../out/secret.png)\n\nNone.\n")
+    made.write(inside / "figures.md", "# Figures\n\n![a](pictures/a.png)\n\n**a.** Red, `all` of\nit.\n\n> What the\npaper\n> says.\n\n    raingauge render\n\n![b](../out/secret.png)\n\nNone.\n")
     data = page_of(raingauge, inside, ".")
     problems = [] if sorted(data["files"]) == ["pictures/a.png", "pictures/again.png"] and len(data["pictures"]) == 1 else [data["files"]]
     if base64.b64decode(list(data["pictures"].values())[0].split(",")[1])[:4] != b"RIFF":

@@ -20,7 +20,7 @@ ROWS = [
     Fault(PICTURES, "(mark == '>' && «**at == '>'» &&", "true", "the paper's caption loses letters"),
     Fault(LINEAR, "worst = «spreads[i] > spreads[worst]» ? i : worst;", "spreads[i] > 0", "the last texel that differs counts as the worst", tests=VALUES),
     Fault(LINEAR, "return !differs ? 0 : «is_finite» ? most - least : INFINITY;", "true", "a texel that is no number is not the worst", tests=VALUES),
-    Fault(LINEAR, "memset(spreads + (int64_t)(«window->top + y») * picture->width", "window->y", "the three worst are one place", tests=VALUES),
+    Fault(LINEAR, "(size_t)«window->width» * sizeof(*spreads)", "1", "the three worst are one place", tests=VALUES),
     Fault(LINEAR, "const bool is_told = «number» && is_same", "true", "the first picture's values are left out", tests=VALUES),
     Fault(CODES, "config.exact = «1»;", "0", "colours of a transparent pixel are lost", tests=("pictures of the page",)),
     Fault(CODES, "if («memmem(png, size, \"acTL\", 4)»)", "false", "of an animation one frame is left", tests=("pictures of the page",)),
