@@ -122,11 +122,10 @@ static bool keep(struct finding *f, int64_t group, int machine, const char *path
     if (!rg_array_fit(&found->records, &found->room, found->count + 1, sizeof(*found->records),
                       "records"))
         return false;
-    char *copy = strdup(path);
-    if (!copy)
+    struct rg_farm_record *kept = &found->records[found->count];
+    *kept = (struct rg_farm_record){group, machine, strdup(path), found->first_of[group]};
+    if (!kept->path)
         return rg_harness_error("%s: no memory for its name; close other programs", path);
-    found->records[found->count] =
-        (struct rg_farm_record){group, machine, copy, found->first_of[group]};
     found->first_of[group] = found->count++;
     return true;
 }
