@@ -91,9 +91,10 @@ static bool tell(struct rg_farm_plan *plan, const char *path, int64_t known)
     const double all_s = rg_farm_sum(plan);
     const struct rg_farm_group *most = &plan->groups[largest(plan)];
     char all[RG_DURATION_TEXT], one[RG_DURATION_TEXT];
-    printf("%s: %lld cells in %lld groups, expected %s; the largest is %s, %s\n", path,
-           (long long)plan->cell_count, (long long)plan->group_count, rg_duration_text(all_s, all),
-           most->id, rg_duration_text(most->seconds, one));
+    printf("%s: %lld cell%s in %lld group%s, expected %s; the largest is %s, %s\n", path,
+           (long long)plan->cell_count, plan->cell_count == 1 ? "" : "s",
+           (long long)plan->group_count, plan->group_count == 1 ? "" : "s",
+           rg_duration_text(all_s, all), most->id, rg_duration_text(most->seconds, one));
     if (known < plan->cell_count)
         rg_warning("%lld of %lld cells are in no record, so that their times are guessed %s",
                    (long long)(plan->cell_count - known), (long long)plan->cell_count,

@@ -17,7 +17,7 @@ function diffPart(record, number, params) {
   const pairs = objectsOf(record.document.pairs), names = [...new Set(pairs.flatMap(p => [p.a, p.b]))], of = (x, y) => pairs.find(p => (p.a === x && p.b === y) || (p.a === y && p.b === x));
   const same = pairs.filter(p => p.tier === "T0").length;
   const tell = p => p ? [el("span", {class: "verdict " + (p.tier === "T0" ? "yes" : p.tier === "none" ? "no" : "bound")}, p.tier === "T0" ? "identical" : p.tier), p.tier === "T0" ? null : el("small", {}, `${(p.differing || 0).toLocaleString("en")} values, at most ${p.max} of 255`)] : "";
-  return part("Pictures of every two devices", el("p", {}, `${same} of ${plural(pairs.length, "pair")} are identical to the last bit.`),
+  return part("Pictures of every two devices", el("p", {}, `Identical to the last bit: ${same} of ${plural(pairs.length, "pair")}.`),
     sheet("How closely each two agree", ["device", ...names], names.map(x => [x, ...names.map(y => x === y ? "–" : tell(of(x, y)))])),
     devicePictures(record, number, params), pairs.filter(p => p.blame).map(p => el("p", {}, el("strong", {}, `${p.a} and ${p.b}: `), objectOf(p.blame).text || "")), objectsOf(record.document.failures).map(f => el("p", {class: "warn"}, `${f.device}: ${f.status}. ${f.detail || ""}`)), note(record.file));
 }
