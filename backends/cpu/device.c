@@ -87,7 +87,12 @@ static void describe(int index, struct rg_device_info *info)
     };
     snprintf(info->name, sizeof(info->name), index == INDEX_REFERENCE ? "cpu:reference" : "cpu");
     read_cpu_name(info->device, sizeof(info->device));
+#ifdef __clang__ // whose __VERSION__ is "Debian Clang 19.1.7 (3+b1)"
+    snprintf(info->driver, sizeof(info->driver), "clang %d.%d.%d", __clang_major__, __clang_minor__,
+             __clang_patchlevel__);
+#else
     snprintf(info->driver, sizeof(info->driver), "gcc %s", __VERSION__);
+#endif
     snprintf(info->api, sizeof(info->api), "C11, %s, %d thread%s", level->name,
              index == INDEX_REFERENCE ? 1 : omp_get_max_threads(),
              index == INDEX_REFERENCE || omp_get_max_threads() == 1 ? "" : "s");

@@ -49,6 +49,9 @@ def check_passport(runner):
     # raingauge sets GOMP_SPINCOUNT unless the user has.
     if passport["environment"] != dict(variables, GOMP_SPINCOUNT="8000"):
         problems.append("environment: %s" % passport["environment"])
+    driver, compiler = passport["devices"][0]["driver"], passport["raingauge"]["compiler"]
+    if not driver.startswith(compiler):
+        problems.append("driver of cpu: %s, and the compiler is %s" % (driver, compiler))
     if passport["raingauge"]["kernel_dir"] != "/nonexistent":
         problems.append("kernel_dir: %s" % passport["raingauge"]["kernel_dir"])
     if not re.match(r"[0-9a-f]{40}(-dirty)?$|unknown$", passport["raingauge"]["commit"]):
