@@ -52,7 +52,9 @@ static float *spreads_of(const struct rg_linear *linear)
     const struct rg_picture *first = &linear->pictures[0];
     const int64_t texels = (int64_t)first->width * first->height;
     float *spreads = malloc((size_t)texels * sizeof(*spreads));
-    for (int64_t i = 0; spreads && i < texels; i++) {
+    if (!spreads)
+        return NULL;
+    for (int64_t i = 0; i < texels; i++) {
         spreads[i] = 0;
         for (int c = 0; c < first->channels; c++)
             spreads[i] = fmaxf(spreads[i], spread_of(linear, i * first->channels + c));

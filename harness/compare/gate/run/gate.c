@@ -63,9 +63,10 @@ static bool add_fixed(struct rg_running_gate *r, int pair)
     if (!baseline || !rg_fixed_kept(baseline->passport, r->sides[b].name))
         return true;
     char *name = rg_gate_case_name(RG_GATE_FIXED, r->sides[b].name);
-    r->has_fixed[b] = name && is_chosen(r, name);
+    const bool is_named = name;
+    r->has_fixed[b] = is_named && is_chosen(r, name);
     free(name);
-    return name;
+    return is_named;
 }
 
 // All pairs become sides, even those without a chosen case.
