@@ -107,6 +107,14 @@ struct rg_failure rg_fixed_failure(struct rg_device *device)
     return failure;
 }
 
+bool rg_fixed_goes_on(const struct rg_device *device, int failed, int left)
+{
+    enum { MOST_FAILED = 2 };
+    return failed < MOST_FAILED || !left ||
+           rg_error("device '%s': %d draws of fixed functions failed, and %d more are not tried",
+                    device->info.name, failed, left);
+}
+
 static void judge_draw(const struct rg_fixed_draw *draw, const struct rg_fixed_told *told,
                        char why[RG_FIXED_WHY])
 {
@@ -144,15 +152,18 @@ json_t *rg_fixed_hash(uint64_t hash)
     return json_sprintf("%016" PRIx64, hash);
 }
 
-json_t *rg_fixed_digests(struct rg_device *device)
+json_t *rg_fixed_digests(struct rg_device *device, int *failed)
 {
     const int count = device->info.limits.has_fixed ? rg_fixed_count() : 0;
     json_t *digests = NULL;
-    for (int i = 0; i < count && !rg_interrupted(); i++) {
+    *failed = 0;
+    for (int i = 0; rg_fixed_goes_on(device, *failed, count - i) && i < count && !rg_interrupted();
+         i++) {
         struct rg_fixed_told told;
         char why[RG_FIXED_WHY];
         if (!rg_fixed_ask(device, i, &told)) {
             rg_fixed_failure(device);
+            ++*failed;
         } else if (rg_fixed_judge(i, &told, why) == RG_OK) {
             digests = digests ? digests : json_object();
             json_object_set_new(digests, rg_fixed_draws[i].feature, rg_fixed_hash(told.digest));

@@ -29,6 +29,10 @@ bool rg_fixed_ask(struct rg_device *device, int row, struct rg_fixed_told *told)
 // again, which may have ended.
 struct rg_failure rg_fixed_failure(struct rg_device *device);
 
+// Whether a device of which `failed` draws have failed in its driver draws on, with `left` pairs to
+// go. It does not after two, since each may take a whole timeout; one line is logged then.
+bool rg_fixed_goes_on(const struct rg_device *device, int failed, int left);
+
 enum { RG_FIXED_WHY = 300 };
 // Judges a pair: OK; unsupported; or fail, where the first picture is the same everywhere, a draw
 // leaves what its neighbour does, or a closed case does not hold. `why` says so in one line; "":
@@ -38,8 +42,9 @@ enum rg_outcome rg_fixed_judge(int row, const struct rg_fixed_told *told, char w
 // A digest in 16 hexadecimal digits.
 json_t *rg_fixed_hash(uint64_t hash);
 // Draws rg_fixed_draws, and returns the digests of those that are OK by their features. NULL: none
-// is. One logged line for each draw that the driver fails. The caller releases it.
-json_t *rg_fixed_digests(struct rg_device *device);
+// is. One logged line for each draw that the driver fails, of which `failed` gets the number. The
+// caller releases it.
+json_t *rg_fixed_digests(struct rg_device *device, int *failed);
 // Puts such digests, or NULL, into a device of a passport (harness/record/passport/passport.h).
 void rg_fixed_put(json_t *passport, const char *device, json_t *digests);
 // The digests in a passport; NULL: the device is not in it, or has none.

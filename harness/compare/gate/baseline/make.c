@@ -15,7 +15,7 @@ struct make {
     const struct rg_baseline_request *asked;
     struct rg_baseline *made;
     struct rg_side sides[RG_MAX_DEVICES];
-    bool clean;                  // no device was closed badly
+    bool clean;                  // no device was closed badly, or failed a fixed function
     struct rg_timed_cell *cells; // one per row; rows that are not OK are not timed
 };
 
@@ -71,12 +71,26 @@ static bool take_all(struct make *m, const struct rg_devices *devices, struct rg
     return ok;
 }
 
+static bool is_well(const struct make *m, int device)
+{
+    const int64_t cells = m->asked->cells->count;
+    bool well = true;
+    for (int64_t i = 0; i < cells; i++)
+        well &= m->made->rows[device * cells + i].outcome == RG_OK;
+    return well;
+}
+
+// A device that failed a cell has been told of, and its fixed functions are left alone.
 static bool take_fixed(struct make *m, const struct rg_devices *devices, struct rg_progress *bar)
 {
     for (int i = 0; i < devices->count && !rg_interrupted(); i++) {
         struct rg_device *device = devices->devices[i];
+        int failed;
+        if (!is_well(m, i))
+            continue;
         rg_progress_label(bar, "fixed functions on %s", device->info.name);
-        json_t *digests = rg_fixed_digests(device);
+        json_t *digests = rg_fixed_digests(device, &failed);
+        m->clean = m->clean && !failed;
         rg_fixed_put(m->made->passport, device->info.name, digests);
         json_decref(digests);
     }

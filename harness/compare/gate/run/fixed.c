@@ -125,7 +125,8 @@ static bool hold_all(struct held *h, struct rg_side *side)
         const enum rg_outcome outcome = rg_side_failure(&is_ours, why, sizeof(why));
         return add_case(h, RG_GATE_FIXED, rg_ending_of(outcome), why, 0);
     }
-    json_t *now = rg_fixed_digests(side->device);
+    int failed;
+    json_t *now = rg_fixed_digests(side->device, &failed);
     h->now = now;
     for (int i = 0; ok && i < rg_fixed_count() && !rg_interrupted(); i++)
         ok = hold(h, i);

@@ -18,6 +18,7 @@ ROWS = [
     Fault("harness/compare/gate/cells/unused.c", "any = «rg_glob(row->cell, rg_gate_fixed_cell(i))»;", "false", "an expectation of a fixed function is said to be of no cell", tests=OF_FIXED),
     Fault(CHANGES, "    if («json_equal(was, is)»)\n        return 0;", "true", "another digest is no change of a baseline", tests=OF_FIXED),
     Fault(FUNCTIONS, "if («told->digest == told->other»)", "false", "a draw that leaves what its neighbour does is kept", tests=OF_FIXED),
+    Fault(FUNCTIONS, "return failed < «MOST_FAILED»", "1000", "a driver that fails every draw is asked for all", tests=OF_FIXED),
     Fault(FUNCTIONS, "else if («told->is_constant»)", "false", "a picture that is the same everywhere is kept", tests=OF_FIXED),
     Fault(BASELINE, "«strchr(name, '@')» && rg_baseline_asks", "false", "a baseline starts programs"),
     Fault(FILE, "!read_format(&r, document) || «!rg_document_unseal(path, document, true, why)»)", "(json_object_del(document, \"checksum\"), false)", "a baseline that was edited is taken"),
