@@ -1,4 +1,4 @@
-#define _GNU_SOURCE // MAP_ANONYMOUS, usleep
+#define _GNU_SOURCE // MAP_ANONYMOUS, prlimit, usleep
 // A worker gives the harness a result, or a line that says how it ended.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -302,6 +303,18 @@ static void a_worker_that_is_killed_while_it_waits_crashed(void **state)
     assert_int_equal(result, 8);
 }
 
+// A crash leaves no core file, which would hold the driver's memory.
+static void a_crash_leaves_no_core_file(void **state)
+{
+    const struct rlimit large = {1 << 20, 1 << 20};
+    struct rlimit found = {1, 1};
+    int64_t process = 0;
+    setrlimit(RLIMIT_CORE, &large); // fails where the most is less
+    assert_int_equal(ask(*state, RG_CALL_LIST, 0, &process), RG_OK);
+    assert_int_equal(prlimit((pid_t)process, RLIMIT_CORE, NULL, &found), 0);
+    assert_true(found.rlim_cur == 0 && found.rlim_max == 0);
+}
+
 // With SIGCHLD ignored the kernel keeps no status of an ended process, so there is nothing to wait
 // for.
 static void an_end_is_seen_where_sigchld_is_ignored(void **state)
@@ -423,6 +436,7 @@ int main(int argc, char **argv)
         WITH_WORKER(the_end_is_seen_though_its_child_holds_the_channel),
         WITH_WORKER(it_lives_three_times),
         WITH_WORKER(a_worker_that_is_killed_while_it_waits_crashed),
+        WITH_WORKER(a_crash_leaves_no_core_file),
         WITH_WORKER(an_end_is_seen_where_sigchld_is_ignored),
         cmocka_unit_test(its_environment_stands_over_the_harness_s),
         cmocka_unit_test(another_build_is_asked_where_its_messages_are_the_same),

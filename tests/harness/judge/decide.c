@@ -140,6 +140,17 @@ static void test_coarse(void **state)
     }
 }
 
+// Of more launches than the shift takes, it takes some from all.
+static void test_shift_of_many(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    double logs[256];
+    for (int i = 0; i < 256; i++)
+        logs[i] = 0.0001 * ((i * 29) % 256 + 1);
+    assert_near(rg_gate_decide(&rule, logs, 256).shift, exp(0.0127), 0.0003);
+}
+
 // With a spread s, the error of a median of 64 launches is 1.2533 s / 8. With a tail of 0.025 the
 // interval must be 1.96 errors above 0, and 95 % power needs 1.645 errors more.
 static void test_what_could_be_seen(void **state)
@@ -236,11 +247,11 @@ static void test_coverage(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_quads),    cmocka_unit_test(test_interval),
-        cmocka_unit_test(test_verdicts), cmocka_unit_test(test_links),
-        cmocka_unit_test(test_coarse),   cmocka_unit_test(test_what_could_be_seen),
-        cmocka_unit_test(test_same),     cmocka_unit_test(test_slower),
-        cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_quads),         cmocka_unit_test(test_interval),
+        cmocka_unit_test(test_verdicts),      cmocka_unit_test(test_links),
+        cmocka_unit_test(test_coarse),        cmocka_unit_test(test_what_could_be_seen),
+        cmocka_unit_test(test_shift_of_many), cmocka_unit_test(test_same),
+        cmocka_unit_test(test_slower),        cmocka_unit_test(test_coverage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -341,6 +341,28 @@ static void test_rows_stay_apart(void **state)
     rg_result_free(&second);
 }
 
+// A table whose axis has another value, or print another number, takes no row of the first.
+static void test_other_values(void **state)
+{
+    struct rig *rig = *state;
+    char path[128];
+    json_decref(make_journal(rig, path));
+    static const double changed[][2] = {{1, 160}, {3, 160}, {1, 170}};
+    for (int i = 0; i < 3; i++) {
+        struct rg_table_row others[2] = {rows[0], rows[1]};
+        struct rg_table other = table;
+        struct rg_result result;
+        memcpy(others[0].values, changed[i], sizeof(changed[i]));
+        other.rows = others;
+        begin(rig, &result, 1);
+        struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, false);
+        assert_true(rg_table_add_row(&result, &other, 0));
+        assert_int_equal(rg_journal_take(journal, &result, 0), i == 0);
+        rg_result_free(&result);
+        rg_journal_close(journal);
+    }
+}
+
 // A row that is copied over another, and a number that is changed, are sound JSON of this run.
 static void test_changes(void **state)
 {
@@ -399,6 +421,23 @@ static int files_in(const char *folder)
     return count;
 }
 
+// A journal that cannot be written has no file that a run could go on from.
+static void test_unwritten(void **state)
+{
+    struct rig *rig = *state;
+    struct rg_result result;
+    begin(rig, &result, 0);
+    rig->messages = 0;
+    rg_log_listen(hear, rig);
+    struct rg_journal *journal = rg_journal_open(&result, "/dev/null/no folder", true, true);
+    assert_true(rg_table_measure(&result, &table, &rig->kept, journal, NULL, NULL));
+    rg_log_listen(NULL, NULL);
+    assert_null(rg_journal_path(journal));
+    assert_int_equal(rig->messages, 1);
+    rg_journal_close(journal);
+    rg_result_free(&result);
+}
+
 // A run that ends keeps its rows only if other tables follow; then they are removed.
 static void test_leaves_nothing(void **state)
 {
@@ -441,9 +480,10 @@ static void test_quick_settings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_resumes),    TEST(test_goes_on),         TEST(test_keeps_no_errors),
-        TEST(test_other_runs), TEST(test_rows_stay_apart), TEST(test_changes),
-        TEST(test_damage),     TEST(test_leaves_nothing),  TEST(test_quick_settings),
+        TEST(test_resumes),        TEST(test_goes_on),         TEST(test_keeps_no_errors),
+        TEST(test_other_runs),     TEST(test_rows_stay_apart), TEST(test_other_values),
+        TEST(test_changes),        TEST(test_damage),          TEST(test_unwritten),
+        TEST(test_leaves_nothing), TEST(test_quick_settings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

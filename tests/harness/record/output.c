@@ -1,3 +1,4 @@
+#define _GNU_SOURCE // environ
 // Files of results: either all of a set are new, or none.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,14 +8,17 @@
 #include <cmocka.h>
 #include <dirent.h>
 #include <signal.h>
+#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "harness/record/disk/hold.h"
 #include "harness/record/output.h"
 
 static char folder[] = "/tmp/raingauge-output-XXXXXX";
@@ -129,6 +133,24 @@ static void a_name_that_is_taken_changes_none(void **state)
     expect_text("a.md", "old a");
 }
 
+// Two runs cannot hold a folder at once. A program that a run started and left holds nothing.
+static void a_folder_is_held_by_its_run_alone(void **state)
+{
+    (void)state;
+    char *arguments[] = {"sleep", "100", NULL};
+    pid_t child;
+    struct rg_hold first, second;
+    assert_true(rg_hold_folder(folder, &first));
+    assert_false(rg_hold_folder(folder, &second));
+    assert_int_equal(posix_spawnp(&child, "sleep", NULL, NULL, arguments, environ), 0);
+    rg_hold_release(&first);
+    const bool is_held = rg_hold_folder(folder, &second);
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+    assert_true(is_held);
+    rg_hold_release(&second);
+}
+
 static int make(void **state)
 {
     (void)state;
@@ -157,6 +179,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_is_replaced_keeps_its_mode, make, clear),
         cmocka_unit_test_setup_teardown(a_full_disk_changes_none, make, clear),
         cmocka_unit_test_setup_teardown(a_name_that_is_taken_changes_none, make, clear),
+        cmocka_unit_test_setup_teardown(a_folder_is_held_by_its_run_alone, make, clear),
     };
     return cmocka_run_group_tests_name("output", tests, NULL, NULL);
 }

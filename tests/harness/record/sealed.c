@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/record/disk/cells.h"
+#include "harness/record/disk/seal.h"
 #include "harness/tables/print.h"
 #include "tests/harness/record/made.h"
 #include "tests/tools/expect.h"
@@ -250,12 +251,25 @@ static void test_missing(void **state)
     json_decref(document);
 }
 
+// Whoever writes a document anew may order its names otherwise.
+static void test_order_of_names(void **state)
+{
+    (void)state;
+    json_t *written = json_pack("{s:i, s:{s:i, s:i}}", "b", 1, "a", "d", 2, "c", 3);
+    assert_true(rg_seal(written));
+    json_t *read = json_pack("{s:{s:i, s:i}, s:O, s:i}", "a", "c", 3, "d", 2, "checksum",
+                             json_object_get(written, "checksum"), "b", 1);
+    assert_int_equal(rg_unseal(read), RG_SEAL_WHOLE);
+    json_decref(written);
+    json_decref(read);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_each_field),    cmocka_unit_test(test_made_anew),
         cmocka_unit_test(test_other_writers), cmocka_unit_test(test_moved),
-        cmocka_unit_test(test_missing),
+        cmocka_unit_test(test_missing),       cmocka_unit_test(test_order_of_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

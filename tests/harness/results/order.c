@@ -148,6 +148,8 @@ static void test_rounding(void **state)
     assert_below(fabs(rg_margin_rounding(1.66) - 0.005 / 1.66), 1e-12);
     assert_equals(rg_margin_rounding(NAN), 0);
     assert_true(rg_margin_orders(26.5, 25) && !rg_margin_orders(25.5, 25));
+    // Each number has its own margin: 26 is at least 25.5.
+    assert_true(rg_margin_orders(26, 25.4) && !rg_margin_orders(26, 25.6));
     assert_true(!rg_margin_orders(25, 26) && !rg_margin_orders(NAN, 1) &&
                 !rg_margin_orders(1, NAN));
 }

@@ -33,6 +33,8 @@ ROWS = [
     Fault(COURSE, "return «j.verdict == RG_CLAIM_ONE_LAUNCH» ||", "false", "a course never begins", tests=("launches",)),
     Fault(COURSE, "j.more && «!is_hopeless(&j)»", "true", "a course on a busy machine never ends", tests=("launches",)),
     Fault(TEXT, "return today == due || «today == RG_FIGURES_NEAR» ?", "false", "figures at the bound differ", tests=("launches",)),
+    Fault(MARGIN, "larger * (1 - «rg_margin_rounding(larger)»)", "0", "the larger number has no margin", tests=("order",)),
+    Fault(MARGIN, "larger * (1 - «rg_margin_rounding(larger)»)", "rg_margin_rounding(smaller)", "the larger number has the smaller one's margin", tests=("order",)),
     Fault(MARGIN, "? «0.5» * pow(10, -decimals)", "1.0", "print is rounded to two of its last digits"),
     Fault(MARGIN, "«sqrt(1 + (1 - t) * (1 - t) + t * t)»;", "1.0", "print's neighbours have no scatter of their own"),
     Fault(MARGIN, "/ 2 «/ HALF_WITHIN»;", "/ 1.0", "a middle is a standard deviation"),

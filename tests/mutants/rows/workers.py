@@ -22,6 +22,7 @@ END = "harness/devices/workers/end.c"
 
 ROWS = [
     Fault(WORKER, "if («worker->ended < RG_WORKER_LIVES»)", "true", "a worker is started without end", tests=("workers that end",)),
+    Fault(SERVE, "setrlimit(«RLIMIT_CORE», &none);", "RLIMIT_NICE", "cores of crashed drivers are kept", tests=("workers that end",)),
     Fault(WORKER, "return «worker->process» && worker->life == life;", "true", "what was open is there though its process has ended"),
     Fault(WORKER, "return worker->process && «worker->life == life»;", "true", "what was open in another life is there"),
     Fault(END, "return «RG_TIMEOUT»;", "RG_CRASH", "a hang is a crash"),

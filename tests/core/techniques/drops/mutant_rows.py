@@ -250,6 +250,8 @@ ROWS = [Row(*row) for row in (
     ("landing places along a diagonal", "list/pack.h",
      "rg_uniform(place.y) * rg_to_float(p.rows)",
      "rg_uniform(place.x) * rg_to_float(p.rows)", CHANCE),
+    ("heavy drops land on one side", "list/pack.h",
+     "rg_random(p.seed, id, p.step, DROPS_LAND_PLACE)", "rg_random(p.seed, id, p.step, DROPS_LAND_MASS)", CHANCE),
     ("landing masses around the middle", "list/pack.h",
      "(p.most_mg - p.least_mg) * 0.2f",
      "(p.most_mg - p.least_mg) * 0.5f", CHANCE),

@@ -45,4 +45,22 @@ ROWS = [Row(*row, TESTS) for row in (
      "rg_clamp(rg_plane_at(s.c, dx, dy) * w, 0.0f, 1.0f - k.b)",
      "rg_clamp(rg_plane_at(s.c, dx, dy), 0.0f, 1.0f - k.b)"),
     ("weights are exchanged", PLANES, "s.b = rg_plane_sum(for_b, inverse,", "s.b = rg_plane_sum(for_c, inverse,"),
+)] + [Row(*row, ("scenes",)) for row in (
+    # panes
+    ("panes are skewed", "quads.h", "float across_x = -rg_sin(angle)", "float across_x = rg_sin(angle)"),
+    ("panes turn the other way", "quads.h", "+ p.turned * raster", "- p.turned * raster"),
+    ("panes are folded", "quads.h",
+     "t.c = raster_corner(rg, p, i, along_x + across_x, along_y + across_y);",
+     "t.c = raster_corner(rg, p, i, along_x - across_x, along_y + across_y);"),
+    ("panes stretch with the picture", "quads.h", "2.0f * x / p.aspect", "2.0f * x"),
+    ("green is blue", "quads.h", "raster_quad_word(rg, i, 8),", "raster_quad_word(rg, i, 9),"),
+    # billboards
+    ("all drops lie in one plane", "drops.h", "rg_uniform(r.z)", "rg_uniform(r.x)"),
+    ("all drops are equally far", "drops.h", "rg_uniform(r.z)", "0.5f"),
+    ("streaks hang below their drops", "streaks.h", "v3 tail = v3_add(head, streak);", "v3 tail = v3_add(head, v3_scale(streak, -1.0f));"),
+    ("streaks have twice their width", "streaks.h", "v3 other = v3_scale(side, -1.0f);", "v3 other = v3_scale(side, -3.0f);"),
+    ("streaks look along the view, not to the eye", "streaks.h",
+     "v3 beside = v3_cross(streak, head);", "v3 beside = v3_cross(streak, v3_make(0.0f, 0.0f, head.z));"),
+    ("drops that leave do not come in again", "streaks.h", "return now - rg_floor(now);", "return now;"),
+    ("wind does not carry drops", "streaks.h", "drops_at(rg, i), p.fallen_x", "drops_at(rg, i), 0.0f"),
 )]

@@ -21,6 +21,8 @@ ROWS = [
     Fault(DECIDE, "while («count >= LEAST_CORRELATED» &&", "true", "two launches are taken for linked", lives="of fewer than eight the bound by chance is above what a correlation reaches"),
     Fault(DECIDE, "«lag1_autocorrelation(logs, count) > fmax(CORRELATED, NORMAL_95 / sqrt(count))»)", "false", "linked launches are counted one by one"),
     Fault(DECIDE, "return ties > «COARSE» * count;", "0.5", "a coarse timer decides"),
+    Fault(DECIDE, "(sorted[«(long)i * count / taken»] + sorted", "i", "of many launches the smallest alone tell the shift", tests=("verdicts of two",)),
+    Fault(DECIDE, "+ sorted[«(long)j * count / taken»]) / 2", "j", "a launch's pairs are with the smallest alone", tests=("verdicts of two",)),
     Fault(DECIDE, "if («!d->is_coarse»)", "true", "a coarse timer is told and decides"),
     Fault(DECIDE, "return «DEVIATION_OF_MAD» * rg_median_at", "1", "the spread is half of what it is"),
     Fault(DECIDE, "(rg_gate_upper_quantile(rg_gate_tail(rule)) «+ quantile») * error;", "", "a change that is seen one time of two is said to be seen"),

@@ -11,6 +11,9 @@ BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environmen
 BLOCKS, RAIN = "core/techniques/streaks/packets/blocks.c", "core/techniques/streaks/particles.c"
 GRID, DETAIL, LOOK = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c", "core/techniques/streaks/view/look.c"
 EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/faces.c", "core/scene/mesh/mesh.c"
+SPACE_OF_RAIN, VIEW = "core/techniques/cartoon/rain/space.c", "core/techniques/cartoon/scene/view.c"
+OF_CARTOON = ("cartoon rain, hits against rays, cpu", "cartoon rain, pictures, cpu", "cartoon, styles, cpu", "cartoon, outlines, cpu")
+PART, SCATTER, OF_PARTICLES = "core/techniques/streaks/packets/part.c", "core/techniques/streaks/packets/scatter.c", ("rain packets, particles",)
 WIND, MOTION = "core/techniques/cartoon/rain/wind.c", ("cartoon rain, motion and lists, cpu_reference",)
 
 ROWS = [
@@ -18,6 +21,13 @@ ROWS = [
     Fault("core/scene/mesh/read.c", "return «rg_memory_allows_piece(MEMORY_A_BYTE * st.st_size)» ||", "true", "meshes are read without room for them", tests=("mesh files",)),
     Fault(WIND, "if (!(fabs(knot.time_s) <= FARTHEST && «fabs(knot.turn_deg) <= FARTHEST»))", "true", "a wind may turn so far that its direction is no number", tests=MOTION),
     Fault(WIND, "const bool ok = c == EOF || «strchr(text, '#') != NULL»;", "true", "what a long line goes on with is not looked at", tests=MOTION),
+    Fault(VIEW, ".far_plane = (float)(distance_m * «20»),", "1", "cartoon's far plane cuts the scene", tests=OF_CARTOON),
+    Fault(SPACE_OF_RAIN, "p->depth_at = (float)(far_m / («far_m - near_m»));", "far_m + near_m", "drops are compared with depths of another far plane", tests=OF_CARTOON),
+    Fault(SPACE_OF_RAIN, "p->depth_by = (float)(-far_m * «near_m» /", "2 * near_m", "drops are compared with depths of another near plane", tests=OF_CARTOON),
+    Fault(PART, "reach(map, w, false, «random.x» * 0x1p-32, &column);", "random.y", "particles lie along a diagonal", tests=OF_PARTICLES),
+    Fault(SCATTER, "(uint64_t)«random.y» >> (32 - streaks_bits_y(part))", "random.x", "particles of an even part lie along a diagonal", tests=OF_PARTICLES),
+    Fault(SCATTER, "(float)(«random.z» >> (32 - START_BITS))", "random.x", "particles start as high as they lie to the right", tests=OF_PARTICLES),
+    Fault(SCATTER, "(float)rg_mul_hi(«random.w», OSCILLATIONS)", "random.z", "drops swing as high as they start", tests=OF_PARTICLES),
     Fault(CAMERA, "view[4 + c] = «up[c]»;", "-up[c]", "the camera's own space stands on its head"),
     Fault(CAMERA, "projection[5] = «-focus»;", "focus", "pictures stand on their head"),
     Fault(CAMERA, "tan(radians(«camera->angle_deg») / 2)", "camera->angle_deg / 2", "the angle of view is half"),

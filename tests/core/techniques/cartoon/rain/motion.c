@@ -14,6 +14,7 @@
 
 #include "core/base/log.h"
 #include "tests/core/techniques/cartoon/rain/rig.h"
+#include "tests/oracle/chance.h"
 #include "tests/tools/expect.h"
 
 #define SIZE_PX 96
@@ -219,6 +220,41 @@ static void drops_start_by_chance(void **state)
     assert_below(least, 0.002);
     assert_below(most, 1 + 1e-4);
     assert_above(most, 0.998);
+    rig_free(&rain);
+    rig_close(c);
+}
+
+// A drop's place, size and direction are drawn independently of each other.
+static void drops_start_anywhere_in_any_way(void **state)
+{
+    (void)state;
+    enum { X, Y, Z, SIZE, DOWN, TURN, COLUMNS, MOST = 10000 };
+    static double of[COLUMNS][MOST];
+    const double *columns[COLUMNS];
+    struct cartoon *c = rig_open(device, "drops_s=600000 spread_deg=30 scene=house2", 32, 32);
+    rig_step(c, 1);
+    struct rig_rain rain = rig_look(c);
+    int count = 0;
+    for (int i = 0; i < rain.drop_slots && count < MOST; i++) {
+        const cartoon_raindrop *d = &rain.drops[i];
+        if (d->state == CARTOON_DEATH)
+            continue;
+        const double vx = (double)(d->x - d->from_x), vy = (double)(d->y - d->from_y),
+                     vz = (double)(d->z - d->from_z);
+        const double row[COLUMNS] = {(double)d->from_x,
+                                     (double)d->from_y,
+                                     (double)d->from_z,
+                                     (double)d->size,
+                                     -vy / hypot(hypot(vx, vy), vz),
+                                     atan2(vz, vx)};
+        for (int k = 0; k < COLUMNS; k++)
+            of[k][count] = row[k];
+        count++;
+    }
+    assert_int_equal(count, MOST);
+    for (int k = 0; k < COLUMNS; k++)
+        columns[k] = of[k];
+    assert_below(oracle_dependence(columns, COLUMNS, count), 5);
     rig_free(&rain);
     rig_close(c);
 }
@@ -501,6 +537,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(quadratic_drag_has_a_terminal_speed),
         cmocka_unit_test(drops_are_released_to_the_fraction),
         cmocka_unit_test(drops_start_by_chance),
+        cmocka_unit_test(drops_start_anywhere_in_any_way),
         cmocka_unit_test(slots_are_given_in_order),
         cmocka_unit_test(every_drop_is_accounted_for),
         cmocka_unit_test(splashes_live_and_fade),

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/rigs/packets.h"
+#include "tests/oracle/chance.h"
 #include "tests/oracle/streaks/packets.h"
 #include "tests/tools/expect.h"
 
@@ -88,6 +89,53 @@ static void test_counts_follow_the_gradient(void **state)
     rg_density_destroy(map);
 }
 
+// The nearest particle is as often along one diagonal as along the other.
+static void check_neighbours(const double *x, const double *y, int count)
+{
+    int rising = 0;
+    for (int i = 0; i < count; i++) {
+        double least = INFINITY, product = 0;
+        for (int k = 0; k < count; k++) {
+            const double dx = x[k] - x[i], dy = y[k] - y[i], away = dx * dx + dy * dy;
+            if (k == i || away >= least)
+                continue;
+            least = away;
+            product = dx * dy;
+        }
+        rising += product > 0;
+    }
+    assert_below(fabs(rising - count / 2.0), 3 * sqrt(count)); // most neighbours are mutual
+}
+
+// In a texel of the map a drop's place, height and oscillation are independent of each other.
+static void check_independence(const struct rig_particles *all)
+{
+    double *of[4];
+    int count = 0;
+    for (int k = 0; k < 4; k++) {
+        of[k] = malloc((size_t)all->count * sizeof(**of));
+        assert_non_null(of[k]);
+    }
+    for (int64_t i = 0; i < all->count; i++) {
+        const struct rig_particle *p = &all->all[i];
+        const double x = (p->x_m / rig_space.half_x_m + 1) / 2 * UNEVEN_X;
+        const double y = (p->y_m / rig_space.half_y_m + 1) / 2 * UNEVEN_Y;
+        if ((int)x != 4 || (int)y != 0)
+            continue;
+        of[0][count] = x;
+        of[1][count] = y;
+        of[2][count] = p->start;
+        // Equal oscillations in an order of no meaning, and not in that of memory.
+        of[3][count] = p->oscillation + fmod(0.6180339887 * count, 1) / 2;
+        count++;
+    }
+    assert_at_least(count, 1000);
+    assert_below(oracle_dependence((const double *const *)of, 4, count), 5);
+    check_neighbours(of[0], of[1], count);
+    for (int k = 0; k < 4; k++)
+        free(of[k]);
+}
+
 // In a texel of the map rain is uniform in x, y and height, and oscillations are equally frequent.
 static void check_evenness(const struct rig_particles *all)
 {
@@ -116,6 +164,7 @@ static void check_evenness(const struct rig_particles *all)
             pow((double)oscillations[i] - (double)all->count / 10, 2) / ((double)all->count / 10);
     rig_expect_chance(oracle_chi_square_tail(chi_square, 9), "oscillations");
     free(numbers);
+    check_independence(all);
 }
 
 static void test_particles_are_even(void **state)
