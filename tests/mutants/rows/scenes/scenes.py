@@ -8,10 +8,11 @@ CAMERA, MATRIX, LIGHTS = "core/scene/camera.c", "core/scene/matrix.c", "core/sce
 DENSITY, SPACE, SPECTRUM = "core/scene/density.c", "core/scene/rain_space.c", "core/scene/spectrum.c"
 BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environment/cube.c", "core/scene/environment/ktx.c",
                          "core/scene/environment/environment.c")
+COLLAPSE, MERGE = "core/scene/mesh/resize/collapse.c", "core/scene/mesh/resize/merge.c"
 PARTS, LIGHTS_OF, STREET = ("core/scene/environment/%s.c" % name for name in ("parts", "lights", "street"))
 BLOCKS, RAIN = "core/techniques/streaks/packets/blocks.c", "core/techniques/streaks/particles.c"
 GRID, DETAIL, LOOK = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c", "core/techniques/streaks/view/look.c"
-EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/faces.c", "core/scene/mesh/mesh.c"
+EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/resize/refine.c", "core/scene/mesh/mesh.c"
 WIND, MOTION = "core/techniques/cartoon/rain/wind.c", ("cartoon rain, motion and lists, cpu_reference",)
 
 ROWS = [
@@ -87,6 +88,11 @@ ROWS = [
     Fault(EDGES, "const double sign = «second && second->goes_down == first->goes_down ? -1 : 1»;", "1", "a face that is inside out makes an outline"),
     Fault(EDGES, "if (sides[i].goes_down != sides[0].goes_down)\n            return i;", "if (0) return i;", "sides are paired as they come"),
     Fault(FACES, "if («edge->count > (uint32_t)(r->wanted - r->face_count)» || !is_free", "false", "refining makes a face too many"),
+    Fault(COLLAPSE, "«!keeps_topology(s, c->from, c->to)» ||", "false", "decimating pinches the surface"),
+    Fault(COLLAPSE, "«!keeps_facing(s, c->from, c->to)»", "false", "decimating folds the surface"),
+    Fault(COLLAPSE, "return !s->fixed[from] && («!s->border[from]» ||", "true", "decimating eats into borders"),
+    Fault(COLLAPSE, "const double error = error_at(s->quadrics[«from»], q);", "to", "decimating does not ask what a collapse costs"),
+    Fault(MERGE, "if (faces_left(mesh, stand_ins, NULL) «<= wanted»)", ">= 0", "merging leaves more faces than are asked for"),
     Fault(FACES, "r->normals[3 * middle + c] = r->normals[3 * a + c] «+ r->normals[3 * b + c]»;", "+ 0", "a middle has the normal of one end"),
     Fault(MESH, "if («indices[i] >= (uint32_t)vertex_count»)", "indices[i] > (uint32_t)vertex_count", "a face may name a vertex behind the last"),
     Fault(MESH, "mesh->high[c] = «value > mesh->high[c] ? value : mesh->high[c]»;", "value", "a mesh ends at its last vertex"),
