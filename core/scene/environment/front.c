@@ -24,8 +24,8 @@ double street_height(int row, double along_m)
 
 // --- what a wall shows ---
 
-// Windows from `share_x` by `share_y` of their cell, lit by chance; adds what shines and returns
-// the share that is wall.
+// Windows of half their cell, lit by chance, at `u` cells along the lot and `v` storeys up. Adds
+// what shines, and returns the share that is wall.
 static double windows(const struct street_look *look, const struct street_wall *w, int lot,
                       double u, double v, double light[3])
 {

@@ -65,8 +65,7 @@ struct street_wall {
 };
 void street_front(const struct street_look *look, const struct street_wall *wall, double light[3]);
 
-// Adds lamps, cars' and traffic lights, and their streaks on the wet ground. (The frame's turn
-// about the vertical is street_turn's.)
+// Adds lamps, cars' and traffic lights, and their streaks on the wet ground.
 void street_add_lights(const struct street_look *look, struct rg_environment *environment);
 // From the world, whose y is up too, to the street, and back.
 void street_turn(const double world[3], double street[3]);
