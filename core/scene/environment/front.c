@@ -75,8 +75,8 @@ void street_front(const struct street_look *look, const struct street_wall *w, d
         storeys < 0 ? shop(look, w, lot, u, light) : windows(look, w, lot, u, storeys, light);
     const double ledge = 1 + .5 * street_stripes(storeys + .06, .12, w->width_m / STOREY_M);
     const double stain = .75 + .4 * street_noise(w->along_m * .7, w->up_m * .4, 31);
-    const double lamps = w->row < 2 ? look->lamps * street_lamplight(w->x_m, w->up_m, w->along_m)
-                                    : look->lamps * .01;
+    const double lamps =
+        w->row < 2 ? street_lamplight(look, w->x_m, w->up_m, w->along_m) : look->lamps * .01;
     const double open = .45 + .55 * street_clamp(w->up_m / 18);
     for (int i = 0; i < 3; i++) {
         static const double lamp[3] = {1, .62, .27};

@@ -54,9 +54,11 @@ double street_stripes(double x, double share, double width)
     return covered / width;
 }
 
-double street_lamplight(double x_m, double y_m, double z_m)
+double street_lamplight(const struct street_look *look, double x_m, double y_m, double z_m)
 {
     double light = 0;
+    if (look->lamps <= 0)
+        return 0;
     for (int side = 0; side < 2; side++) {
         const double at = z_m / LAMP_GAP_M + (side ? .5 : 0);
         const int first = street_floor(at - .5);
@@ -67,5 +69,5 @@ double street_lamplight(double x_m, double y_m, double z_m)
             light += 14 / (way2 * (1 + way2 * .012));
         }
     }
-    return light;
+    return look->lamps * light;
 }

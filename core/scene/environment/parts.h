@@ -53,8 +53,8 @@ static inline double street_smooth(double x)
 // The share of a window of `width` around x that stripes cover: in each unit, from 0 to `share`.
 double street_stripes(double x, double share, double width);
 
-// The light of the street lamps at a place, without its colour.
-double street_lamplight(double x_m, double y_m, double z_m);
+// The light of the street lamps at a place, without its colour: 0 by day.
+double street_lamplight(const struct street_look *look, double x_m, double y_m, double z_m);
 
 // The wall of a house: `row` tells streets apart, `along_m` is the place along it, `width_m` what a
 // texel covers of it. Its height there is `street_height`.

@@ -77,7 +77,7 @@ static bool car(const struct street_look *look, int side, double along_m, double
     const double paint[3] = {.05 + .4 * colour * colour, .06 + .3 * colour * colour * colour,
                              .09 + .25 * colour * (1 - colour)};
     const double x_m = side ? CARS_M : -CARS_M;
-    const double lamps = look->lamps * street_lamplight(x_m, up_m, along_m);
+    const double lamps = street_lamplight(look, x_m, up_m, along_m);
     for (int i = 0; i < 3; i++) {
         static const double lamp[3] = {1, .62, .27};
         const double sky_light = look->sky * (.2 + .6 * up_m) * look->horizon[i];
@@ -164,7 +164,7 @@ static void ground(const struct street_look *look, const struct street_ray *ray,
     const double x_m = ray->x * way_m, z_m = ray->z * way_m;
     const double width_m = way_m * ray->texel / (down < .04 ? .04 : down);
     const double tint = ground_tint(x_m, z_m, width_m);
-    const double lamps = look->lamps * street_lamplight(x_m, 0, z_m);
+    const double lamps = street_lamplight(look, x_m, 0, z_m);
     const double wet = street_smooth(2.2 * street_noise(x_m * .45, z_m * .3, 71) - .6);
     const double rough = (street_noise(x_m * 7, z_m * 3, 72) - .5) * (.34 - .26 * wet);
     struct street_ray mirrored = *ray;
