@@ -4,12 +4,14 @@
     sysroot   what the build links: Debian's packages for arm64, unpacked, not installed. No other architecture is registered.
     cross     a file for meson, FOLDER/cross.ini, and FOLDER/build
     build     all of it, on the CPU alone (-Ddrivers=false)
-    unit      the unit suite
-    digests   pictures, states and counts of each cell that results/baseline.json has of cpu, by NEON and by SVE
+    pairs     the gate's cells, here and there: pictures, states and counts are the same to the bit, by NEON and by SVE
+    digests   those of results/baseline.json are met
+    unit      the unit suite, but what qemu lacks
 
 Without steps all are taken, in this order, in a temporary folder. It needs the packages gcc-aarch64-linux-gnu, g++-aarch64-linux-gnu,
-qemu-user-static and mmdebstrap; 77 says which one is missing. Programs of arm64 start each other, by binfmt_misc: a namespace of users has a
-registry of its own, so that the machine's stays as it is, for which Linux must be 6.7 or later.
+qemu-user-static and mmdebstrap; 77 says which one is missing. FOLDER/raingauge starts the program under qemu, as a worker too
+(RG_PROGRAM). For the last two steps programs of arm64 must start each other, by binfmt_misc: a namespace of users has a registry of its own,
+so that the machine's stays as it is. For that Linux must be 6.7 or later.
 """
 import argparse
 import os
@@ -25,6 +27,13 @@ PROGRAMS = {"aarch64-linux-gnu-gcc": "gcc-aarch64-linux-gnu", "aarch64-linux-gnu
             "qemu-aarch64-static": "qemu-user-static", "mmdebstrap": "mmdebstrap"}
 EXTRA = ["libc6-dev", "libstdc++-12-dev", "libgomp1", "opencl-c-headers"]
 MISSING = 77
+LEVELS = ("plain", "sve")
+# Tests of what qemu 7.2 lacks.
+QEMU_LACKS = {
+    "cage": "filters of system calls",
+    "mesh files": "limits of memory, in which qemu itself does not fit",
+    "program": "posix_spawn's error for a program that is not there",
+}
 # The first bytes of a program for arm64, and which of their bits count.
 MAGIC = r"\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00"
 MASK = r"\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff"
@@ -91,7 +100,9 @@ class Target:
     def make_cross(self):
         (self.folder / "cross.ini").write_text(CROSS.format(root=self.sysroot))
         self.runner.write_text(f'#!/bin/sh\nexec qemu-aarch64-static -L {shlex.quote(str(self.sysroot))} "$@"\n')
-        self.runner.chmod(0o755)
+        (self.folder / "raingauge").write_text(f'#!/bin/sh\nexec {shlex.quote(str(self.runner))} {shlex.quote(str(self.program))} "$@"\n')
+        for script in (self.runner, self.folder / "raingauge"):
+            script.chmod(0o755)
         if (self.build / "build.ninja").exists():
             return True
         return self.run(["meson", "setup", str(self.build), "--cross-file", str(self.folder / "cross.ini"), "-Ddrivers=false", "-Dlevels=sve"])
@@ -99,24 +110,32 @@ class Target:
     def make_build(self):
         return self.run(["ninja", "-C", str(self.build), "-j", str(self.options.jobs)])
 
-    def try_units(self):
-        return self.run_there(["meson", "test", "-C", str(self.build), "--no-rebuild", "--suite", "unit", "--print-errorlogs",
-                               "--num-processes", str(self.options.jobs), "--timeout-multiplier", "100"])
+    def try_pairs(self):
+        there = f"arm64=cpu@RG_PROGRAM={self.folder / 'raingauge'};RG_CAGE=off;RG_CPU_LEVEL="
+        return all([self.run([self.options.native, "gate", "cpu", there + level, "--pictures"]) for level in LEVELS])
 
     def try_digests(self):
         gate = [self.program, "gate", "--baseline", self.options.baseline, "--device", "cpu", "--pictures"]
-        return all([self.run_there(gate, RG_CPU_LEVEL=level) for level in ("plain", "sve")])
+        return all([self.run_there(gate, RG_CPU_LEVEL=level) for level in LEVELS])
+
+    def try_units(self):
+        command = ["meson", "test", "-C", str(self.build), "--no-rebuild"]
+        listed = subprocess.run(command + ["--list", "--suite", "unit"], capture_output=True, text=True, check=True).stdout.splitlines()
+        names = [line.split(" / ", 1)[1] for line in listed if " / " in line]
+        return self.run_there(command + ["--print-errorlogs", "--num-processes", str(self.options.jobs), "--timeout-multiplier", "100"] +
+                              [name for name in names if name not in QEMU_LACKS])
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    steps = {"sysroot": Target.make_sysroot, "cross": Target.make_cross, "build": Target.make_build, "unit": Target.try_units,
-             "digests": Target.try_digests}
+    steps = {"sysroot": Target.make_sysroot, "cross": Target.make_cross, "build": Target.make_build, "pairs": Target.try_pairs,
+             "digests": Target.try_digests, "unit": Target.try_units}
     parser.add_argument("steps", nargs="*", metavar="STEP", help=", ".join(steps))
     parser.add_argument("--in", dest="folder", metavar="FOLDER", help="keeps what is made there, and goes on from it")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="at once; all cores without it")
     parser.add_argument("--debian", default="bookworm", help="%(default)s")
     parser.add_argument("--mirror", default="http://deb.debian.org/debian", help="%(default)s")
+    parser.add_argument("--native", default="build/harness/raingauge", help="the program here; %(default)s")
     parser.add_argument("--baseline", default="results/baseline.json", help="whose digests must be met; %(default)s")
     options = parser.parse_args()
     unknown = [step for step in options.steps if step not in steps]
