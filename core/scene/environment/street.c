@@ -61,6 +61,10 @@ static void sky(const struct street_look *look, const struct street_ray *ray, do
 
 // --- houses and cars ---
 
+enum { PAINTS = 6 };
+static const double paints[PAINTS][3] = {{.03, .03, .035}, {.34, .35, .36}, {.58, .58, .56},
+                                         {.28, .03, .025}, {.04, .09, .2},  {.16, .17, .16}};
+
 // A parked car as seen from the roadway: its height at a place, and its light.
 static bool car(const struct street_look *look, int side, double along_m, double up_m,
                 double light[3])
@@ -73,9 +77,7 @@ static bool car(const struct street_look *look, int side, double along_m, double
     const bool cabin = at > .7 + .5 * (up_m - .9) && at < 3.6 - .9 * (up_m - .9) && up_m < 1.45;
     if (!body && !cabin)
         return false;
-    const double colour = street_chance(slot, side, 52);
-    const double paint[3] = {.05 + .4 * colour * colour, .06 + .3 * colour * colour * colour,
-                             .09 + .25 * colour * (1 - colour)};
+    const double *paint = paints[street_floor(street_chance(slot, side, 52) * PAINTS)];
     const double x_m = side ? CARS_M : -CARS_M;
     const double lamps = street_lamplight(look, x_m, up_m, along_m);
     for (int i = 0; i < 3; i++) {

@@ -43,8 +43,8 @@ static void expect_bits(struct rg_environment *environment, const char *what, ui
 static void every_machine_has_the_same(void **state)
 {
     (void)state;
-    expect_bits(load("street", 64), "the street by day", 0xbaa092bc564c52b0u);
-    expect_bits(load("street-night", 64), "by night", 0xa62dfed9bfa784e8u);
+    expect_bits(load("street", 64), "the street by day", 0x22a5968000a1ca7du);
+    expect_bits(load("street-night", 64), "by night", 0xd7ea9cb14317a810u);
     expect_bits(load("sky", 64), "the sky", 0x7846918a7dbaa8b6u);
 }
 
@@ -52,8 +52,8 @@ static void blurred_it_is_the_same_too(void **state)
 {
     (void)state;
     struct rg_environment *sharp = load("street-night", 128);
-    expect_bits(rg_environment_blur(sharp, 0.03), "a little blurred", 0x1c0075666044a539u);
-    expect_bits(rg_environment_blur(sharp, 1.13), "blurred much", 0x887d7aff9c294782u);
+    expect_bits(rg_environment_blur(sharp, 0.03), "a little blurred", 0xf70db3049e35e4b7u);
+    expect_bits(rg_environment_blur(sharp, 1.13), "blurred much", 0x13f3c2e37958a556u);
     rg_environment_destroy(sharp);
 }
 
