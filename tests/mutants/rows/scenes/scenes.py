@@ -71,7 +71,6 @@ ROWS = [
     Fault(BLUR, "light[i] /= «disc->count»;", "16", "a blur is as bright as it has places"),
     Fault(BLUR, "const float half = (float)fmin(diameter_rad, 2.8) «/ 2»;", "/ 1", "a blur is twice as wide"),
     Fault(BLUR, "(double)«rg_sin(half)» / (double)rg_cos(half);", "sinf(half)", "the C library's versions change a blur", tests=("street",)),
-    Fault(LOAD, "to_sun > 0 ? «power_of(to_sun, 24)» * 2", "pow(to_sun, 24)", "the C library's versions change the sky", tests=("street",)),
     Fault(LIGHTS_OF, "light->colour[i] «* radius * radius / area»;", "* 1", "lamps far away are as bright as near ones", tests=("street",)),
     Fault(PARTS, "«(begin < share ? begin : share)»", "0", "windows far away are no share of a texel", tests=("street",)),
     Fault(STREET, "end_m = «along > 1e-6 ? END_M / along : 1e9»;", "1e9", "the street has no end", tests=("street",)),
