@@ -180,6 +180,45 @@ static void test_decimation_is_the_same_everywhere(void **state)
     }
 }
 
+// Each side of a face is that of one other face, which has it the other way round.
+static void check_closed(const struct rg_mesh *mesh)
+{
+    enum { MOST = 512 };
+    static unsigned char sides[MOST][MOST];
+    memset(sides, 0, sizeof(sides));
+    assert_at_most(mesh->vertex_count, MOST);
+    for (int i = 0; i < 3 * mesh->face_count; i++)
+        sides[mesh->indices[i]][mesh->indices[i % 3 == 2 ? i - 2 : i + 1]]++;
+    for (int a = 0; a < MOST; a++)
+        for (int b = 0; b < MOST; b++) {
+            assert_at_most(sides[a][b], 1);
+            assert_int_equal(sides[a][b], sides[b][a]);
+        }
+}
+
+// Of a closed surface half as many vertices as faces say how many holes it has: a torus keeps its
+// one, and a sphere gets none, however few faces are left.
+static void test_decimation_keeps_holes(void **state)
+{
+    (void)state;
+    static const int wanted[] = {1000, 200, 80, 40, 30, 24};
+    struct rg_mesh *torus = rg_mesh_load("torus"), *sphere = rg_mesh_load("sphere");
+    for (size_t i = 0; i < COUNT_OF(wanted); i++) {
+        struct rg_mesh *ring = rg_mesh_decimate(torus, wanted[i]);
+        struct rg_mesh *ball = rg_mesh_decimate(sphere, wanted[i]);
+        assert_int_equal(ring->face_count, wanted[i]);
+        assert_int_equal(ring->vertex_count, wanted[i] / 2);
+        assert_int_equal(ball->face_count, wanted[i]);
+        assert_int_equal(ball->vertex_count, wanted[i] / 2 + 2);
+        check_closed(ring);
+        check_closed(ball);
+        rg_mesh_destroy(ring);
+        rg_mesh_destroy(ball);
+    }
+    rg_mesh_destroy(torus);
+    rg_mesh_destroy(sphere);
+}
+
 // A flat sheet keeps its border: what is left covers it whole, with both corners of faces up.
 static void test_decimation_keeps_borders(void **state)
 {
@@ -477,6 +516,7 @@ int main(void)
         cmocka_unit_test(test_decimation),
         cmocka_unit_test(test_decimation_is_the_same_everywhere),
         cmocka_unit_test(test_decimation_keeps_borders),
+        cmocka_unit_test(test_decimation_keeps_holes),
         cmocka_unit_test(test_decimation_against_the_topology),
         cmocka_unit_test(test_refinement),
         cmocka_unit_test(test_refinement_of_an_open_surface),

@@ -89,7 +89,6 @@ ROWS = [
     Fault(FACES, "if («edge->count > (uint32_t)(r->wanted - r->face_count)» || !is_free", "false", "refining makes a face too many"),
     Fault(COLLAPSE, "«!keeps_topology(s, c->from, c->to)» ||", "false", "decimating pinches the surface"),
     Fault(COLLAPSE, "«!keeps_facing(s, c->from, c->to)»", "false", "decimating folds the surface"),
-    Fault(COLLAPSE, "return !s->fixed[from] && («!s->border[from]» ||", "true", "decimating eats into borders"),
     Fault(COLLAPSE, "const double error = error_at(s->quadrics[«from»], q);", "to", "decimating does not ask what a collapse costs"),
     Fault(MERGE, "if (faces_left(mesh, stand_ins, NULL) «<= wanted»)", ">= 0", "merging leaves more faces than are asked for"),
     Fault(FACES, "r->normals[3 * middle + c] = r->normals[3 * a + c] «+ r->normals[3 * b + c]»;", "+ 0", "a middle has the normal of one end"),
