@@ -7,9 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#ifdef __aarch64__
+#include <sys/auxv.h>
+#define LEVELS "plain or sve"
+#else
+#define LEVELS "plain, v2, v3 or v4"
+#endif
 
 #include "backends/cpu/draw/bins.h"
 #include "core/base/alloc.h"
+#include "core/base/files/processor.h"
 #include "core/base/log.h"
 
 enum { INDEX_CPU, INDEX_REFERENCE, CPU_DEVICES };
@@ -27,6 +34,9 @@ static bool level_runs_here(const char *level)
         return level_runs_here("v3") && __builtin_cpu_supports("avx512f") &&
                __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
                __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#elif defined(__aarch64__)
+    if (!strcmp(level, "sve"))
+        return (getauxval(AT_HWCAP) & HWCAP_SVE) != 0;
 #endif
     return true;
 }
@@ -39,24 +49,6 @@ static const struct cpu_level *choose_level(void)
         if ((!wanted || !strcmp(wanted, cpu_levels[i].name)) && level_runs_here(cpu_levels[i].name))
             return &cpu_levels[i];
     return NULL;
-}
-
-// The CPU's name from Linux, or the architecture's name if there is none.
-static void read_cpu_name(char *name, size_t size)
-{
-    snprintf(name, size, "unnamed CPU");
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    char line[256];
-    while (file && fgets(line, sizeof(line), file)) {
-        char *value = strchr(line, ':');
-        if (!strncmp(line, "model name", 10) && value) {
-            value[strcspn(value, "\n")] = 0;
-            snprintf(name, size, "%.120s", value + 2);
-            break;
-        }
-    }
-    if (file)
-        fclose(file);
 }
 
 static struct rg_limits limits_of_memory(void)
@@ -86,7 +78,9 @@ static void describe(int index, struct rg_device_info *info)
         .limits = limits_of_memory(),
     };
     snprintf(info->name, sizeof(info->name), index == INDEX_REFERENCE ? "cpu:reference" : "cpu");
-    read_cpu_name(info->device, sizeof(info->device));
+    rg_processor_name("/proc/cpuinfo", info->device, sizeof(info->device));
+    if (!*info->device)
+        snprintf(info->device, sizeof(info->device), "unnamed CPU");
 #ifdef __clang__ // whose __VERSION__ is "Debian Clang 19.1.7 (3+b1)"
     snprintf(info->driver, sizeof(info->driver), "clang %d.%d.%d", __clang_major__, __clang_minor__,
              __clang_patchlevel__);
@@ -101,8 +95,7 @@ static void describe(int index, struct rg_device_info *info)
 static int cpu_list(struct rg_device_info *infos, int max, char *why, size_t why_size)
 {
     if (!choose_level()) {
-        snprintf(why, why_size,
-                 "RG_CPU_LEVEL=%s is no level that this CPU runs; use plain, v2, v3 or v4",
+        snprintf(why, why_size, "RG_CPU_LEVEL=%s is no level that this CPU runs; use " LEVELS,
                  getenv("RG_CPU_LEVEL"));
         return 0;
     }

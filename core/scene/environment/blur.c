@@ -4,15 +4,25 @@
 
 #include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/cube.h"
+#include "kernels/dialect/math.h"
 
 enum { WIDE_TEXELS = 16, LEAST_SIZE = 16 };
 
-// The i-th of `count` evenly distributed places in a unit disc (Vogel, 1979).
-static void place_in_disc(int i, int count, double at[2])
+// Fills in `count` evenly distributed places of a disc (Vogel, 1979): each lies a golden angle on
+// from the one before. Only operations that every C library has alike are used, as in all of this
+// file, so that environments are the same everywhere.
+static void place_in_disc(int count, double reach, double *places)
 {
-    const double golden = M_PI * (3 - sqrt(5)), radius = sqrt((i + 0.5) / count);
-    at[0] = radius * cos(i * golden);
-    at[1] = radius * sin(i * golden);
+    static const double golden_cos = -0.73736887807831985, golden_sin = 0.67549029426152363;
+    double x = 1, y = 0;
+    for (int i = 0; i < count; i++) {
+        const double radius = reach * sqrt((i + 0.5) / count),
+                     turned = x * golden_cos - y * golden_sin;
+        places[2 * i] = radius * x;
+        places[2 * i + 1] = radius * y;
+        y = x * golden_sin + y * golden_cos;
+        x = turned;
+    }
 }
 
 // Adds the light from a direction of any length, interpolated between four texels.
@@ -74,16 +84,13 @@ static struct rg_environment *blurred(const struct rg_environment *from, double 
 {
     const int most = 256, least = 16;
     const double texels = texels_of(diameter_rad, from->size), area = texels * texels;
-    const double reach = tan(fmin(diameter_rad, 2.8) / 2);
+    const float half = (float)fmin(diameter_rad, 2.8) / 2;
+    const double reach = (double)rg_sin(half) / (double)rg_cos(half);
     struct disc disc = {.from = from,
                         .count = area > most    ? most
                                  : area < least ? least
                                                 : (int)area};
-    for (int i = 0; i < disc.count; i++) {
-        place_in_disc(i, disc.count, disc.places + 2 * i);
-        disc.places[2 * i] *= reach;
-        disc.places[2 * i + 1] *= reach;
-    }
+    place_in_disc(disc.count, reach, disc.places);
     struct rg_environment *made = rg_environment_create(from->size);
     if (made)
         rg_environment_fill(made, disc_light, &disc);

@@ -10,6 +10,7 @@
 #include "core/image/files/io.h"
 #include "core/scene/environment/cube.h"
 #include "core/scene/environment/ktx.h"
+#include "core/scene/environment/street.h"
 
 // The folder in which Debian's open3d-gui-data installs its maps; RG_ENVIRONMENT_DIR may name
 // another.
@@ -25,6 +26,15 @@ static double mix_by(double low, double high, double t)
     return low + (high - low) * t * t * (3 - 2 * t);
 }
 
+// To a whole power by products alone, which every C library has alike.
+static double power_of(double x, int power)
+{
+    double result = 1;
+    for (; power; power >>= 1, x *= x)
+        result *= power & 1 ? x : 1;
+    return result;
+}
+
 static void sky_light(const double d[3], const void *user, double light[3])
 {
     (void)user;
@@ -33,7 +43,7 @@ static void sky_light(const double d[3], const void *user, double light[3])
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double up = d[1] / length;
     const double to_sun = (d[0] * sun[0] + d[1] * sun[1] + d[2] * sun[2]) / length;
-    const double glow = to_sun > 0 ? pow(to_sun, 24) * 2 + pow(to_sun, 400) * 40 : 0;
+    const double glow = to_sun > 0 ? power_of(to_sun, 24) * 2 + power_of(to_sun, 400) * 40 : 0;
     for (int i = 0; i < 3; i++) {
         double sky = mix_by(horizon[i], zenith[i], up * 1.6) + glow;
         light[i] = mix_by(ground[i], sky, up * 25 + 0.5);
@@ -119,8 +129,18 @@ static struct rg_environment *read_packaged(const char *name)
     return make_sky();
 }
 
-struct rg_environment *rg_environment_load(const char *name)
+// The street, with as many texels as its reader has use for.
+static struct rg_environment *make_street(enum street_time time, int size_px)
 {
+    return rg_street(time, size_px < MIN_SIZE ? MIN_SIZE : size_px > MAX_SIZE ? MAX_SIZE : size_px);
+}
+
+struct rg_environment *rg_environment_load(const char *name, int size_px)
+{
+    if (!strcmp(name, "street"))
+        return make_street(STREET_DAY, size_px);
+    if (!strcmp(name, "street-night"))
+        return make_street(STREET_NIGHT, size_px);
     if (!*name || !strcmp(name, "sky"))
         return make_sky();
     if (ends_in(name, ".ktx"))

@@ -13,13 +13,16 @@ struct rg_environment {
 };
 
 // Loads by name or path:
-//   "sky"            a procedural overcast sky, always there
+//   "street"         a computed street by day, in rain, with faces of size_px texels, 1024 at most
+//   "street-night"   the same by night
+//   "sky"            a computed overcast sky
 //   "crossroads"     a map that Debian's open3d-gui-data installs, without its "_skybox.ktx"; where
 //                    the package is absent, the sky, with a warning
 //   "FILE.ktx"       a KTX 1 cube map in R11F_G11F_B10F
 //   any other path   a lat-long image (EXR, HDR, PNG: core/image/files/io.h), twice as wide as high
+// size_px is what the reader asks for; maps that are read have sizes of their own.
 // NULL, and one logged line, on failure. The caller destroys it.
-struct rg_environment *rg_environment_load(const char *name);
+struct rg_environment *rg_environment_load(const char *name, int size_px);
 void rg_environment_destroy(struct rg_environment *environment);
 
 // Uploads an environment as an image in RG11B10F, 6 layers and `levels` levels, each face resampled

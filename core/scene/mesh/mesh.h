@@ -60,9 +60,9 @@ uint32_t *rg_mesh_pack_normals(const struct rg_mesh *mesh);
 // weighted by area, or straight up if these faces have no area.
 struct rg_mesh *rg_mesh_smooth(const struct rg_mesh *mesh);
 
-// A coarser mesh with smooth normals, of the most faces up to `faces` that meshoptimizer reaches:
-// mostly `faces` or one less, since a collapsing edge removes two faces. If the topology forbids so
-// few, parts of the surface are merged. The new name describes the change.
+// A coarser mesh with smooth normals, of at most `faces` faces: mostly `faces` or one less, since a
+// collapsing edge removes two faces. If the topology forbids so few, parts of the surface are
+// merged. The same on every machine. The new name describes the change.
 struct rg_mesh *rg_mesh_decimate(const struct rg_mesh *mesh, int faces);
 
 // A finer mesh of the same shape: the longest edges are halved until there are `faces` faces, or

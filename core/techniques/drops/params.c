@@ -37,7 +37,7 @@ static const struct rg_param rows[] = {
     {"refractive_index", RG_PARAM_FLOAT, AT(refractive_index), 1.333, 1, 3, "1", "of water", NULL},
     {"contact_mm", RG_PARAM_FLOAT, AT(contact_mm), 0.1, 0, 10, "mm", "lower water bends no light", NULL},
     {"rays_px", RG_PARAM_INT, AT(rays_px), 2, 1, 8, "1", "rays of a pixel of the lit pane, along a side", NULL},
-    {"environment", RG_PARAM_FILE, AT(environment), 0, 0, 0, "file", "a map of open3d-gui-data by name, 'sky', 'city' or 'city-night', a KTX cube map, or a lat-long image", "crossroads"},
+    {"environment", RG_PARAM_FILE, AT(environment), 0, 0, 0, "file", "what is around: 'street', 'street-night', 'sky', 'city' or 'city-night', a map of open3d-gui-data by name, a KTX cube map, or a lat-long image", "street"},
     {"environment_px", RG_PARAM_INT, AT(environment_px), 256, 16, 4096, "px", "texels along a face that the environment is resampled to", NULL},
     {"background", RG_PARAM_FILE, AT(background), 0, 0, 0, "file", "a picture that stands behind the pane; none: the environment is seen", ""},
     {"background_m", RG_PARAM_FLOAT, AT(background_m), 20, 0.1, 100000, "m", "of the background behind the pane", NULL},

@@ -8,7 +8,7 @@ const struct rg_technique rg_technique_flow = {
     .name = "flow",
     .paper = "stuppacher",
     .about = "water flowing down panes of glass or mirror (Stuppacher & Supan 2007)",
-    .shown = {"environment=nightlights environment_px=1024 resolution_px=512 glow=0.3 "
+    .shown = {"environment=street-night environment_px=1024 resolution_px=512 glow=0.3 "
               "distance_mm=330 camera_elevation_deg=12",
               600, 600, 90, 1.1},
     .params = &flow_param_table,

@@ -30,17 +30,18 @@ void raster_mesh_free(struct raster_mesh *shape)
 // Finds the distance of the farthest position from the middle of the bounds.
 static void find_radius(struct raster_mesh *shape)
 {
-    double longest = 0, farthest = 0;
-    for (int c = 0; c < 3; c++)
+    double longest = 0, farthest = 0, middle[3];
+    for (int c = 0; c < 3; c++) {
         longest = fmax(longest, (double)shape->high[c] - (double)shape->low[c]);
+        middle[c] = ((double)shape->low[c] + (double)shape->high[c]) / 2;
+    }
     for (int i = 0; i < shape->vertex_count; i++) {
-        double sum = 0;
-        for (int c = 0; c < 3; c++) {
-            const double off = (double)shape->positions[3 * (size_t)i + (size_t)c] -
-                               ((double)shape->low[c] + (double)shape->high[c]) / 2;
-            sum += off * off;
-        }
-        farthest = fmax(farthest, sum);
+        const float *p = shape->positions + 3 * (size_t)i;
+        const double x = (double)p[0] - middle[0], y = (double)p[1] - middle[1],
+                     z = (double)p[2] - middle[2];
+        // No fmax here: gcc 12 fails to compile it for arm64, in vectors.
+        const double away = x * x + y * y + z * z;
+        farthest = away > farthest ? away : farthest;
     }
     shape->radius = sqrt(farthest) / (longest / 2);
 }

@@ -130,5 +130,5 @@ struct rg_environment *scenery_environment(const char *name, int size_px, struct
         return draw_city(SCENERY_DAY, size_px, device);
     if (!strcmp(name, "city-night"))
         return draw_city(SCENERY_NIGHT, size_px, device);
-    return rg_environment_load(name);
+    return rg_environment_load(name, size_px);
 }

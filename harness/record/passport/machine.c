@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/utsname.h>
 
+#include "core/base/files/processor.h"
 #include "core/base/text/cgroup.h"
 #include "core/base/text/words.h"
 
@@ -57,7 +58,9 @@ static const char *const interesting[] = {
 static void read_cpu(struct rg_machine *machine, const char *root)
 {
     char flags[LINE_SIZE];
-    read_value(root, "/proc/cpuinfo", "model name", machine->cpu, sizeof(machine->cpu));
+    char path[MAX_PATH];
+    snprintf(path, sizeof(path), "%s/proc/cpuinfo", root);
+    rg_processor_name(path, machine->cpu, sizeof(machine->cpu));
     if (!read_value(root, "/proc/cpuinfo", "flags", flags, sizeof(flags)) &&
         !read_value(root, "/proc/cpuinfo", "Features", flags, sizeof(flags)))
         return;

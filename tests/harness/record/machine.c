@@ -42,6 +42,20 @@ static void a_machine_is_read(void **state)
     assert_equals(machine.quota_cpus, 0);
 }
 
+// arm64 has no model name, but numbers of implementer and part for each core.
+static void a_core_of_arm64_is_named(void **state)
+{
+    (void)state;
+    put("/proc/cpuinfo", "processor\t: 0\nFeatures\t: fp asimd sve\nCPU implementer\t: 0x41\n"
+                         "CPU architecture: 8\nCPU part\t: 0xd0b\n\n"
+                         "processor\t: 1\nCPU implementer\t: 0x41\nCPU part\t: 0xd05\n\n"
+                         "processor\t: 2\nCPU implementer\t: 0x41\nCPU part\t: 0xd05\n");
+    assert_string_equal(read_machine().cpu, "Cortex-A76, Cortex-A55");
+    assert_string_equal(read_machine().features, "asimd sve");
+    put("/proc/cpuinfo", "CPU implementer\t: 0x99\nCPU part\t: 0xd0b\n");
+    assert_string_equal(read_machine().cpu, "implementer 0x99, part 0xd0b");
+}
+
 static void an_empty_root_is_all_unknown(void **state)
 {
     (void)state;
@@ -121,9 +135,13 @@ static void lists_are_counted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_A_FOLDER(a_machine_is_read),           IN_A_FOLDER(an_empty_root_is_all_unknown),
-        IN_A_FOLDER(version_2_quotas_are_found),  IN_A_FOLDER(version_1_quotas_are_found),
-        IN_A_FOLDER(a_containers_quota_is_found), IN_A_FOLDER(clocks_are_told),
+        IN_A_FOLDER(a_machine_is_read),
+        IN_A_FOLDER(a_core_of_arm64_is_named),
+        IN_A_FOLDER(an_empty_root_is_all_unknown),
+        IN_A_FOLDER(version_2_quotas_are_found),
+        IN_A_FOLDER(version_1_quotas_are_found),
+        IN_A_FOLDER(a_containers_quota_is_found),
+        IN_A_FOLDER(clocks_are_told),
         cmocka_unit_test(lists_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

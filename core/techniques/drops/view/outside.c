@@ -10,8 +10,16 @@
 #include "core/techniques/drops/instance.h"
 #include "core/techniques/scenery/environment.h"
 #include "kernels/dialect/image/format.h"
+#include "kernels/dialect/math.h"
 
 enum { LARGEST_PX = 4096, WIDE_TEXELS = 24, CHANNELS = 4, LEAST_LEVEL_PX = 4 };
+
+// The angle that the lens takes in, as seen from the pane, which no C library rounds in its own
+// way.
+static double angle_of(double aperture_mm, double distance_mm)
+{
+    return 2 * (double)rg_atan2((float)aperture_mm / 2, (float)distance_mm);
+}
 
 static void add_environment(struct rg_instance *instance, const struct drops_settings *s)
 {
@@ -23,7 +31,7 @@ static void add_environment(struct rg_instance *instance, const struct drops_set
     // A pinhole does not blur.
     struct rg_environment *blurred =
         sharp && s->aperture_mm > 0
-            ? rg_environment_blur(sharp, 2 * atan(s->aperture_mm / s->distance_mm / 2))
+            ? rg_environment_blur(sharp, angle_of(s->aperture_mm, s->distance_mm))
             : NULL;
     const struct rg_environment *seen = s->aperture_mm > 0 ? blurred : sharp;
     struct rg_image *image =

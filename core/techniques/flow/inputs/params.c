@@ -69,7 +69,7 @@ static const struct rg_param rows[] = {
     {"fresnel_power", RG_PARAM_INT, AT(fresnel_power), 5, 1, 15, "1", "exponent of the Fresnel model", NULL},
     {"refraction_strength", RG_PARAM_FLOAT, AT(refraction_strength), 0.6, -4, 4, "1", "how far a drop bends the view of what lies behind it", NULL},
     {"reflectivity", RG_PARAM_FLOAT, AT(reflectivity), 0.85, 0, 1, "1", "of the mirror behind the water", NULL},
-    {"environment", RG_PARAM_FILE, AT(environment), 0, 0, 0, "file", "a map of open3d-gui-data by name, 'sky', 'city' or 'city-night', a KTX cube map, or a lat-long image", "crossroads"},
+    {"environment", RG_PARAM_FILE, AT(environment), 0, 0, 0, "file", "what is around: 'street', 'street-night', 'sky', 'city' or 'city-night', a map of open3d-gui-data by name, a KTX cube map, or a lat-long image", "street"},
     {"environment_px", RG_PARAM_INT, AT(environment_px), 512, 16, 4096, "px", "texels along a face that the environment is resampled to", NULL},
     {"reflection_px", RG_PARAM_INT, AT(reflection_px), 64, 1, 4096, "px", "texels along a face of what drops reflect, at least: they show the environment small", NULL},
     {"light", RG_PARAM_FLOAT, AT(light), 0.6, 0, 1000, "1", "of a lamp on the model", NULL},

@@ -201,8 +201,9 @@ static double mirror_difference(const float *a, const float *b, int width, int h
         for (int c = 0; c < width; c++) {
             const double one = (double)a[r * width + c];
             const double other = (double)b[r * width + width - 1 - c];
-            largest = fmax(largest, one);
-            difference = fmax(difference, fabs(one - other));
+            // No fmax: gcc 12 fails to compile it for arm64, in vectors.
+            largest = one > largest ? one : largest;
+            difference = fabs(one - other) > difference ? fabs(one - other) : difference;
         }
     return difference / largest;
 }

@@ -157,6 +157,106 @@ static void test_decimation(void **state)
     rg_mesh_destroy(sphere);
 }
 
+// The gate's baseline holds pictures of these. Another mesh would be another cell.
+static void test_decimation_is_the_same_everywhere(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        int faces;
+        uint64_t hash;
+    } pinned[] = {
+        {"torus", 10000, 0x36616a16df0b07aeu},
+        {"torus", 300, 0x3edfc788e6153c01u},
+        {"sphere", 100, 0x1db0b324bfa6a926u},
+    };
+    for (size_t i = 0; i < COUNT_OF(pinned); i++) {
+        struct rg_mesh *mesh = rg_mesh_load_faces(pinned[i].name, pinned[i].faces);
+        assert_non_null(mesh);
+        assert_int_equal(mesh->face_count, pinned[i].faces);
+        if (mesh->hash != pinned[i].hash)
+            fail_msg("%s: %016llx", mesh->name, (unsigned long long)mesh->hash);
+        rg_mesh_destroy(mesh);
+    }
+}
+
+// Each side of a face is that of one other face, which has it the other way round.
+static void check_closed(const struct rg_mesh *mesh)
+{
+    enum { MOST = 512 };
+    static unsigned char sides[MOST][MOST];
+    memset(sides, 0, sizeof(sides));
+    assert_at_most(mesh->vertex_count, MOST);
+    for (int i = 0; i < 3 * mesh->face_count; i++)
+        sides[mesh->indices[i]][mesh->indices[i % 3 == 2 ? i - 2 : i + 1]]++;
+    for (int a = 0; a < MOST; a++)
+        for (int b = 0; b < MOST; b++) {
+            assert_at_most(sides[a][b], 1);
+            assert_int_equal(sides[a][b], sides[b][a]);
+        }
+}
+
+// Of a closed surface half as many vertices as faces say how many holes it has: a torus keeps its
+// one, and a sphere gets none, however few faces are left.
+static void test_decimation_keeps_holes(void **state)
+{
+    (void)state;
+    static const int wanted[] = {1000, 200, 80, 40, 30, 24};
+    struct rg_mesh *torus = rg_mesh_load("torus"), *sphere = rg_mesh_load("sphere");
+    for (size_t i = 0; i < COUNT_OF(wanted); i++) {
+        struct rg_mesh *ring = rg_mesh_decimate(torus, wanted[i]);
+        struct rg_mesh *ball = rg_mesh_decimate(sphere, wanted[i]);
+        assert_int_equal(ring->face_count, wanted[i]);
+        assert_int_equal(ring->vertex_count, wanted[i] / 2);
+        assert_int_equal(ball->face_count, wanted[i]);
+        assert_int_equal(ball->vertex_count, wanted[i] / 2 + 2);
+        check_closed(ring);
+        check_closed(ball);
+        rg_mesh_destroy(ring);
+        rg_mesh_destroy(ball);
+    }
+    rg_mesh_destroy(torus);
+    rg_mesh_destroy(sphere);
+}
+
+// A flat sheet keeps its border: what is left covers it whole, with both corners of faces up.
+static void test_decimation_keeps_borders(void **state)
+{
+    (void)state;
+    enum { SIDE = 20, VERTICES = (SIDE + 1) * (SIDE + 1), FACES = 2 * SIDE * SIDE };
+    float positions[3 * VERTICES];
+    uint32_t indices[3 * FACES], *index = indices;
+    for (int i = 0; i < VERTICES; i++) {
+        positions[3 * i] = (float)(i % (SIDE + 1));
+        positions[3 * i + 1] = (float)(i / (SIDE + 1));
+        positions[3 * i + 2] = 0;
+    }
+    for (uint32_t y = 0; y < SIDE; y++)
+        for (uint32_t x = 0; x < SIDE; x++) {
+            const uint32_t a = y * (SIDE + 1) + x, b = a + SIDE + 1;
+            const uint32_t cell[6] = {a, a + 1, b + 1, b + 1, b, a};
+            memcpy(index, cell, sizeof(cell));
+            index += 6;
+        }
+    struct rg_mesh *sheet = rg_mesh_create("sheet", VERTICES, FACES, positions, NULL, indices);
+    struct rg_mesh *coarse = rg_mesh_decimate(sheet, 20);
+    check_mesh(coarse);
+    assert_in_range(coarse->face_count, 2, 20);
+    double area = 0;
+    for (int i = 0; i < coarse->face_count; i++) {
+        const uint32_t *c = coarse->indices + 3 * (size_t)i;
+        const float *p = coarse->positions + 3 * c[0], *q = coarse->positions + 3 * c[1],
+                    *r = coarse->positions + 3 * c[2];
+        const double twice =
+            (double)((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+        assert_above(twice, 0);
+        area += twice / 2;
+    }
+    assert_equals(area, SIDE * SIDE);
+    rg_mesh_destroy(sheet);
+    rg_mesh_destroy(coarse);
+}
+
 // Books of four pages that share a spine. No edge can collapse without tearing a page, so that the
 // sloppy method must do it, which loses whole books. They are spread over a square and grow in
 // size, since the smallest are lost first.
@@ -414,6 +514,9 @@ int main(void)
         cmocka_unit_test(test_arrays_that_are_refused),
         cmocka_unit_test(test_computed_models),
         cmocka_unit_test(test_decimation),
+        cmocka_unit_test(test_decimation_is_the_same_everywhere),
+        cmocka_unit_test(test_decimation_keeps_borders),
+        cmocka_unit_test(test_decimation_keeps_holes),
         cmocka_unit_test(test_decimation_against_the_topology),
         cmocka_unit_test(test_refinement),
         cmocka_unit_test(test_refinement_of_an_open_surface),

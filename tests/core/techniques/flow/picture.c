@@ -54,7 +54,7 @@ static struct light_cube unpack_cube(const struct rg_environment *environment, i
 static void set_cubes(struct pair *pair)
 {
     const struct flow_settings *s = &pair->rig.settings;
-    struct rg_environment *environment = rg_environment_load(s->environment);
+    struct rg_environment *environment = rg_environment_load(s->environment, s->environment_px);
     assert_non_null(environment);
     pair->oracle.environment = unpack_cube(environment, s->environment_px, &pair->cubes[0]);
     pair->oracle.reflection = unpack_cube(environment, s->reflection_px, &pair->cubes[1]);

@@ -1,19 +1,21 @@
 """Scenes: cameras, matrices, lights, environments, density maps, packets, the space of rain, spectra and meshes."""
 from fault import Fault
 
-TESTS = ("camera", "matrices", "light file", "environment", "density maps", "rain space", "mesh edges", "mesh models", "mesh files",
+TESTS = ("camera", "matrices", "light file", "environment", "street", "density maps", "rain space", "mesh edges", "mesh models", "mesh files",
          "openness", "rain packets, grid", "flow detail", "streaks, sizes", "streaks lights, cpu")
 
 CAMERA, MATRIX, LIGHTS = "core/scene/camera.c", "core/scene/matrix.c", "core/scene/light_file.c"
 DENSITY, SPACE, SPECTRUM = "core/scene/density.c", "core/scene/rain_space.c", "core/scene/spectrum.c"
 BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environment/cube.c", "core/scene/environment/ktx.c",
                          "core/scene/environment/environment.c")
+COLLAPSE, MERGE = "core/scene/mesh/resize/collapse.c", "core/scene/mesh/resize/merge.c"
+PARTS, LIGHTS_OF, STREET = ("core/scene/environment/%s.c" % name for name in ("parts", "lights", "street"))
 BLOCKS, RAIN = "core/techniques/streaks/packets/blocks.c", "core/techniques/streaks/particles.c"
 GRID, DETAIL, LOOK = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c", "core/techniques/streaks/view/look.c"
-EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/faces.c", "core/scene/mesh/mesh.c"
 SPACE_OF_RAIN, VIEW = "core/techniques/cartoon/rain/space.c", "core/techniques/cartoon/scene/view.c"
 OF_CARTOON = ("cartoon rain, hits against rays, cpu", "cartoon rain, pictures, cpu", "cartoon, styles, cpu", "cartoon, outlines, cpu")
 PART, SCATTER, OF_PARTICLES = "core/techniques/streaks/packets/part.c", "core/techniques/streaks/packets/scatter.c", ("rain packets, particles",)
+EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/resize/refine.c", "core/scene/mesh/mesh.c"
 WIND, MOTION = "core/techniques/cartoon/rain/wind.c", ("cartoon rain, motion and lists, cpu_reference",)
 
 ROWS = [
@@ -77,7 +79,11 @@ ROWS = [
     Fault(BLUR, "return diameter_rad * size / «(M_PI / 2)»;", "M_PI", "a face spans half a turn",
           lives="it says by how many places, and from which halved map, a disc is seen: half as many are within the bound that the test derives from their number"),
     Fault(BLUR, "light[i] /= «disc->count»;", "16", "a blur is as bright as it has places"),
-    Fault(BLUR, "const double reach = tan(fmin(diameter_rad, 2.8) «/ 2»);", "/ 1", "a blur is twice as wide"),
+    Fault(BLUR, "const float half = (float)fmin(diameter_rad, 2.8) «/ 2»;", "/ 1", "a blur is twice as wide"),
+    Fault(BLUR, "(double)«rg_sin(half)» / (double)rg_cos(half);", "sinf(half)", "the C library's versions change a blur", tests=("street",)),
+    Fault(LIGHTS_OF, "light->colour[i] «* radius * radius / area»;", "* 1", "lamps far away are as bright as near ones", tests=("street",)),
+    Fault(PARTS, "«(begin < share ? begin : share)»", "0", "windows far away are no share of a texel", tests=("street",)),
+    Fault(STREET, "end_m = «along > 1e-6 ? END_M / along : 1e9»;", "1e9", "the street has no end", tests=("street",)),
     Fault(CUBE, "const double s = «2 * (x + 0.5) / size - 1»;", "2.0 * x / size - 1", "texels of a cube are seen at their corners"),
     Fault(CUBE, "uint32_t packed = (bits - (112u << 23) «+ (noise & ((1u << dropped) - 1))») >> dropped;", "+ 0", "environments are cut off, not rounded"),
     Fault(CUBE, "texel[i] = 0.25f * ((top[i] + top[i + 3]) + («bottom[i]» + bottom[i + 3]));", "top[i]", "halving an environment leaves out a texel"),
@@ -91,6 +97,10 @@ ROWS = [
     Fault(EDGES, "const double sign = «second && second->goes_down == first->goes_down ? -1 : 1»;", "1", "a face that is inside out makes an outline"),
     Fault(EDGES, "if (sides[i].goes_down != sides[0].goes_down)\n            return i;", "if (0) return i;", "sides are paired as they come"),
     Fault(FACES, "if («edge->count > (uint32_t)(r->wanted - r->face_count)» || !is_free", "false", "refining makes a face too many"),
+    Fault(COLLAPSE, "«!keeps_topology(s, c->from, c->to)» ||", "false", "decimating pinches the surface"),
+    Fault(COLLAPSE, "«!keeps_facing(s, c->from, c->to)»", "false", "decimating folds the surface"),
+    Fault(COLLAPSE, "const double error = error_at(s->quadrics[«from»], q);", "to", "decimating does not ask what a collapse costs"),
+    Fault(MERGE, "if (faces_left(mesh, stand_ins, NULL) «<= wanted»)", ">= 0", "merging leaves more faces than are asked for"),
     Fault(FACES, "r->normals[3 * middle + c] = r->normals[3 * a + c] «+ r->normals[3 * b + c]»;", "+ 0", "a middle has the normal of one end"),
     Fault(MESH, "if («indices[i] >= (uint32_t)vertex_count»)", "indices[i] > (uint32_t)vertex_count", "a face may name a vertex behind the last"),
     Fault(MESH, "mesh->high[c] = «value > mesh->high[c] ? value : mesh->high[c]»;", "value", "a mesh ends at its last vertex"),

@@ -1,18 +1,14 @@
-// Changes a mesh's number of faces: meshoptimizer decimates, halving edges refines.
+// More faces: the longest edges are halved.
 #include <math.h>
-#include <meshoptimizer.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/scene/mesh/mesh.h"
+#include "core/scene/mesh/resize/resize.h"
 
-// The error at which meshoptimizer may stop, in extents of the mesh: too large ever to be reached.
-#define ANY_ERROR 1e4f
-
-static bool check_wanted(const struct rg_mesh *mesh, int faces)
+bool rg_resize_check(const struct rg_mesh *mesh, int faces)
 {
     if (faces >= 1 && faces <= RG_MESH_MAX_FACES)
         return true;
@@ -20,55 +16,11 @@ static bool check_wanted(const struct rg_mesh *mesh, int faces)
                     RG_MESH_MAX_FACES);
 }
 
-static void rename_mesh(struct rg_mesh *mesh, const char *source, const char *done)
+void rg_resize_rename(struct rg_mesh *mesh, const char *source, const char *done)
 {
     snprintf(mesh->name, sizeof(mesh->name), "%.100s, %s to %d faces", source, done,
              mesh->face_count);
 }
-
-// --- fewer faces ---
-
-// Fills `indices` with at most `faces` faces of the mesh's vertices, if possible; returns their
-// number.
-static int simplify(const struct rg_mesh *mesh, int faces, uint32_t *indices)
-{
-    const size_t vertices = (size_t)mesh->vertex_count, stride = 3 * sizeof(float);
-    const size_t wanted = 3 * (size_t)faces;
-    size_t count = meshopt_simplify(indices, mesh->indices, 3 * (size_t)mesh->face_count,
-                                    mesh->positions, vertices, stride, wanted, ANY_ERROR, 0, NULL);
-    // If the topology forbids so few faces, the sloppy mode reaches them.
-    if (count > wanted)
-        count = meshopt_simplifySloppy(indices, mesh->indices, 3 * (size_t)mesh->face_count,
-                                       mesh->positions, vertices, stride, wanted, ANY_ERROR, NULL);
-    return (int)(count / 3);
-}
-
-struct rg_mesh *rg_mesh_decimate(const struct rg_mesh *mesh, int faces)
-{
-    if (!check_wanted(mesh, faces))
-        return NULL;
-    // One vertex a position, because meshoptimizer preserves seams between normals, which are made
-    // anew anyway.
-    struct rg_mesh *smooth = rg_mesh_smooth(mesh);
-    if (!smooth || smooth->face_count <= faces)
-        return smooth;
-    struct rg_mesh *coarse = NULL;
-    uint32_t *indices = rg_alloc((size_t)smooth->face_count, 3 * sizeof(uint32_t), mesh->name);
-    const int reached = indices ? simplify(smooth, faces, indices) : 0;
-    if (reached > 0)
-        coarse = rg_mesh_create(mesh->name, smooth->vertex_count, reached, smooth->positions, NULL,
-                                indices);
-    else if (indices)
-        rg_error("%s: nothing is left of it when it is decimated to %d faces; ask for more",
-                 mesh->name, faces);
-    if (coarse)
-        rename_mesh(coarse, mesh->name, "decimated");
-    free(indices);
-    rg_mesh_destroy(smooth);
-    return coarse;
-}
-
-// --- more faces ---
 
 // A face's side, from its corner `corner` (3 * face + 0, 1 or 2) to the next.
 struct side {
@@ -231,7 +183,7 @@ static void end_refinement(struct refinement *r)
 
 struct rg_mesh *rg_mesh_refine(const struct rg_mesh *mesh, int faces)
 {
-    if (!check_wanted(mesh, faces))
+    if (!rg_resize_check(mesh, faces))
         return NULL;
     // One vertex a position: otherwise an edge on a seam between normals would be halved on one
     // side only.
@@ -246,22 +198,8 @@ struct rg_mesh *rg_mesh_refine(const struct rg_mesh *mesh, int faces)
                               r.indices);
     }
     if (fine)
-        rename_mesh(fine, mesh->name, "refined");
+        rg_resize_rename(fine, mesh->name, "refined");
     end_refinement(&r);
     rg_mesh_destroy(smooth);
     return fine;
-}
-
-struct rg_mesh *rg_mesh_resize(const struct rg_mesh *mesh, int faces)
-{
-    if (mesh->face_count <= faces)
-        return rg_mesh_refine(mesh, faces);
-    struct rg_mesh *coarse = rg_mesh_decimate(mesh, faces);
-    if (!coarse || coarse->face_count == faces)
-        return coarse;
-    struct rg_mesh *exact = rg_mesh_refine(coarse, faces);
-    rg_mesh_destroy(coarse);
-    if (exact)
-        rename_mesh(exact, mesh->name, "decimated");
-    return exact;
 }

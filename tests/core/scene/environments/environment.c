@@ -73,7 +73,7 @@ static void expect_refused(const char *path, const char *why)
 {
     struct lines lines = {0};
     rg_log_listen(listen, &lines);
-    struct rg_environment *environment = rg_environment_load(path);
+    struct rg_environment *environment = rg_environment_load(path, 64);
     rg_log_listen(NULL, NULL);
     assert_null(environment);
     if (lines.count != 1 || !strstr(lines.last, path) || !strstr(lines.last, why))
@@ -95,7 +95,7 @@ static void test_a_good_ktx_is_read(void **state)
     make_ktx(file);
     const char *path = in_folder("good.ktx");
     write_file(path, file, sizeof(file));
-    struct rg_environment *environment = rg_environment_load(path);
+    struct rg_environment *environment = rg_environment_load(path, 64);
     unlink(path);
     assert_non_null(environment);
     assert_int_equal(environment->size, FACE_PX);
@@ -412,7 +412,7 @@ static void test_a_lat_long_lies_as_it_should(void **state)
         }
     assert_true(rg_picture_write(path, &picture, &(struct rg_write_options){0}));
     rg_picture_destroy(&picture);
-    struct rg_environment *environment = rg_environment_load(path);
+    struct rg_environment *environment = rg_environment_load(path, 64);
     assert_non_null(environment);
     for (int face = 0; face < 6; face++) {
         float light[3];
@@ -439,7 +439,7 @@ static void test_a_lat_long_is_read_between_texels(void **state)
     }
     assert_true(rg_picture_write(path, &picture, &(struct rg_write_options){.full_float = true}));
     rg_picture_destroy(&picture);
-    struct rg_environment *environment = rg_environment_load(path);
+    struct rg_environment *environment = rg_environment_load(path, 64);
     assert_non_null(environment);
     const int half = environment->size / 2;
     // The picture's sides meet at +z: a texel beside that edge mixes both columns.
