@@ -9,7 +9,8 @@
 #include "core/techniques/streaks/instance.h"
 
 #define SMALL                                                                                      \
-    "atlas=small city=small depth_map_px=1024 shadow_map_px=256 far_layers=0 splash_fade=0 "
+    "atlas=small city=small depth_map_px=1024 shadow_map_px=256 far_layers=0 splash_fade=0 "       \
+    "spectrum=off "
 // A sixteenth of the rain space, around the city's middle, with the camera in it: opening makes
 // every particle, and most of the whole space's are never near enough to be seen. Its rain is a
 // fifth as dense.
