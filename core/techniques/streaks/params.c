@@ -21,7 +21,7 @@ static const struct rg_param rows[] = {
     {"normalised", RG_PARAM_CHOICE, AT(normalised), 1, 0, 1, "1", "of the spectrum: on: so many drops that those of 0.1 to 6 mm make rain_mm_h; off: as many as its authors give, which make somewhat more or less", "off on"},
     {"least_diameter_mm", RG_PARAM_FLOAT, AT(least_diameter_mm), 0.3, 0.1, 5, "mm", "of the spectrum: smaller drops are left out", NULL},
     {"terminal_speed", RG_PARAM_CHOICE, AT(terminal_speed), 0, 0, 1, "1", "of the spectrum's drops by their size: as Gunn and Kinzer measured it, or Atlas' fit", "gunn-kinzer atlas"},
-    {"kept_share", RG_PARAM_FLOAT, AT(kept_share), 0.15, 1e-6, 1, "1", "of the spectrum's drops: so many are there, and each stands for more", NULL},
+    {"kept_share", RG_PARAM_FLOAT, AT(kept_share), 0.12, 1e-6, 1, "1", "of the spectrum's drops: so many are there, and each stands for more", NULL},
     {"kept", RG_PARAM_CHOICE, AT(kept), 2, 0, 2, "1", "which of the spectrum's drops: all sizes alike; by their cross-sections, so that small drops stand for many and large ones for few; or by these over their speeds, so that all streaks are about as bright", "alike section streak"},
     {"local_height_m", RG_PARAM_FLOAT, AT(local_height_m), 20, 0.1, 10000, "m", "between the local top and the local ground", NULL},
     {"culling_radius_m", RG_PARAM_FLOAT, AT(culling_radius_m), 20, 0.1, 100000, "m", "how far around the observer it rains", NULL},

@@ -48,6 +48,7 @@ static int kept_size;
 static struct streaks_packets *make_packets(const struct streaks_settings *set,
                                             const struct rg_rain_space *space)
 {
+    assert_int_equal(set->spectrum, 0); // drops of one size, as the thesis has
     const struct streaks_packets_settings settings = {.seed = (uint32_t)set->seed,
                                                       .drops_m2_s = set->drops_m2_s,
                                                       .fall_speed_m_s = set->fall_speed_m_s,
