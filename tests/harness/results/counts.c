@@ -22,9 +22,11 @@
 static struct streaks_settings *settings_of(const struct rg_table *table, int row)
 {
     const struct rg_technique *technique = rg_technique_find("streaks");
-    void *defaults = rg_settings_create(technique), *settings;
+    void *defaults = rg_settings_create(technique), *all, *settings;
     assert_non_null(defaults);
-    assert_non_null(settings = rg_settings_copy(technique, defaults, table->rows[row].set));
+    assert_non_null(all = rg_settings_copy(technique, defaults, table->variants[0].set));
+    assert_non_null(settings = rg_settings_copy(technique, all, table->rows[row].set));
+    free(all);
     free(defaults);
     return settings;
 }
