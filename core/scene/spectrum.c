@@ -67,13 +67,24 @@ static double volume_mm3(double d)
     return M_PI / 6 * d * d * d;
 }
 
+// The drops there are over those of the law.
+static double amount_of(const struct rg_spectrum *spectrum)
+{
+    struct rg_spectrum whole = *spectrum;
+    whole.normalised = 0;
+    whole.least_mm = RG_SMALLEST_DROP_MM;
+    whole.most_mm = RG_LARGEST_DROP_MM;
+    return spectrum->normalised ? spectrum->rain_mm_h / rg_spectrum_rainfall(&whole).rain_mm_h : 1;
+}
+
 struct rg_rainfall rg_spectrum_rainfall(const struct rg_spectrum *spectrum)
 {
+    const double amount = amount_of(spectrum);
     struct rg_rainfall sum = {0};
     for (int i = 0; i < STEPS; i++) {
         double width;
         const double d = middle_of(spectrum, i, &width);
-        const double drops = rg_spectrum_density(spectrum, d) * width;
+        const double drops = amount * rg_spectrum_density(spectrum, d) * width;
         const double speed = rg_terminal_speed(spectrum->law, d);
         sum.drops_m3 += drops;
         sum.water_mm3_m3 += drops * volume_mm3(d);
@@ -84,20 +95,42 @@ struct rg_rainfall rg_spectrum_rainfall(const struct rg_spectrum *spectrum)
     return sum;
 }
 
+double rg_extinction_per_km(double section_mm2_m3)
+{
+    return section_mm2_m3 * 1e-6 * 1000;
+}
+
 // --- classes ---
 
-void rg_spectrum_classes(const struct rg_spectrum *spectrum, int by_section, int count,
+// How readily a drop is kept, by any unit.
+static double chance_of(const struct rg_spectrum *spectrum, enum rg_spectrum_keep keep, double d)
+{
+    const double speed = fmax(rg_terminal_speed(spectrum->law, d), 0.1); // Atlas' may be 0
+    return keep == RG_KEEP_ALIKE ? 1 : keep == RG_KEEP_BY_SECTION ? d * d : d * d / speed;
+}
+
+static double kept_of(const struct rg_spectrum *spectrum, enum rg_spectrum_keep keep)
+{
+    double sum = 0;
+    for (int i = 0; i < STEPS; i++) {
+        double width;
+        const double d = middle_of(spectrum, i, &width);
+        sum += rg_spectrum_density(spectrum, d) * width * chance_of(spectrum, keep, d);
+    }
+    return sum;
+}
+
+void rg_spectrum_classes(const struct rg_spectrum *spectrum, enum rg_spectrum_keep keep, int count,
                          struct rg_drop_class *classes)
 {
-    const struct rg_rainfall all = rg_spectrum_rainfall(spectrum);
-    const double kept = by_section ? all.section_mm2_m3 : all.drops_m3;
+    const double kept = kept_of(spectrum, keep), amount = amount_of(spectrum);
     double before = 0;
     memset(classes, 0, (size_t)count * sizeof(*classes));
     for (int i = 0; i < STEPS; i++) {
         double width;
         const double d = middle_of(spectrum, i, &width);
         const double drops = rg_spectrum_density(spectrum, d) * width;
-        const double step = drops * (by_section ? M_PI / 4 * d * d : 1);
+        const double step = drops * chance_of(spectrum, keep, d);
         // A step may span several classes; each gets its part.
         for (double done = 0; done < step;) {
             const int at = (int)fmin(floor((before + done) / kept * count), count - 1);
@@ -112,5 +145,6 @@ void rg_spectrum_classes(const struct rg_spectrum *spectrum, int by_section, int
     for (int k = 0; k < count; k++) {
         classes[k].diameter_mm = cbrt(classes[k].diameter_mm / classes[k].drops_m3);
         classes[k].speed_m_s = rg_terminal_speed(spectrum->law, classes[k].diameter_mm);
+        classes[k].drops_m3 *= amount;
     }
 }

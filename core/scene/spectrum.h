@@ -10,6 +10,9 @@
 
 enum rg_spectrum_kind { RG_MARSHALL_PALMER, RG_BEST };
 enum rg_speed_law { RG_GUNN_KINZER, RG_ATLAS };
+// Which drops of a spectrum are kept: all alike, in proportion to their cross-sections, or to their
+// cross-sections over their speeds, which is how bright a streak is.
+enum rg_spectrum_keep { RG_KEEP_ALIKE, RG_KEEP_BY_SECTION, RG_KEEP_BY_STREAK };
 
 // The drops between two diameters.
 struct rg_spectrum {
@@ -17,6 +20,9 @@ struct rg_spectrum {
     enum rg_speed_law law;
     double rain_mm_h;         // R, the rain rate of the spectrum; above 0
     double least_mm, most_mm; // 0.1 <= least < most
+    // Whether there are as many drops as make R at their speeds, of 0.1 to 6 mm all together;
+    // otherwise as many as the law has, which makes another rain rate (docs/spectra.md).
+    int normalised;
 };
 
 // The largest and the smallest diameter: larger drops break up as they fall, smaller ones are a
@@ -24,7 +30,8 @@ struct rg_spectrum {
 #define RG_LARGEST_DROP_MM  6.0
 #define RG_SMALLEST_DROP_MM 0.1
 
-// The number of drops of a diameter, per cubic metre and millimetre, whatever the bounds.
+// The number of drops of a diameter, per cubic metre and millimetre, whatever the bounds; not
+// normalised.
 double rg_spectrum_density(const struct rg_spectrum *spectrum, double diameter_mm);
 double rg_terminal_speed(enum rg_speed_law law, double diameter_mm); // m/s
 
@@ -38,15 +45,18 @@ struct rg_rainfall {
 };
 struct rg_rainfall rg_spectrum_rainfall(const struct rg_spectrum *spectrum);
 
-// Divides the spectrum into `count` classes so that each holds the same number of kept drops. All
-// drops are kept alike, or (by_section) in proportion to their cross-section, so that few of the
-// many small ones are. A class has the diameter that gives its drops their total water, and as many
-// drops as its share of the spectrum.
+// The light that drops block on a kilometre, as a share that small amounts of it add up to: their
+// cross-sections, without what they bend aside by diffraction, which is as much again.
+double rg_extinction_per_km(double section_mm2_m3);
+
+// Divides the spectrum into `count` classes so that each holds the same number of kept drops. A
+// class has the diameter that gives its drops their total water, and as many drops as its share of
+// the spectrum.
 struct rg_drop_class {
     double diameter_mm, speed_m_s;
     double drops_m3;
 };
-void rg_spectrum_classes(const struct rg_spectrum *spectrum, int by_section, int count,
+void rg_spectrum_classes(const struct rg_spectrum *spectrum, enum rg_spectrum_keep keep, int count,
                          struct rg_drop_class *classes);
 
 #endif

@@ -98,7 +98,7 @@ LIGHTS = {"lights.json": """{"lights": [
  "sky": {"colour": [0.3, 0.34, 0.4]}}
 """}
 
-TOWN = "atlas=small city=small depth_map_px=256 shadow_map_px=128 "
+TOWN = "spectrum=off atlas=small city=small depth_map_px=256 shadow_map_px=128 "
 # technique, name, settings, size, frames, file
 RENDERS = (
     ("flow", "box", "environment_px=64 resolution_px=96", "96x96", 20, "a.png"),

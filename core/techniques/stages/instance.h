@@ -9,7 +9,7 @@
 #include "core/device/device.h"
 
 enum { RG_MAX_ASSETS = 64, RG_MAX_STAGES = 48, RG_ASSET_NAME = 40, RG_STAGE_NAMES = 4 };
-enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16, RG_MAX_FACTS = 20, RG_FACT_SIZE = 192 };
+enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16, RG_MAX_FACTS = 24, RG_FACT_SIZE = 192 };
 enum { RG_MAX_TEXTURES = 8 };
 
 struct rg_instance;

@@ -104,7 +104,7 @@ struct streaks_equivalent {
 struct streaks_equivalent streaks_sizes_equivalent(const struct streaks *streaks);
 // Moves the size classes to the current frame, in a local space with this top.
 void streaks_sizes_turn(struct streaks *streaks, double top_m);
-// Tells facts about the rain of a spectrum's particles, and what is left out.
+// Tells the rain's rate and extinction as facts, and of a spectrum what is left out.
 void streaks_sizes_tell(struct streaks *streaks);
 double streaks_swings_a_second(double radius_m); // of a drop
 

@@ -16,12 +16,13 @@ static const struct rg_param rows[] = {
     {"density_map", RG_PARAM_FILE, AT(density_map), 0, 0, 0, "file", "an image whose grey is the density of drops, white the densest; none: a round gradient", ""},
     {"drops_m2_s", RG_PARAM_FLOAT, AT(drops_m2_s), STREAKS_DEFAULT_DROPS_M2_S, 1e-6, 1e9, "1/(m2 s)", "drops where the density map is white", NULL},
     {"fall_speed_m_s", RG_PARAM_FLOAT, AT(fall_speed_m_s), 8.16, 0.01, 1000, "m/s", "of all drops", NULL},
-    {"spectrum", RG_PARAM_CHOICE, AT(spectrum), 0, 0, 2, "1", "drops of one size, or as many of each as Marshall and Palmer, or Best, found for rain_mm_h; drops_m2_s, fall_speed_m_s and drop_radius_mm are of one size", "off marshall-palmer best"},
+    {"spectrum", RG_PARAM_CHOICE, AT(spectrum), 1, 0, 2, "1", "off: drops of one size, by drops_m2_s, fall_speed_m_s and drop_radius_mm; or as many of each size as Marshall and Palmer, or Best, found for rain_mm_h, whatever those three are set to", "off marshall-palmer best"},
     {"rain_mm_h", RG_PARAM_FLOAT, AT(rain_mm_h), 20, 0.1, 500, "mm/h", "of the spectrum, where the density map is white", NULL},
-    {"least_diameter_mm", RG_PARAM_FLOAT, AT(least_diameter_mm), 1, 0.1, 5, "mm", "of the spectrum: smaller drops are left out", NULL},
+    {"normalised", RG_PARAM_CHOICE, AT(normalised), 1, 0, 1, "1", "of the spectrum: on: so many drops that those of 0.1 to 6 mm make rain_mm_h; off: as many as its authors give, which make somewhat more or less", "off on"},
+    {"least_diameter_mm", RG_PARAM_FLOAT, AT(least_diameter_mm), 0.3, 0.1, 5, "mm", "of the spectrum: smaller drops are left out", NULL},
     {"terminal_speed", RG_PARAM_CHOICE, AT(terminal_speed), 0, 0, 1, "1", "of the spectrum's drops by their size: as Gunn and Kinzer measured it, or Atlas' fit", "gunn-kinzer atlas"},
-    {"kept_share", RG_PARAM_FLOAT, AT(kept_share), 1, 1e-6, 1, "1", "of the spectrum's drops: so many are there, and each stands for more", NULL},
-    {"kept", RG_PARAM_CHOICE, AT(kept_by_section), 0, 0, 1, "1", "which of the spectrum's drops: all sizes alike, or by their cross-sections, so that small drops stand for many and large ones for few", "alike section"},
+    {"kept_share", RG_PARAM_FLOAT, AT(kept_share), 0.12, 1e-6, 1, "1", "of the spectrum's drops: so many are there, and each stands for more", NULL},
+    {"kept", RG_PARAM_CHOICE, AT(kept), 2, 0, 2, "1", "which of the spectrum's drops: all sizes alike; by their cross-sections, so that small drops stand for many and large ones for few; or by these over their speeds, so that all streaks are about as bright", "alike section streak"},
     {"local_height_m", RG_PARAM_FLOAT, AT(local_height_m), 20, 0.1, 10000, "m", "between the local top and the local ground", NULL},
     {"culling_radius_m", RG_PARAM_FLOAT, AT(culling_radius_m), 20, 0.1, 100000, "m", "how far around the observer it rains", NULL},
     {"limits", RG_PARAM_CHOICE, AT(limits), 1, 0, 1, "1", "off: rain without a culling radius, and the local space repeated up and down", "off on"},
@@ -63,7 +64,7 @@ static const struct rg_param rows[] = {
     {"view_below", RG_PARAM_CHOICE, AT(absolute_views), 0, 0, 1, "1", "a streak seen from below: mirrored with its light, or as the thesis has it, as if from above", "mirrored absolute"},
     {"last_mip", RG_PARAM_INT, AT(last_mip), 5, 0, 5, "1", "the coarsest level of the streak atlas that is read", NULL},
     {"thin_streaks", RG_PARAM_CHOICE, AT(points), 0, 0, 1, "1", "thinner than a pixel: drawn a pixel wide and fainter, or only where they cover a pixel's middle, as the thesis does it", "area points"},
-    {"look", RG_PARAM_CHOICE, AT(look), 0, 0, 1, "1", "settings together, which others may follow: rain as bright as a photograph has it, or as the thesis's figures show it, with gains above 1 and without far rain", "photograph thesis"},
+    {"look", RG_PARAM_CHOICE, AT(look), 0, 0, 1, "1", "settings together, which others may follow: rain of a spectrum, as bright as a photograph has it, or as the thesis's figures show it, of one size, with gains above 1 and without far rain", "photograph thesis"},
     {"drops", RG_PARAM_CHOICE, AT(drops), 1, 0, 1, "1", "whether drops are seen", "off on"},
     {"splashes", RG_PARAM_CHOICE, AT(splashes), 1, 0, 1, "1", "whether splashes are seen", "off on"},
     {"splash_materials", RG_PARAM_CHOICE, AT(splash_materials), 1, 0, 1, "1", "whether splashes go by what is hit, water, rough or smooth, or all are of one kind", "off on"},
@@ -89,10 +90,12 @@ static const struct rg_param rows[] = {
 
 // In the order of the choices; the first has the defaults.
 static const char *const looks[] = {
-    "thin_streaks=area streak_gain=1 streak_opacity=1 far_layers=4 splash_materials=on "
+    "spectrum=marshall-palmer thin_streaks=area streak_gain=1 streak_opacity=1 far_layers=4 "
+    "splash_materials=on "
     "splash_up=normal splash_s=0.126 splash_width_mm=60 splash_gain=1 splash_opacity=1 "
     "splash_fade=0.25",
-    "thin_streaks=points streak_gain=4 streak_opacity=3 far_layers=0 splash_materials=off "
+    "spectrum=off thin_streaks=points streak_gain=4 streak_opacity=3 far_layers=0 "
+    "splash_materials=off "
     "splash_up=vertical splash_s=0.15 splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 "
     "splash_fade=0",
 };

@@ -9,12 +9,14 @@
 #include "core/techniques/streaks/instance.h"
 
 #define SMALL                                                                                      \
-    "atlas=small city=small depth_map_px=1024 shadow_map_px=256 far_layers=0 splash_fade=0 "
+    "atlas=small city=small depth_map_px=1024 shadow_map_px=256 far_layers=0 splash_fade=0 "       \
+    "spectrum=off "
 // A sixteenth of the rain space, around the city's middle, with the camera in it: opening makes
 // every particle, and most of the whole space's are never near enough to be seen. Its rain is a
 // fifth as dense.
 #define AROUND "camera=free rain_width_m=100 rain_depth_m=100 drops_m2_s=100 "
 #define NEAR   SMALL AROUND
+#define SIZES  "spectrum=best least_diameter_mm=1 kept_share=0.1"
 // Poses are compared by their states too. Mutants are compared by pictures only, and keeping the
 // states of each step would take half of their time.
 #define POSE SMALL "state=on "
@@ -65,7 +67,7 @@ static const struct rg_pose poses[] = {
     {.set = POSE AROUND},
     {.set = POSE AROUND
      "rain_width_m=150 walk_m_s=3 time=night lights=6 packets=quad packet_size=3000 "
-     "select=hull splash_materials=on spectrum=marshall-palmer kept=section "
+     "select=hull splash_materials=on spectrum=marshall-palmer least_diameter_mm=1 "
      "kept_share=0.03 far_layers=2 splash_fade=0.25"},
     {.set = POSE "geometry=off walk_m_s=8 slant_deg=25 slant_azimuth_deg=20 packets=kd "
                  "packet_size=700 drops_m2_s=20 cull=exact order=id depth_map=dynamic "
@@ -107,8 +109,8 @@ static const struct rg_contrast contrasts[] = {
     {"streaks hide 3 % more", NEAR "streak_gain=0 streak_opacity=30", "streak_opacity=30.9"},
     {"splashes hide 3 % less", NEAR "splash_gain=0 splash_opacity=1 splash_width_mm=200",
      "splash_opacity=0.97"},
-    {"drops of other sizes", NEAR "spectrum=best kept_share=0.1", "rain_mm_h=21"},
-    {"slower drops of a spectrum", NEAR "spectrum=best kept_share=0.1", "terminal_speed=atlas"},
+    {"drops of other sizes", NEAR SIZES, "rain_mm_h=21"},
+    {"slower drops of a spectrum", NEAR SIZES, "terminal_speed=atlas"},
     {"views from below as from above", NEAR "streak_gain=10", "view_below=absolute"},
     {NULL, NULL, NULL},
 };

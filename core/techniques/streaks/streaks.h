@@ -17,7 +17,7 @@ struct streaks_settings {
     char density_map[RG_PATH_SIZE];
     double drops_m2_s, fall_speed_m_s;
     // drops of different sizes
-    int spectrum, terminal_speed, kept_by_section;
+    int spectrum, normalised, terminal_speed, kept;
     double rain_mm_h, least_diameter_mm, kept_share;
     // the simulated part of the rain space
     double local_height_m, culling_radius_m;

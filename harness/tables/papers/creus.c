@@ -2,10 +2,10 @@
 // results/published/creus-*.csv, which a test compares.
 #include "harness/tables/papers/published.h"
 
-// The thesis draws thin streaks if they cover a pixel's middle, and has one splash for all
-// surfaces.
+// The thesis has drops of one size and one splash for all surfaces, and draws thin streaks if they
+// cover a pixel's middle.
 #define POINTS                                                                                     \
-    "thin_streaks=points splash_materials=off splash_up=vertical splash_s=0.15 "                   \
+    "spectrum=off thin_streaks=points splash_materials=off splash_up=vertical splash_s=0.15 "      \
     "splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 splash_fade=0 far_layers=0"
 
 // The thesis's machine and view.
@@ -51,7 +51,7 @@ const struct rg_table rg_table_creus_5_1 = {
     .names = "atlas",
     .columns = {"level", "width_px", "height_px"},
     .key_count = 1,
-    .variants = {{"full", "geometry=off", NULL}},
+    .variants = {{"full", "spectrum=off geometry=off", NULL}},
     .is_of_textures = true,
     .row_count = 24,
     .rows = rows_5_1,
@@ -70,7 +70,7 @@ const struct rg_table rg_table_creus_5_2 = {
     .about = "sizes of the splash frames, level by level (Creus, table 5.2)",
     .columns = {"level", "width_px", "height_px"},
     .key_count = 1,
-    .variants = {{"full", "geometry=off", NULL}},
+    .variants = {{"full", "spectrum=off geometry=off", NULL}},
     .is_of_textures = true,
     .row_count = 6,
     .rows = rows_5_2,

@@ -263,7 +263,8 @@ static void digests_are_the_same(void **state)
 static void settings_arrive_as_they_are(void **state)
 {
     (void)state;
-    struct pair pair = open_pair("streaks", "drops_m2_s=20 atlas=small city=small seed=7", FRAMES);
+    struct pair pair =
+        open_pair("streaks", "spectrum=off drops_m2_s=20 atlas=small city=small seed=7", FRAMES);
     size_t sizes[2];
     void *texels[2];
     for (int i = 0; i < 2; i++)

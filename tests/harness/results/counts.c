@@ -22,9 +22,11 @@
 static struct streaks_settings *settings_of(const struct rg_table *table, int row)
 {
     const struct rg_technique *technique = rg_technique_find("streaks");
-    void *defaults = rg_settings_create(technique), *settings;
+    void *defaults = rg_settings_create(technique), *all, *settings;
     assert_non_null(defaults);
-    assert_non_null(settings = rg_settings_copy(technique, defaults, table->rows[row].set));
+    assert_non_null(all = rg_settings_copy(technique, defaults, table->variants[0].set));
+    assert_non_null(settings = rg_settings_copy(technique, all, table->rows[row].set));
+    free(all);
     free(defaults);
     return settings;
 }
@@ -48,6 +50,7 @@ static int kept_size;
 static struct streaks_packets *make_packets(const struct streaks_settings *set,
                                             const struct rg_rain_space *space)
 {
+    assert_int_equal(set->spectrum, 0); // drops of one size, as the thesis has
     const struct streaks_packets_settings settings = {.seed = (uint32_t)set->seed,
                                                       .drops_m2_s = set->drops_m2_s,
                                                       .fall_speed_m_s = set->fall_speed_m_s,

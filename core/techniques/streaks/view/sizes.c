@@ -17,6 +17,7 @@ static struct rg_spectrum spectrum_of(const struct streaks_settings *set)
         .rain_mm_h = set->rain_mm_h,
         .least_mm = set->least_diameter_mm,
         .most_mm = RG_LARGEST_DROP_MM,
+        .normalised = set->normalised,
     };
 }
 
@@ -59,7 +60,7 @@ static bool make_classes(struct streaks *s)
     struct streaks_sizes *sizes = &s->sizes;
     sizes->count = STREAKS_SIZES;
     sizes->drops_m3 = rg_spectrum_rainfall(&spectrum).drops_m3 * set->kept_share;
-    rg_spectrum_classes(&spectrum, set->kept_by_section, STREAKS_SIZES, classes);
+    rg_spectrum_classes(&spectrum, (enum rg_spectrum_keep)set->kept, STREAKS_SIZES, classes);
     for (int i = 0; i < STREAKS_SIZES; i++)
         put_class(sizes, set, i, classes[i].diameter_mm / 2000, classes[i].speed_m_s,
                   classes[i].drops_m3 * STREAKS_SIZES / sizes->drops_m3);
@@ -148,11 +149,20 @@ static double realised_mm_h(const struct streaks *s)
     return sum.rain_m3_s / volume * 3600 * 1000;
 }
 
-void streaks_sizes_tell(struct streaks *s)
+// Water that falls and light that is blocked where the density map is white, by drops of one size.
+static void tell_one(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    if (!streaks_sizes_differ(s))
-        return;
+    const double radius_mm = set->drop_radius_mm;
+    const double section_mm2_m3 = s->sizes.drops_m3 * M_PI * radius_mm * radius_mm;
+    const double water_mm3_m2_s = set->drops_m2_s * 4 / 3 * M_PI * pow(radius_mm, 3);
+    rg_tell(&s->base, "rain_mm_h", water_mm3_m2_s * 3600 * 1e-6);
+    rg_tell(&s->base, "extinction_per_km", rg_extinction_per_km(section_mm2_m3));
+}
+
+static void tell_spectrum(struct streaks *s)
+{
+    const struct streaks_settings *set = &s->settings;
     struct rg_spectrum spectrum = spectrum_of(set);
     const struct rg_rainfall kept = rg_spectrum_rainfall(&spectrum);
     spectrum.most_mm = spectrum.least_mm;
@@ -160,12 +170,23 @@ void streaks_sizes_tell(struct streaks *s)
     const struct rg_rainfall left = spectrum.most_mm > spectrum.least_mm
                                         ? rg_spectrum_rainfall(&spectrum)
                                         : (struct rg_rainfall){0};
+    rg_tell(&s->base, "rain_mm_h", kept.rain_mm_h);
+    rg_tell(&s->base, "extinction_per_km", rg_extinction_per_km(kept.section_mm2_m3));
     rg_tell(&s->base, "rain_nominal_mm_h", set->rain_mm_h);
-    rg_tell(&s->base, "rain_kept_mm_h", kept.rain_mm_h);
     rg_tell(&s->base, "rain_realised_mm_h", realised_mm_h(s));
     rg_tell(&s->base, "drops_m3", kept.drops_m3);
     rg_tell(&s->base, "drops_left_out_m3", left.drops_m3);
     rg_tell(&s->base, "water_left_out_share",
             left.water_mm3_m3 / (left.water_mm3_m3 + kept.water_mm3_m3));
+    rg_tell(&s->base, "light_left_out_share",
+            left.section_mm2_m3 / (left.section_mm2_m3 + kept.section_mm2_m3));
     rg_tell(&s->base, "rain_left_out_mm_h", left.rain_mm_h);
+}
+
+void streaks_sizes_tell(struct streaks *s)
+{
+    if (streaks_sizes_differ(s))
+        tell_spectrum(s);
+    else
+        tell_one(s);
 }

@@ -22,7 +22,7 @@ enum { WIDTH = 128, HEIGHT = 72 };
 #define SMALL                                                                                      \
     "atlas=small city=small depth_map_px=256 shadow_map_px=64 rain_width_m=60 rain_depth_m=60 "    \
     "rain_height_m=40 camera=free eye_y_m=3 drops_m2_s=40 streak_gain=60 view_angle_deg=70 "       \
-    "cull=exact far_layers=0 "
+    "cull=exact far_layers=0 spectrum=off "
 
 static struct rg_device *device;
 
@@ -128,7 +128,7 @@ static void test_frames_are_as_set(void **state)
         "",
         ("depth_map=dynamic depth_map_period=5 far_layers=2 overlay=on packets=kd "
          "packet_size=200"),
-        "spectrum=best kept_share=0.1"};
+        "spectrum=best least_diameter_mm=1 kept_share=0.1"};
     for (size_t i = 0; i < sizeof(more) / sizeof(more[0]); i++) {
         char settings[256];
         snprintf(settings, sizeof(settings), "%s fit=on", more[i]);

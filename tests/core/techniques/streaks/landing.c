@@ -81,7 +81,7 @@ static struct streaks *open_splashes(const struct rain *r, const char *more)
              "state=on geometry=off drops=off terminal_speed=atlas packets=world blocks=all "
              "rain_height_m=40 local_height_m=40 eye_y_m=19.9 target_y_m=19.9 target_z_m=40 "
              "culling_radius_m=30 splash_s=%g spectrum=%s rain_mm_h=%g least_diameter_mm=%g "
-             "kept_share=%g %s",
+             "normalised=off kept_share=%g kept=%s",
              splash_s, r->is_best ? "best" : "marshall-palmer", r->rain_mm_h, least_mm,
              1e6 / (144000 * drops_m3(r)), more);
     struct streaks *s = rain_open(settings);
@@ -131,7 +131,7 @@ static void expect_flux(const struct rain *r, const char *more)
     assert_below(fabs(drops - 1), 0.02);
     assert_below(fabs(water - 1), 0.02);
     // Kolmogorov-Smirnov test at 1 %, and half a class of 512; weights widen the bound.
-    assert_below(most, 1.63 / sqrt((double)count) * (s->settings.kept_by_section ? 2 : 1) + 0.001);
+    assert_below(most, 1.63 / sqrt((double)count) * (s->settings.kept ? 2 : 1) + 0.001);
     rain_close(s);
 }
 
@@ -141,8 +141,8 @@ static void test_drops_land_by_flux(void **state)
     static const double rates[] = {1, 5, 20, 50, 100};
     for (int best = 0; best < 2; best++)
         for (int k = 0; k < 5; k++)
-            expect_flux(&(struct rain){best, rates[k]}, "");
-    expect_flux(&(struct rain){true, 20}, "kept=section");
+            expect_flux(&(struct rain){best, rates[k]}, "alike");
+    expect_flux(&(struct rain){true, 20}, "section");
 }
 
 // --- what is seen ---
@@ -170,7 +170,7 @@ static void expect_no_blocks(const char *view, const char *drops)
     free(dry);
 }
 
-#define SIZES "spectrum=best kept_share=0.2 "
+#define SIZES "spectrum=best least_diameter_mm=1 kept_share=0.2 "
 
 // Only blocks and packets that the view cannot see are left out. Views that look up over a low
 // local space show streaks and splashes from below it.

@@ -9,7 +9,7 @@
 #define SMALL                                                                                      \
     "atlas=small city=small depth_map_px=256 shadow_map_px=64 rain_width_m=60 rain_depth_m=60 "    \
     "rain_height_m=40 camera=free eye_y_m=3 culling_radius_m=12 drops_m2_s=60 streak_gain=20 "     \
-    "view_angle_deg=70 far_layers=0 splash_fade=0 "
+    "view_angle_deg=70 far_layers=0 splash_fade=0 spectrum=off "
 
 static const char *device_name = "cpu";
 struct rg_device *rain_device;

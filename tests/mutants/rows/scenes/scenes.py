@@ -10,6 +10,7 @@ BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environmen
                          "core/scene/environment/environment.c")
 COLLAPSE, MERGE = "core/scene/mesh/resize/collapse.c", "core/scene/mesh/resize/merge.c"
 PARTS, LIGHTS_OF, STREET = ("core/scene/environment/%s.c" % name for name in ("parts", "lights", "street"))
+SIZES = "core/techniques/streaks/view/sizes.c"
 BLOCKS, RAIN = "core/techniques/streaks/packets/blocks.c", "core/techniques/streaks/particles.c"
 GRID, DETAIL, LOOK = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c", "core/techniques/streaks/view/look.c"
 SPACE_OF_RAIN, VIEW = "core/techniques/cartoon/rain/space.c", "core/techniques/cartoon/scene/view.c"
@@ -76,6 +77,13 @@ ROWS = [
     Fault(SPECTRUM, "sum.rain_mm_h += drops * volume_mm3(d) * speed * «3600 * 1e-6»;", "60 * 1e-6", "rain is in millimetres a minute"),
     Fault(SPECTRUM, "return a[1] + (b[1] - a[1]) * «(d - a[0]) / (b[0] - a[0])»;", "0", "speeds go in steps"),
     Fault(SPECTRUM, "classes[at].diameter_mm += drops * part / step * «d * d * d»;", "d * d", "a class's drops lose water"),
+    Fault(SPECTRUM, "return spectrum->normalised ? «spectrum->rain_mm_h / rg_spectrum_rainfall(&whole).rain_mm_h» : 1;", "1", "a normalised spectrum is its authors'"),
+    Fault(SPECTRUM, "whole.least_mm = «RG_SMALLEST_DROP_MM»;", "spectrum->least_mm", "drops that are kept make up for those left out"),
+    Fault(SPECTRUM, "keep == RG_KEEP_BY_SECTION ? d * d : «d * d / speed»;", "d * d", "drops are kept by their streaks as by their cross-sections"),
+    Fault(SPECTRUM, "classes[k].drops_m3 *= «amount»;", "1", "classes of a normalised spectrum are its authors'"),
+    Fault(SPECTRUM, "return section_mm2_m3 * «1e-6 * 1000»;", "1e-6", "extinction is that of a metre"),
+    Fault(SIZES, "const double water_mm3_m2_s = set->drops_m2_s * «4 / 3» * M_PI * pow(radius_mm, 3);", "1", "drops of one size have less water"),
+    Fault(SIZES, "left.section_mm2_m3 / («left.section_mm2_m3 + kept.section_mm2_m3»)", "kept.section_mm2_m3", "the light that is left out is over that which is not"),
     Fault(BLUR, "return diameter_rad * size / «(M_PI / 2)»;", "M_PI", "a face spans half a turn",
           lives="it says by how many places, and from which halved map, a disc is seen: half as many are within the bound that the test derives from their number"),
     Fault(BLUR, "light[i] /= «disc->count»;", "16", "a blur is as bright as it has places"),

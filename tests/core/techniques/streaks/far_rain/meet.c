@@ -154,7 +154,7 @@ static void test_sizes(void **state)
     write_lights(SUN, 0.5);
     meet("drops of a spectrum", views[0], "spectrum=marshall-palmer rain_mm_h=50");
     meet("drops that stand for many", views[0],
-         "spectrum=best rain_mm_h=50 kept_share=0.2 kept=section");
+         "spectrum=best rain_mm_h=50 least_diameter_mm=1 kept_share=0.2 kept=section");
 }
 
 static void test_under_lamps(void **state)

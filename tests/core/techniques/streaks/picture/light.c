@@ -61,8 +61,9 @@ static void test_day(void **state)
     (void)state;
     expect_light("by day, 512 x 512", "", 512, 512);
     expect_light("by day, 720p", "", 1280, 720);
+    expect_light("drops of one size", "spectrum=off", 640, 360);
     expect_light("1/15 s", "exposure_s=0.0666667", 640, 360);
-    expect_light("a spectrum at 20 mm/h", "spectrum=marshall-palmer rain_mm_h=20", 640, 360);
+    expect_light("every drop, at 5 mm/h", "rain_mm_h=5 kept_share=1", 640, 360);
 }
 
 static void test_night(void **state)

@@ -48,6 +48,11 @@ static double volume(double d)
     return pi * d * d * d / 6;
 }
 
+static double section(double d)
+{
+    return pi / 4 * d * d;
+}
+
 static double flux(double d)
 {
     return volume(d) * atlas(d) * 3.6e-3;
@@ -80,19 +85,20 @@ static void test_sums(void **state)
     for (int best = 0; best < 2; best++)
         for (int k = 0; k < RATES; k++) {
             const struct rain r = {best, rates[k], 0.5};
-            const struct rg_spectrum spectrum = {best ? RG_BEST : RG_MARSHALL_PALMER, RG_ATLAS,
-                                                 rates[k], 0.5, largest_mm};
+            const struct rg_spectrum spectrum = {
+                best ? RG_BEST : RG_MARSHALL_PALMER, RG_ATLAS, rates[k], 0.5, largest_mm, 0};
             const struct rg_rainfall sum = rg_spectrum_rainfall(&spectrum);
             near("drops", sum.drops_m3, integral(&r, largest_mm, one), 1e-4);
             near("water", sum.water_mm3_m3, integral(&r, largest_mm, volume), 1e-4);
             near("rain", sum.rain_mm_h, integral(&r, largest_mm, flux), 1e-4);
+            near("sections", sum.section_mm2_m3, integral(&r, largest_mm, section), 1e-4);
         }
     // In closed form: Marshall and Palmer's number, and Best's water.
     const double slope = 4.1 * pow(20, -0.21), a = 1.30 * pow(20, 0.232);
-    const struct rg_spectrum mp = {RG_MARSHALL_PALMER, RG_ATLAS, 20, 0.7, 5};
+    const struct rg_spectrum mp = {RG_MARSHALL_PALMER, RG_ATLAS, 20, 0.7, 5, 0};
     near("drops", rg_spectrum_rainfall(&mp).drops_m3,
          8000 / slope * (exp(-0.7 * slope) - exp(-5 * slope)), 1e-5);
-    const struct rg_spectrum best = {RG_BEST, RG_ATLAS, 20, 0.7, 5};
+    const struct rg_spectrum best = {RG_BEST, RG_ATLAS, 20, 0.7, 5, 0};
     near("water", rg_spectrum_rainfall(&best).water_mm3_m3,
          67 * pow(20, 0.846) * (exp(-pow(0.7 / a, 2.25)) - exp(-pow(5 / a, 2.25))), 1e-5);
 }
@@ -113,9 +119,54 @@ static void test_speeds(void **state)
                      0.2);
     }
     for (int k = 0; k < RATES; k++) {
-        const struct rg_spectrum all = {RG_BEST, RG_GUNN_KINZER, rates[k], 0.1, largest_mm};
+        const struct rg_spectrum all = {RG_BEST, RG_GUNN_KINZER, rates[k], 0.1, largest_mm, 0};
         near("Best's rain", rg_spectrum_rainfall(&all).rain_mm_h, rates[k],
              rates[k] > 50 ? 0.2 : 0.1);
+    }
+}
+
+// A normalised spectrum has its rain rate, and the law's proportions.
+static void test_normalised(void **state)
+{
+    (void)state;
+    for (int best = 0; best < 2; best++)
+        for (int k = 0; k < RATES; k++) {
+            const enum rg_spectrum_kind kind = best ? RG_BEST : RG_MARSHALL_PALMER;
+            struct rg_spectrum law = {kind, RG_GUNN_KINZER, rates[k], 0.1, largest_mm, 0};
+            const struct rg_rainfall all = rg_spectrum_rainfall(&law);
+            law.normalised = 1;
+            near("rain", rg_spectrum_rainfall(&law).rain_mm_h, rates[k], 1e-9);
+            law.least_mm = 1.3;
+            const struct rg_rainfall kept = rg_spectrum_rainfall(&law);
+            law.normalised = 0;
+            near("drops", kept.drops_m3,
+                 rg_spectrum_rainfall(&law).drops_m3 * rates[k] / all.rain_mm_h, 1e-9);
+        }
+}
+
+// Classes hold as many drops and as much water as the spectrum, and equally many that are kept.
+static void test_classes(void **state)
+{
+    (void)state;
+    enum { COUNT = 64 };
+    struct rg_drop_class classes[COUNT];
+    for (int keep = RG_KEEP_ALIKE; keep <= RG_KEEP_BY_STREAK; keep++) {
+        const struct rg_spectrum law = {RG_MARSHALL_PALMER, RG_ATLAS, 10, 0.3, largest_mm, 1};
+        const struct rg_rainfall all = rg_spectrum_rainfall(&law);
+        double drops = 0, water = 0, chances[COUNT], mean = 0;
+        rg_spectrum_classes(&law, (enum rg_spectrum_keep)keep, COUNT, classes);
+        for (int i = 0; i < COUNT; i++) {
+            const double d = classes[i].diameter_mm;
+            drops += classes[i].drops_m3;
+            water += classes[i].drops_m3 * volume(d);
+            chances[i] = classes[i].drops_m3 * (keep == RG_KEEP_ALIKE ? 1 : d * d);
+            chances[i] /= keep == RG_KEEP_BY_STREAK ? atlas(d) : 1;
+            mean += chances[i] / COUNT;
+        }
+        near("drops", drops, all.drops_m3, 1e-9);
+        near("water", water, all.water_mm3_m3, 1e-9);
+        for (int i = 0; i < COUNT; i++) // the ends hold drops of more different sizes
+            near("a class", chances[i], mean, i > 2 && i < COUNT - 2 ? 0.02 : 0.2);
     }
 }
 
@@ -123,7 +174,8 @@ static void test_speeds(void **state)
 
 // High above the city nothing is hit, so that each particle is a drop.
 #define HIGH                                                                                       \
-    "state=on geometry=off terminal_speed=atlas packets=world blocks=all rain_height_m=400 "       \
+    "state=on geometry=off terminal_speed=atlas normalised=off packets=world blocks=all "          \
+    "rain_height_m=400 "                                                                           \
     "camera=free eye_y_m=320 target_y_m=321 target_z_m=40 culling_radius_m=30 rain_width_m=60 "    \
     "rain_depth_m=60 "
 
@@ -198,7 +250,7 @@ static void check_rain(const struct rain *r, const char *more)
 {
     char settings[700];
     snprintf(settings, sizeof(settings),
-             HIGH "spectrum=%s rain_mm_h=%g least_diameter_mm=%g kept_share=%g %s",
+             HIGH "spectrum=%s rain_mm_h=%g least_diameter_mm=%g kept_share=%g kept=%s",
              r->is_best ? "best" : "marshall-palmer", r->rain_mm_h, r->least_mm,
              200000 / (24000 * integral(r, largest_mm, one)), more);
     struct streaks *s = rain_open(settings);
@@ -222,9 +274,10 @@ static void check_rain(const struct rain *r, const char *more)
     near("water", water, integral(r, largest_mm, volume) * there, 0.02);
     near("rain", rain, integral(r, largest_mm, flux) * there, 0.02);
     // Kolmogorov-Smirnov test at 1 % for this many drops, and half a class of 512.
-    assert_below(most, 1.63 / sqrt((double)count) * (s->settings.kept_by_section ? 2 : 1) + 0.001);
+    assert_below(most, 1.63 / sqrt((double)count) * (s->settings.kept ? 2 : 1) + 0.001);
     near("rain that is told", told(s, "rain_realised_mm_h"), rain / there, all ? 1e-3 : 0.02);
-    near("rain that is kept", told(s, "rain_kept_mm_h"), integral(r, largest_mm, flux), 1e-3);
+    near("rain that is kept", told(s, "rain_mm_h"), integral(r, largest_mm, flux), 1e-3);
+    near("extinction", told(s, "extinction_per_km"), integral(r, largest_mm, section) / 1000, 1e-3);
     assert_equals(told(s, "rain_nominal_mm_h"), r->rain_mm_h);
     free(drops);
     rain_close(s);
@@ -235,9 +288,24 @@ static void test_rain(void **state)
     (void)state;
     for (int best = 0; best < 2; best++)
         for (int k = 0; k < RATES; k++)
-            check_rain(&(struct rain){best, rates[k], 0.8}, "");
-    check_rain(&(struct rain){true, 20, 0.5}, "kept=section");
-    check_rain(&(struct rain){false, 20, 0.5}, "packets=grid packet_size=20000");
+            check_rain(&(struct rain){best, rates[k], 0.8}, "alike");
+    check_rain(&(struct rain){true, 20, 0.5}, "section");
+    check_rain(&(struct rain){false, 20, 0.3}, "streak");
+    check_rain(&(struct rain){false, 20, 0.5}, "alike packets=grid packet_size=20000");
+}
+
+// Rain of one size, the thesis's, by its own formulas; and of a spectrum with its rain rate.
+static void test_rate(void **state)
+{
+    (void)state;
+    struct streaks *s = rain_open("spectrum=best look=thesis drops_m2_s=535.50222");
+    near("rain", told(s, "rain_mm_h"), 535.50222 * volume(3.2) * 3.6e-3, 1e-9);
+    near("extinction", told(s, "extinction_per_km"), 535.50222 / 8.16 * section(3.2) / 1000, 1e-9);
+    rain_close(s);
+    s = rain_open("look=photograph rain_mm_h=7");
+    near("rain", told(s, "rain_mm_h") + told(s, "rain_left_out_mm_h"), 7, 1e-3);
+    near("rain of particles", told(s, "rain_realised_mm_h"), told(s, "rain_mm_h"), 0.02);
+    rain_close(s);
 }
 
 // The drops left out below the least diameter, down to 0.1 mm.
@@ -250,6 +318,8 @@ static void test_left_out(void **state)
          integral(&all, largest_mm, one) - integral(&kept, largest_mm, one), 1e-3);
     near("water", told(s, "water_left_out_share"),
          1 - integral(&kept, largest_mm, volume) / integral(&all, largest_mm, volume), 1e-3);
+    near("light", told(s, "light_left_out_share"),
+         1 - integral(&kept, largest_mm, section) / integral(&all, largest_mm, section), 1e-3);
     near("rain", told(s, "rain_left_out_mm_h"),
          integral(&all, largest_mm, flux) - integral(&kept, largest_mm, flux), 0.01);
     rain_close(s);
@@ -258,9 +328,9 @@ static void test_left_out(void **state)
 int main(int argc, char **argv)
 {
     struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sums),
-        cmocka_unit_test(test_speeds),
-        cmocka_unit_test(test_rain),
+        cmocka_unit_test(test_sums),       cmocka_unit_test(test_speeds),
+        cmocka_unit_test(test_normalised), cmocka_unit_test(test_classes),
+        cmocka_unit_test(test_rain),       cmocka_unit_test(test_rate),
         cmocka_unit_test(test_left_out),
     };
     return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
