@@ -450,8 +450,8 @@ static void test_lamberts_law(void **state)
         for (int c = 0; c < 3; c++)
             due += 0.5 * towards[c] * ways[k].normal[c];
         snprintf(settings, sizeof(settings),
-                 SLOPE "splash_up=%s environment_light=off lights_file=%s", path, ways[k].up,
-                 lights);
+                 SLOPE "splash_up=%s splash_light=matt environment_light=off lights_file=%s", path,
+                 ways[k].up, lights);
         struct streaks *s = open_large(settings);
         s->settings.environment_light = 0;
         paint(s, 0, TEXELS_Y - 1, 0, FRAMES - 1);
