@@ -18,12 +18,14 @@ static const struct lamp_light {
     float colour[3];
     float inner_deg, outer_deg;
 } lamp_lights[] = {
-    [CITY_STREET_LAMP] = {{56, 41, 22}, 35, 62},
-    [CITY_TRAFFIC_RED] = {{16, 0.8f, 0.5f}, 30, 55},
-    [CITY_TRAFFIC_GREEN] = {{0.6f, 15, 6}, 30, 55},
+    [CITY_STREET_LAMP] = {{168, 123, 66}, 45, 78},
+    [CITY_HEADLIGHT] = {{400, 375, 330}, 4, 28},
+    [CITY_TAIL_LIGHT] = {{6, 0.25f, 0.15f}, 30, 65},
+    [CITY_TRAFFIC_RED] = {{48, 2.4f, 1.5f}, 30, 55},
+    [CITY_TRAFFIC_GREEN] = {{1.8f, 45, 18}, 30, 55},
 };
 
-enum { STREET_LAMPS_FIRST = 3, ANY_KIND = 7 };
+enum { STREET_LAMPS_FIRST = 3, ANY_KIND = (1 << CITY_LAMP_KINDS) - 1 };
 
 static double squared_distance(const float a[3], const float b[3])
 {
