@@ -23,6 +23,8 @@
 // The roughness of the water on a wet ground, squared as in Walter et al. (2007). docs/city.md
 // compares its reflection with that of wet roads as measured.
 #define SCENERY_FILM 0.25f
+// The same for a sun or moon, whose light comes through rain clouds, from a wide patch of the sky.
+#define SCENERY_CLOUDED 0.6f
 // Openness is read this far in front of a surface, and not inside the wall.
 #define SCENERY_BEFORE_M 3.0f
 
@@ -118,10 +120,11 @@ RG_FN rgba scenery_painted(rg_ctx rg, scenery_city_shade_params p, scenery_seen 
 // The share of a lamp's light that a wet ground's water mirrors to the eye, over that which a white
 // matt ground that faces the lamp shows: facets as many as GGX has, in each other's shadow (Smith),
 // with Fresnel's reflectance by Schlick (1994).
-RG_FN float scenery_gleam(v3 n, v3 ray, v3 to_light, float facing)
+RG_FN float scenery_gleam(int kind, v3 n, v3 ray, v3 to_light, float facing)
 {
-    float least = 1.0f - SCENERY_FILM * SCENERY_FILM;
-    float rough = SCENERY_FILM * SCENERY_FILM;
+    float alpha = kind == SCENERY_SUN ? SCENERY_CLOUDED : SCENERY_FILM;
+    float rough = alpha * alpha;
+    float least = 1.0f - rough;
     v3 half_way = v3_add(to_light, v3_scale(ray, -1.0f));
     float length = rg_sqrt(rg_max(v3_dot(half_way, half_way), 1e-6f));
     float c = rg_max(v3_dot(n, half_way), 0.0f) / length;
@@ -158,7 +161,8 @@ RG_DRAW_LIGHT(streaks_city_shade)
     scenery_reach reach = scenery_light_reach(l, s.at);
     float facing = rg_max(v3_dot(n, reach.to_light), 0.0f);
     float share = reach.share * scenery_unshadowed_soft(rg, l, scenery_off_surface(l, s.at, n));
-    float mirrored = wet * scenery_gleam(n, s.ray, reach.to_light, facing) / scenery_darkened(wet);
+    float mirrored =
+        wet * scenery_gleam(l.kind, n, s.ray, reach.to_light, facing) / scenery_darkened(wet);
     rgba t = scenery_painted(rg, p, s, n, look, rg_abs(v3_dot(n, s.ray)));
     return rg_rgba(l.r * share * (facing + scenery_untinted(mirrored, t.r)),
                    l.g * share * (facing + scenery_untinted(mirrored, t.g)),

@@ -206,9 +206,9 @@ static double cone(const struct scene_light *light, double cosine)
         clamped((cosine - light->cos_outer) / (light->cos_inner - light->cos_outer), 0, 1));
 }
 
-double scene_film(const double normal[3], const double way[3], const double to[3])
+double scene_film(const double normal[3], const double way[3], const double to[3], double rough)
 {
-    const double pi = 3.14159265358979323846, alpha2 = 0.25 * 0.25;
+    const double pi = 3.14159265358979323846, alpha2 = rough * rough;
     double half[3];
     add(to, way, -1, half);
     make_unit(half);
@@ -245,7 +245,8 @@ static double thrown(const struct scene *scene, const struct scene_light *light,
         return 0;
     }
     const double wet = scene->wet * s->wetness;
-    *mirrored = share * wet * scene_film(s->normal, way, to);
+    *mirrored =
+        share * wet * scene_film(s->normal, way, to, light->kind == ORACLE_SUN ? 0.6 : 0.25);
     return share * facing;
 }
 

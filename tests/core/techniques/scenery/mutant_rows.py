@@ -49,6 +49,7 @@ ROWS = [Row(*row) for row in (
     ("wet ground as rough as dry", "city_shade.h", "#define SCENERY_FILM 0.25f", "#define SCENERY_FILM 0.35f", LOOK),
     ("wet ground mirrors as much from all sides", "city_shade.h", "0.02f + 0.98f * between2 * between2 * between", "0.02f + 0.0f * between", LOOK),
     ("facets do not hide each other", "city_shade.h", "facing * rg_sqrt(rough + least * seen * seen)", "facing * seen", LOOK),
+    ("suns are mirrored as lamps are", "city_shade.h", "kind == SCENERY_SUN ? SCENERY_CLOUDED", "kind == SCENERY_SUN ? SCENERY_FILM", LOOK),
     ("mirrored lamps have the ground's colour", "city_shade.h", "return mirrored / rg_max(colour, 0.01f);", "return mirrored / 0.1f + 0.0f * colour;", LOOK),
     ("a wider lobe", "city_shade.h", "return c32 * c32", "return c32", LOOK),
     ("light from behind a surface", "city_shade.h", "rg_max(v3_dot(n, reach.to_light), 0.0f)", "rg_abs(v3_dot(n, reach.to_light))", LOOK),

@@ -242,7 +242,7 @@ static double luminance(double along, double across, double albedo)
     const double way[3] = {0, -sin(eye), cos(eye)},
                  length = sqrt(1 + along * along + across * across);
     const double to[3] = {across / length, 1 / length, along / length};
-    return albedo / pi + scene_film(normal, way, to) / pi * length;
+    return albedo / pi + scene_film(normal, way, to, 0.25) / pi * length;
 }
 
 static void wet_roads_are_as_measured(void **state)
