@@ -153,8 +153,7 @@ RG_FN streaks_shape streaks_shape_of(rg_ctx rg, streaks_params p, streaks_partic
     float seen = tall * streaks_across_of(shape.up, to_eye);
     float short_by = 0.5f * rg_max(thinnest - seen, 0.0f);
     shape.covering = covering;
-    shape.thinner =
-        shape.half_width / covering * (seen / rg_max(seen + 2.0f * short_by, 1e-6f));
+    shape.thinner = shape.half_width / covering * (seen / rg_max(seen + 2.0f * short_by, 1e-6f));
     shape.rim = splash != 0 ? short_by : rg_max(drop_radius, lacking);
     return shape;
 }
