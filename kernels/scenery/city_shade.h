@@ -20,8 +20,11 @@
 #include "kernels/scenery/shadow.h"
 #include "kernels/scenery/texture.h"
 
-// The gain of a wet ground in the mirror's direction, over its texture's light.
-#define SCENERY_GLEAM 14.0f
+// The roughness of the water on a wet ground, squared as in Walter et al. (2007). docs/city.md
+// compares its reflection with that of wet roads as measured.
+#define SCENERY_FILM 0.25f
+// The same for a sun or moon, whose light comes through rain clouds, from a wide patch of the sky.
+#define SCENERY_CLOUDED 0.6f
 // Openness is read this far in front of a surface, and not inside the wall.
 #define SCENERY_BEFORE_M 3.0f
 
@@ -74,39 +77,7 @@ RG_FN float scenery_wetness(uint normal)
     return rg_to_float(normal >> 30) * (1.0f / 3.0f);
 }
 
-// --- lights ---
-
-// The light that a wet ground mirrors: a lobe about the half way between light and eye (Blinn,
-// 1977), to the 64th power. A rougher ground would have a wider lobe.
-RG_FN float scenery_gleam(v3 n, v3 ray, v3 to_light)
-{
-    v3 half_way = v3_add(to_light, v3_scale(ray, -1.0f));
-    float squared = rg_max(v3_dot(half_way, half_way), 1e-6f);
-    float c = rg_max(v3_dot(n, half_way), 0.0f);
-    float c2 = c * c / squared;
-    float c4 = c2 * c2;
-    float c8 = c4 * c4;
-    float c16 = c8 * c8;
-    float c32 = c16 * c16;
-    return c32 * c32;
-}
-
-RG_DRAW_LIGHT(streaks_city_shade)
-{
-    scenery_light l = lights_at(rg, light);
-    scenery_seen s = scenery_seen_at(rg, p, px, py);
-    uint normal = scenery_word(rg, s, SCENERY_NORMAL);
-    v3 n = mesh_normal_unpack(normal);
-    float wet = p.wet * scenery_wetness(normal);
-    scenery_reach reach = scenery_light_reach(l, s.at);
-    float facing = rg_max(v3_dot(n, reach.to_light), 0.0f);
-    float share = reach.share * facing *
-                  (1.0f + SCENERY_GLEAM * wet * scenery_gleam(n, s.ray, reach.to_light));
-    share = share * scenery_unshadowed_soft(rg, l, scenery_off_surface(l, s.at, n));
-    return rg_rgba(l.r * share, l.g * share, l.b * share, 0.0f);
-}
-
-// --- what a pixel shows ---
+// --- textures ---
 
 // The upper 16 bits of a word as a signed number; below, the lower ones.
 RG_FN float scenery_upper(uint word)
@@ -144,6 +115,62 @@ RG_FN rgba scenery_painted(rg_ctx rg, scenery_city_shade_params p, scenery_seen 
                    t.b * (rg_to_float(tint >> 11) * (1.0f / 31.0f)), t.a);
 }
 
+// --- lights ---
+
+// The share of a lamp's light that a wet ground's water mirrors to the eye, over that which a white
+// matt ground that faces the lamp shows: facets as many as GGX has, in each other's shadow (Smith),
+// with Fresnel's reflectance by Schlick (1994).
+RG_FN float scenery_gleam(int kind, v3 n, v3 ray, v3 to_light, float facing)
+{
+    float alpha = kind == SCENERY_SUN ? SCENERY_CLOUDED : SCENERY_FILM;
+    float rough = alpha * alpha;
+    float least = 1.0f - rough;
+    v3 half_way = v3_add(to_light, v3_scale(ray, -1.0f));
+    float length = rg_sqrt(rg_max(v3_dot(half_way, half_way), 1e-6f));
+    float c = rg_max(v3_dot(n, half_way), 0.0f) / length;
+    float seen = rg_max(-v3_dot(n, ray), 1e-3f);
+    float between = 1.0f - rg_min(v3_dot(to_light, half_way) / length, 1.0f);
+    float between2 = between * between;
+    float reflected = 0.02f + 0.98f * between2 * between2 * between;
+    float narrow = 1.0f - c * c * least;
+    float apart = facing * rg_sqrt(rough + least * seen * seen) +
+                  seen * rg_sqrt(rough + least * facing * facing);
+    return 0.5f * reflected * rough * facing / (narrow * narrow * rg_max(apart, 1e-6f));
+}
+
+// The share of a wet surface's own light that water leaves, which lies in its pores.
+RG_FN float scenery_darkened(float wet)
+{
+    return 1.0f - 0.45f * wet;
+}
+
+// A share of light that is mirrored, over the colour by which all light is multiplied later.
+RG_FN float scenery_untinted(float mirrored, float colour)
+{
+    return mirrored / rg_max(colour, 0.01f);
+}
+
+RG_DRAW_LIGHT(streaks_city_shade)
+{
+    scenery_light l = lights_at(rg, light);
+    scenery_seen s = scenery_seen_at(rg, p, px, py);
+    uint normal = scenery_word(rg, s, SCENERY_NORMAL);
+    uint look = scenery_word(rg, s, SCENERY_LOOK);
+    v3 n = mesh_normal_unpack(normal);
+    float wet = p.wet * scenery_wetness(normal);
+    scenery_reach reach = scenery_light_reach(l, s.at);
+    float facing = rg_max(v3_dot(n, reach.to_light), 0.0f);
+    float share = reach.share * scenery_unshadowed_soft(rg, l, scenery_off_surface(l, s.at, n));
+    float mirrored =
+        wet * scenery_gleam(l.kind, n, s.ray, reach.to_light, facing) / scenery_darkened(wet);
+    rgba t = scenery_painted(rg, p, s, n, look, rg_abs(v3_dot(n, s.ray)));
+    return rg_rgba(l.r * share * (facing + scenery_untinted(mirrored, t.r)),
+                   l.g * share * (facing + scenery_untinted(mirrored, t.g)),
+                   l.b * share * (facing + scenery_untinted(mirrored, t.b)), 0.0f);
+}
+
+// --- what a pixel shows ---
+
 // The share of the sky's light that a wet ground mirrors: more for a flatter view (Schlick, 1994).
 RG_FN float scenery_mirrored(float wet, float facing)
 {
@@ -167,7 +194,7 @@ RG_DRAW_FRAGMENT(streaks_city_shade)
     float glow = p.glow * t.a + rg_to_float((look >> SCENERY_GLOW_BIT) & 7u) * (1.0f / 7.0f);
     float mirrored = scenery_mirrored(wet, facing) * open;
     // A surface lit by a lamp behind it shows little of the light that falls on its front.
-    float own = (1.0f - 0.45f * wet) * (1.0f - 0.7f * t.a);
+    float own = scenery_darkened(wet) * (1.0f - 0.7f * t.a);
     float shown = 1.0f - rg_exp(-s.distance * p.sky.haze_per_m);
     v3 seen =
         v3_make(t.r * (own * (above * p.sky.zenith_r + beside * p.sky.horizon_r + lit.r) + glow) +

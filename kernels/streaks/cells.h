@@ -11,7 +11,7 @@
 #define STREAKS_HEIGHTS  10 // of the light, 20 degrees apart from -90 on
 #define STREAKS_AZIMUTHS 9  // of the light from the camera, 20 degrees apart from 10 on
 #define STREAKS_COLUMNS  90
-#define STREAKS_FRAMES   21 // of a splash
+#define STREAKS_FRAMES   21 // of a splash, of each material
 
 #define STREAKS_CELL_PX     32 // width of a cell in level 0
 #define STREAKS_SPLASH_PX   48
@@ -20,6 +20,8 @@
 // Brightness factors: of the point atlases by oscillation, view and column; from this index on, of
 // the skies.
 #define STREAKS_SKY_FACTORS 4500
+// From this index on, the parts in which light shows on splashes, by material and column.
+#define STREAKS_SPLASH_FACTORS 4550
 
 // The first texel of a view's row in level 0; the atlas' height for the view after the last. It is
 // a sum, because gcc would make a table of choices, and read it for one pixel at a time.

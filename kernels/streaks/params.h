@@ -59,7 +59,8 @@ RG_STRUCT(streaks_params)
     // A splash's share is splash_last less its horizontal distance in metres times splash_fade,
     // within 0 to 1.
     float splash_last, splash_fade;
-    int nothing_0, nothing_1; // make whole rows of four
+    int splash_matt; // whether light falls on splashes by Lambert's law, as in the thesis
+    int nothing;     // makes whole rows of four
 };
 RG_STRUCT_SIZE(streaks_params, 104)
 

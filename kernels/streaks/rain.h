@@ -38,7 +38,7 @@ RG_STRUCT(streaks_billboard)
     float shown;  // a drop's elevation of the camera, in steps of the atlas; a splash's frame
     // For a drop, the time for which it covers a place on its way, relative to the atlas' drop,
     // times the number of drops that it stands for. For a splash, that number, faded at its end and
-    // in the distance.
+    // in the distance, and where it is drawn larger than it is.
     float share;
     // For drops. Lengths are in its radii, as the eye sees them.
     float way;     // way of its fall in the exposure
@@ -86,6 +86,7 @@ RG_STRUCT(streaks_shape)
     float half_width; // of the atlas' picture
     float weight;     // drops that it stands for
     float covering;   // half of the billboard's width, at least half of thinnest_px
+    float thinner;    // share of it that a splash covers: less than 1 below a pixel's size
     float rim;        // beyond either end of the axis, as the eye sees it
     v3 up;            // of a splash
     float nearer;     // distance by which it is drawn nearer than it is
@@ -107,6 +108,13 @@ RG_FN float streaks_nearer(streaks_shape shape, float below)
 {
     float sine = v3_dot(shape.to_eye, shape.up);
     return below / rg_max(sine, 0.05f) + 0.002f;
+}
+
+// The length of a vector of length 1 across another.
+RG_FN float streaks_across_of(v3 d, v3 other)
+{
+    float slant = v3_dot(d, other);
+    return rg_sqrt(rg_max(1.0f - slant * slant, 0.0f));
 }
 
 RG_FN streaks_shape streaks_shape_of(rg_ctx rg, streaks_params p, streaks_particle t)
@@ -133,7 +141,7 @@ RG_FN streaks_shape streaks_shape_of(rg_ctx rg, streaks_params p, streaks_partic
     shape.pixel = rg_max(m4_project(p.to_clip, shape.middle).w, 1e-3f) / p.focal_px;
     shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : half_width;
     float thinnest = p.thinnest_px * shape.pixel;
-    float covering = rg_max(half_width, 0.5f * thinnest);
+    float covering = rg_max(shape.half_width, 0.5f * thinnest);
     v3 to_eye = v3_unit(
         v3_make(p.eye_x - shape.middle.x, p.eye_y - shape.middle.y, p.eye_s - shape.middle.z));
     float way = fall * rg_hypot(to_eye.x, to_eye.y);
@@ -142,8 +150,11 @@ RG_FN streaks_shape streaks_shape_of(rg_ctx rg, streaks_params p, streaks_partic
     shape.nearer = splash != 0 ? streaks_nearer(shape, under) : 0.0f;
     shape.way = rg_max(way / drop_radius, 1e-3f);
     shape.lacking = lacking / drop_radius;
-    shape.covering = splash != 0 ? shape.half_width : covering;
-    shape.rim = splash != 0 ? 0.0f : rg_max(drop_radius, lacking);
+    float seen = tall * streaks_across_of(shape.up, to_eye);
+    float short_by = 0.5f * rg_max(thinnest - seen, 0.0f);
+    shape.covering = covering;
+    shape.thinner = shape.half_width / covering * (seen / rg_max(seen + 2.0f * short_by, 1e-6f));
+    shape.rim = splash != 0 ? short_by : rg_max(drop_radius, lacking);
     return shape;
 }
 
@@ -301,7 +312,7 @@ RG_FN streaks_billboard streaks_splash(rg_ctx rg, streaks_params p, streaks_bill
     r.hit = RG_LARGEST;
     r.nearer = shape.nearer;
     r.up = streaks_up_pack(shape.up);
-    r.share = t.weight * rg_min(frames - passed, 1.0f) * kept;
+    r.share = t.weight * shape.thinner * rg_min(frames - passed, 1.0f) * kept;
     r.shown = rg_clamp(passed - 0.5f, 0.0f, frames - 1.001f);
     r.look = streaks_look(STREAKS_LOOK_SPLASH +
                               ((streaks_hash(t.number) >> 10) & 1u) * STREAKS_LOOK_MIRRORED,

@@ -15,7 +15,9 @@
 //           a surface facing it (1/sr)
 //   env     the same for radiance 1 from everywhere: the share of the exposure for which the drop
 //           covers the pixel, and so the opacity with which a streak hides what is behind it
-//   splash  opacity; there is no factor
+//   splash  the share of a pixel's light that water brings there from above the horizon: its
+//           radiance under a sky of 1. A light that brings an irradiance of 1 shows with this
+//           times splash_part, in 1/sr, by its direction
 //
 // Angles, in degrees, about a drop that falls along -y: a view at azimuth 0 and elevation 20 *
 // view; a light at elevation -90 + 20 * light and azimuth 10 + 20 * phi, counted from the viewer
@@ -73,6 +75,7 @@ struct rg_atlas {
     struct rg_atlas_image images[RG_ATLAS_PART_COUNT];
     float point_factor[RG_ATLAS_OSCILLATIONS][RG_ATLAS_VIEWS][RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
     float env_factor[RG_ATLAS_OSCILLATIONS][RG_ATLAS_VIEWS];
+    float splash_part[RG_ATLAS_MATERIALS][RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
     uint64_t
         hash; // XXH3 of the factors, then the texels of the three images, as little-endian bytes
 };

@@ -24,9 +24,10 @@ struct header {
     uint64_t hash;   // hash of the whole atlas
     float point_factor[RG_ATLAS_OSCILLATIONS][RG_ATLAS_VIEWS][RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
     float env_factor[RG_ATLAS_OSCILLATIONS][RG_ATLAS_VIEWS];
+    float splash_part[RG_ATLAS_MATERIALS][RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
 };
 
-enum { ORDER = 0x01020304, VERSION = 1 };
+enum { ORDER = 0x01020304, VERSION = 2 };
 
 static const char magic[8] = {'r', 'g', '-', 'a', 't', 'l', 'a', 's'};
 
@@ -70,6 +71,7 @@ static bool read_texels(FILE *file, const struct header *header, struct rg_atlas
 {
     memcpy(atlas->point_factor, header->point_factor, sizeof(atlas->point_factor));
     memcpy(atlas->env_factor, header->env_factor, sizeof(atlas->env_factor));
+    memcpy(atlas->splash_part, header->splash_part, sizeof(atlas->splash_part));
     for (int part = 0; part < RG_ATLAS_PART_COUNT; part++) {
         const size_t count = rg_atlas_image_texels(&atlas->images[part]);
         if (fread(atlas->images[part].texels, sizeof(uint16_t), count, file) != count)
@@ -140,6 +142,7 @@ static bool write_all(FILE *file, const struct rg_atlas *atlas)
     memcpy(header.magic, magic, sizeof(magic));
     memcpy(header.point_factor, atlas->point_factor, sizeof(header.point_factor));
     memcpy(header.env_factor, atlas->env_factor, sizeof(header.env_factor));
+    memcpy(header.splash_part, atlas->splash_part, sizeof(header.splash_part));
     bool good = fwrite(&header, sizeof(header), 1, file) == 1;
     for (int part = 0; good && part < RG_ATLAS_PART_COUNT; part++) {
         const size_t count = rg_atlas_image_texels(&atlas->images[part]);

@@ -217,6 +217,7 @@ bool rg_atlas_find_hash(struct rg_atlas *atlas)
     hash_floats(state, &atlas->point_factor[0][0][0][0],
                 sizeof(atlas->point_factor) / sizeof(float));
     hash_floats(state, &atlas->env_factor[0][0], sizeof(atlas->env_factor) / sizeof(float));
+    hash_floats(state, &atlas->splash_part[0][0][0], sizeof(atlas->splash_part) / sizeof(float));
     for (int part = 0; part < RG_ATLAS_PART_COUNT; part++)
         hash_halves(state, atlas->images[part].texels, rg_atlas_image_texels(&atlas->images[part]));
     atlas->hash = XXH3_64bits_digest(state);

@@ -58,9 +58,11 @@ static bool make_streaks(struct rg_atlas *atlas, int set, const struct rg_lobes 
 static bool make_splashes(struct rg_atlas *atlas)
 {
     struct rg_atlas_image *image = &atlas->images[RG_ATLAS_SPLASH];
+    struct rg_splash_light lights[RG_ATLAS_MATERIALS] = {0};
     for (int layer = 0; layer < image->layers; layer++) {
         float texels[RG_SPLASH_WIDTH_PX * RG_SPLASH_HEIGHT_PX];
-        if (!rg_splash_draw(layer / RG_ATLAS_FRAMES, layer % RG_ATLAS_FRAMES, texels))
+        const int material = layer / RG_ATLAS_FRAMES;
+        if (!rg_splash_draw(material, layer % RG_ATLAS_FRAMES, texels, &lights[material]))
             return false;
         uint16_t *to =
             image->texels + (rg_atlas_texels(atlas, RG_ATLAS_SPLASH, layer, 0) - image->texels);
@@ -69,6 +71,8 @@ static bool make_splashes(struct rg_atlas *atlas)
         if (!rg_atlas_shrink_layer(image, layer, 1))
             return false;
     }
+    for (int material = 0; material < RG_ATLAS_MATERIALS; material++)
+        rg_splash_parts(&lights[material], atlas->splash_part[material]);
     return true;
 }
 

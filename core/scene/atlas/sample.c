@@ -36,7 +36,7 @@ static bool add_splashes(XXH3_state_t *state)
     float texels[RG_SPLASH_WIDTH_PX * RG_SPLASH_HEIGHT_PX];
     for (int material = 0; material < RG_ATLAS_MATERIALS; material++) {
         for (int frame = 1; frame < RG_ATLAS_FRAMES; frame += EVERY_FRAMES) {
-            if (!rg_splash_draw(material, frame, texels))
+            if (!rg_splash_draw(material, frame, texels, NULL))
                 return false;
             XXH3_64bits_update(state, texels, sizeof(texels));
         }

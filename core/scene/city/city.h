@@ -44,7 +44,14 @@ struct city_chunk {
     float normal[3];
 };
 
-enum city_lamp_kind { CITY_STREET_LAMP, CITY_TRAFFIC_RED, CITY_TRAFFIC_GREEN };
+enum city_lamp_kind {
+    CITY_STREET_LAMP,
+    CITY_TRAFFIC_RED,
+    CITY_TRAFFIC_GREEN,
+    CITY_HEADLIGHT,
+    CITY_TAIL_LIGHT,
+    CITY_LAMP_KINDS
+};
 struct city_lamp {
     enum city_lamp_kind kind;
     float position[3];

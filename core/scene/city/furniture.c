@@ -5,7 +5,7 @@
 #include "core/scene/city/build.h"
 
 // The purposes of pseudo-random numbers.
-enum { CHANCE_TREE = 100, CHANCE_CAR, CHANCE_COLOUR };
+enum { CHANCE_TREE = 100, CHANCE_CAR, CHANCE_COLOUR, CHANCE_LIT };
 
 static const struct look dark_metal = {PAINT_METAL + 1, SCENERY_KIND_METAL, 1, 0, 0};
 static const struct look grey_metal = {PAINT_METAL, SCENERY_KIND_METAL, 1, 0, 0};
@@ -183,11 +183,26 @@ static void car_body(struct city_builder *b, const point low[4], const point hig
     city_quad(b, high[0], high[1], high[2], high[3], lid);
 }
 
+// The lights of a car that waits with its lights on, one at each end. Low beams point down a
+// little.
+static void light_car(struct city_builder *b, double x, double z, bool along_z)
+{
+    const double down = 0.05, level = sqrt(1 - down * down);
+    const point ahead = along_z ? (point){0, -down, level} : (point){level, -down, 0};
+    const point behind = along_z ? (point){0, 0, -1} : (point){-1, 0, 0};
+    city_lamp_add(b, CITY_HEADLIGHT, car_point(x, z, along_z, 0, 0.65, 2.3), ahead);
+    city_lamp_add(b, CITY_TAIL_LIGHT, car_point(x, z, along_z, 0, 0.65, -2.3), behind);
+}
+
 static void build_car(struct city_builder *b, double x, double z, bool along_z)
 {
     if (is_before_camera(x, z))
         return;
     const uint32_t id = place_of(x, z);
+    if (city_chance(b, CHANCE_LIT, id, 0) < 0.35)
+        light_car(b, x, z, along_z);
+    if (!is_full(b))
+        return;
     static const uint32_t colours[] = {0x303030u, 0xd8d8d8u, 0x9a9a94u, 0x2a2a90u,
                                        0x803020u, 0x486048u, 0xf0f0f0u, 0x584030u};
     const uint32_t colour = colours[(int)(8 * city_chance(b, CHANCE_COLOUR, id, 0))];
@@ -262,8 +277,7 @@ void city_build_furniture(struct city_builder *b)
             build_signals(b, &island);
             if (block.plaza)
                 build_plaza(b, &block);
-            if (is_full(b))
-                build_cars(b, &island);
+            build_cars(b, &island); // the small city has their lights alone
             if (is_full(b) && (column == CITY_COLUMNS / 2 || column == CITY_COLUMNS / 2 - 1))
                 build_avenue(b, &island, column);
         }

@@ -76,7 +76,8 @@ static const struct rg_param rows[] = {
     {"streak_gain", RG_PARAM_FLOAT, AT(streak_gain), 1, 0, 1000, "1", "light of streaks", NULL},
     {"streak_opacity", RG_PARAM_FLOAT, AT(streak_opacity), 1, 0, 40, "1", "what streaks hide of what lies behind, by the share of the exposure for which drops cover it", NULL},
     {"splash_gain", RG_PARAM_FLOAT, AT(splash_gain), 1, 0, 1000, "1", "light of splashes", NULL},
-    {"splash_opacity", RG_PARAM_FLOAT, AT(splash_opacity), 1, 0, 1, "1", "what splashes hide at their thickest", NULL},
+    {"splash_opacity", RG_PARAM_FLOAT, AT(splash_opacity), 1, 0, 40, "1", "what splashes hide of what lies behind, by the share of its light that they replace", NULL},
+    {"splash_light", RG_PARAM_CHOICE, AT(splash_matt), 0, 0, 1, "1", "splashes show lights as clear water does, or as matt white, as the thesis has them", "water matt"},
     {"splash_fade", RG_PARAM_FLOAT, AT(splash_fade), 0.25, 0, 1, "1", "the outer share of the culling radius in which splashes fade away, so that none is seen to end there", NULL},
     {"far_layers", RG_PARAM_INT, AT(far_layers), 4, 0, 64, "1", "rain beyond the culling radius, as so many layers, each as thick as the radius, which add and hide what their drops would; without limits it rains there anyway", NULL},
     {"overlay", RG_PARAM_CHOICE, AT(overlay), 0, 0, 2, "1", "draws the rain space, the local space, the culling radius, packets and lights as lines; or lights alone", "off on lights"},
@@ -93,11 +94,11 @@ static const char *const looks[] = {
     "spectrum=marshall-palmer thin_streaks=area streak_gain=1 streak_opacity=1 far_layers=4 "
     "splash_materials=on "
     "splash_up=normal splash_s=0.126 splash_width_mm=60 splash_gain=1 splash_opacity=1 "
-    "splash_fade=0.25",
+    "splash_light=water splash_fade=0.25",
     "spectrum=off thin_streaks=points streak_gain=4 streak_opacity=3 far_layers=0 "
     "splash_materials=off "
     "splash_up=vertical splash_s=0.15 splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 "
-    "splash_fade=0",
+    "splash_light=matt splash_fade=0",
 };
 
 const struct rg_param_table streaks_param_table = {

@@ -47,9 +47,11 @@ static struct rg_image *upload(struct rg_device *device, const struct rg_atlas *
 static struct rg_buf *upload_factors(struct rg_device *device, const struct rg_atlas *atlas)
 {
     const int64_t points = sizeof(atlas->point_factor), skies = sizeof(atlas->env_factor);
-    struct rg_buf *buf = rg_buf_create(device, points + skies, "brightness factors");
+    const int64_t splashes = sizeof(atlas->splash_part);
+    struct rg_buf *buf = rg_buf_create(device, points + skies + splashes, "brightness factors");
     if (buf && rg_buf_write(buf, 0, atlas->point_factor, points) &&
-        rg_buf_write(buf, points, atlas->env_factor, skies))
+        rg_buf_write(buf, points, atlas->env_factor, skies) &&
+        rg_buf_write(buf, points + skies, atlas->splash_part, splashes))
         return buf;
     rg_buf_destroy(buf);
     return NULL;

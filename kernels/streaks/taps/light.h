@@ -17,15 +17,20 @@ RG_FN float streaks_point(rg_ctx rg, streaks_params p, streaks_strip s, int colu
 }
 
 // The weight of a column's texture in a drop's picture, in the lower of its views (0) or the other
-// (1).
+// (1). A splash has one view, and a factor of its material. The first layers of materials are 0,
+// 21, 42 and 63.
 RG_FN float streaks_part_of(rg_ctx rg, streaks_billboard r, int view, int column, float part)
 {
-    int drop = 1 - streaks_is(r, STREAKS_LOOK_SPLASH);
+    int splash = streaks_is(r, STREAKS_LOOK_SPLASH);
     int lower = streaks_view(r.shown);
     float higher = r.shown - rg_to_float(lower);
     float seen = view != 0 ? higher : 1.0f - higher;
-    int row = streaks_layer_of(r) * drop * STREAKS_VIEWS + lower + view;
-    return factors_at(rg, row * STREAKS_COLUMNS + column) * (seen * part);
+    int drop_row = streaks_layer_of(r) * STREAKS_VIEWS + lower + view;
+    int crown_row = streaks_layer_of(r) >> 4;
+    int at = splash != 0 ? STREAKS_SPLASH_FACTORS + crown_row * STREAKS_COLUMNS
+                         : drop_row * STREAKS_COLUMNS;
+    float share = splash != 0 ? rg_to_float(1 - view) : seen;
+    return factors_at(rg, at + column) * (share * part);
 }
 
 // Selects the textures that show light from a direction of length 1, on a streak that is seen along
@@ -124,7 +129,20 @@ RG_FN float streaks_either(rg_ctx rg, float drop, float crown, float splash)
     return rg_all_plain(rg) != 0 ? drop : streaks_between(drop, crown, splash);
 }
 
-// Splashes are matt, and face upwards from their surface.
+// The part of a light that shows on a splash, which is a drop's without its textures.
+RG_FN float streaks_glint(streaks_lighting by)
+{
+    float part = by.lower;
+#if STREAKS_TAPS > 2
+    part = part + by.lower_1;
+#endif
+#if STREAKS_TAPS > 4
+    part = part + by.lower_2 + by.lower_3;
+#endif
+    return part;
+}
+
+// The thesis's splashes are matt, and face upwards from their surface; others are clear water.
 RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int px, int py,
                           int light, streaks_lighting by)
 {
@@ -133,9 +151,11 @@ RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int 
     scenery_reach reach = scenery_light_reach(l, spot.at);
     float matt = rg_max(v3_dot(reach.to_light, streaks_up_unpack(r.up)), 0.0f);
     float streak = SCENERY_IRRADIANCE * streaks_streak(rg, p, r, spot, by);
+    float clear = SCENERY_IRRADIANCE * streaks_glint(by);
+    float crown = p.splash_matt != 0 ? matt : clear;
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
-    float share =
-        reach.share * scenery_unshadowed(rg, l, spot.at) * streaks_either(rg, streak, matt, splash);
+    float share = reach.share * scenery_unshadowed(rg, l, spot.at) *
+                  streaks_either(rg, streak, crown, splash);
     return rg_rgba(l.r * share, l.g * share, l.b * share, 0.0f);
 }
 

@@ -305,12 +305,12 @@ static void lamps_stand_in_the_streets(void **state)
 {
     (void)state;
     struct city *city = create(1, CITY_SMALL);
-    int kinds[3] = {0};
+    int kinds[CITY_LAMP_KINDS] = {0};
     for (int i = 0; i < city->lamp_count; i++) {
         const struct city_lamp *lamp = &city->lamps[i];
         const float *p = lamp->position, *d = lamp->direction;
         kinds[lamp->kind]++;
-        assert_above(p[1], 2);
+        assert_above(p[1], lamp->kind < CITY_HEADLIGHT ? 2 : 0.6f);
         assert_below(p[1], 9);
         assert_below(fabsf(p[0]), 200);
         assert_below(fabsf(p[2]), 200);
@@ -324,6 +324,8 @@ static void lamps_stand_in_the_streets(void **state)
     assert_above(kinds[CITY_STREET_LAMP], 50);
     assert_above(kinds[CITY_TRAFFIC_RED], 20);
     assert_above(kinds[CITY_TRAFFIC_GREEN], 20);
+    assert_above(kinds[CITY_HEADLIGHT], 20);
+    assert_int_equal(kinds[CITY_HEADLIGHT], kinds[CITY_TAIL_LIGHT]);
     city_destroy(city);
 }
 

@@ -206,13 +206,28 @@ static double cone(const struct scene_light *light, double cosine)
         clamped((cosine - light->cos_outer) / (light->cos_inner - light->cos_outer), 0, 1));
 }
 
-// The share of a light that a surface reflects to the eye: by the cosine, and on wet ground in a
-// lobe.
+double scene_film(const double normal[3], const double way[3], const double to[3], double rough)
+{
+    const double pi = 3.14159265358979323846, alpha2 = rough * rough;
+    double half[3];
+    add(to, way, -1, half);
+    make_unit(half);
+    const double in = dot(normal, to), out = fmax(-dot(normal, way), 1e-3);
+    const double tilt2 = 1 / pow(dot(normal, half), 2) - 1;
+    const double facets = alpha2 / (pi * pow(dot(normal, half), 4) * pow(alpha2 + tilt2, 2));
+    const double hidden_in = (sqrt(1 + alpha2 * (1 / (in * in) - 1)) - 1) / 2;
+    const double hidden_out = (sqrt(1 + alpha2 * (1 / (out * out) - 1)) - 1) / 2;
+    const double fresnel = 0.02 + 0.98 * pow(1 - dot(to, half), 5);
+    return pi * facets * fresnel / (1 + hidden_in + hidden_out) / (4 * in * out) * in;
+}
+
+// The share of a light that reaches a surface times its cosine, and what water on it mirrors.
 static double thrown(const struct scene *scene, const struct scene_light *light,
                      const struct surface *s, const double at[3], const double way[3],
-                     struct scene_pixel *pixel)
+                     struct scene_pixel *pixel, double *mirrored)
 {
-    double to[3], half[3], share = 1;
+    double to[3], share = 1;
+    *mirrored = 0;
     for (int i = 0; i < 3; i++)
         to[i] = light->kind == ORACLE_SUN ? -light->way[i] : light->place_m[i] - at[i];
     const double squared = dot(to, to);
@@ -224,21 +239,22 @@ static double thrown(const struct scene *scene, const struct scene_light *light,
     const double facing = fmax(dot(s->normal, to), 0);
     if (share * facing == 0)
         return 0;
-    add(to, way, -1, half);
-    make_unit(half);
-    const double lobe = pow(fmax(dot(s->normal, half), 0), 64);
-    share *= facing * (1 + 14 * scene->wet * s->wetness * lobe);
-    if (!scene->shadows || reached(scene, light, at, s->normal, sqrt(squared), &pixel->unsure) > 0)
-        return share;
-    pixel->shadowed = true;
-    return 0;
+    if (scene->shadows &&
+        !(reached(scene, light, at, s->normal, sqrt(squared), &pixel->unsure) > 0)) {
+        pixel->shadowed = true;
+        return 0;
+    }
+    const double wet = scene->wet * s->wetness;
+    *mirrored =
+        share * wet * scene_film(s->normal, way, to, light->kind == ORACLE_SUN ? 0.6 : 0.25);
+    return share * facing;
 }
 
 struct scene_pixel scene_see(const struct scene *scene, const double from[3], const double way[3],
                              double pixel_m, double ahead)
 {
     struct scene_pixel pixel = {.sky = false};
-    double distance = 0, at[3], before[3], painted[4], lamps[3] = {0};
+    double distance = 0, at[3], before[3], painted[4], lamps[3] = {0}, glints[3] = {0};
     const int face = scene_meet(scene, from, way, false, &distance);
     if (face < 0) {
         see_sky(scene, way, pixel.light);
@@ -251,9 +267,12 @@ struct scene_pixel scene_see(const struct scene *scene, const double from[3], co
     add(at, s.normal, 3, before);
     paint(scene, &s, at, pixel_m * distance / ahead, facing, painted, &pixel.unsure);
     for (int i = 0; i < scene->light_count; i++) {
-        const double share = thrown(scene, &scene->lights[i], &s, at, way, &pixel);
-        for (int c = 0; c < 3; c++)
+        double mirrored;
+        const double share = thrown(scene, &scene->lights[i], &s, at, way, &pixel, &mirrored);
+        for (int c = 0; c < 3; c++) {
             lamps[c] += share * scene->lights[i].colour[c];
+            glints[c] += mirrored * scene->lights[i].colour[c];
+        }
     }
     const double open = openness(scene, before), own = (1 - 0.45 * wet) * (1 - 0.7 * painted[3]);
     const double mirrored = open * wet * (0.02 + 0.6 * pow(1 - facing, 5));
@@ -262,7 +281,8 @@ struct scene_pixel scene_see(const struct scene *scene, const double from[3], co
         const double falls = scene->ambient * open * scene->zenith[c] +
                              scene->bounced * (1 - open) * scene->horizon[c] + lamps[c];
         const double shown = painted[c] * (own * falls + scene->glow * painted[3] + s.glow) +
-                             mirrored * scene->horizon[c];
+                             mirrored * scene->horizon[c] +
+                             glints[c] * (1 - 0.7 * painted[3]) * fmin(painted[c] / 0.01, 1);
         pixel.light[c] = shown + haze * (scene->horizon[c] - shown);
         pixel.slack[c] = (own * falls + scene->glow * painted[3] + s.glow) * (1 - haze) * 2 *
                          sqrt(painted[c] * s.tint[c]) * 1.5 / 255;

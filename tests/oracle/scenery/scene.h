@@ -56,4 +56,10 @@ struct scene_pixel {
 struct scene_pixel scene_see(const struct scene *scene, const double from[3], const double way[3],
                              double pixel_m, double ahead);
 
+// The radiance that water of a roughness on a wet ground mirrors, over that of a white matt surface
+// which faces the light: pi times the reflectance of facets by Walter et al. (2007), times the
+// cosine. Smith's shadows of both directions go together, and Fresnel's share is Schlick's. `way`
+// leads from the eye, `to` to the light; both are of length 1.
+double scene_film(const double normal[3], const double way[3], const double to[3], double rough);
+
 #endif

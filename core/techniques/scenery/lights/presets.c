@@ -13,17 +13,22 @@ static const float sky_colours[][3] = {
 static const float sun_colours[][3] = {
     [SCENERY_DAY] = {0.90f, 0.84f, 0.74f}, [SCENERY_NIGHT] = {0.020f, 0.026f, 0.042f}};
 
-// A lamp's light, and its cone.
+// A camera is exposed by night for the street under the lamps.
+static const float lamp_exposures[] = {[SCENERY_DAY] = 1, [SCENERY_NIGHT] = 3};
+
+// A lamp's light by day, and its cone.
 static const struct lamp_light {
     float colour[3];
     float inner_deg, outer_deg;
 } lamp_lights[] = {
-    [CITY_STREET_LAMP] = {{56, 41, 22}, 35, 62},
+    [CITY_STREET_LAMP] = {{56, 41, 22}, 45, 78},
+    [CITY_HEADLIGHT] = {{130, 122, 108}, 4, 28},
+    [CITY_TAIL_LIGHT] = {{2, 0.08f, 0.05f}, 30, 65},
     [CITY_TRAFFIC_RED] = {{16, 0.8f, 0.5f}, 30, 55},
     [CITY_TRAFFIC_GREEN] = {{0.6f, 15, 6}, 30, 55},
 };
 
-enum { STREET_LAMPS_FIRST = 3, ANY_KIND = 7 };
+enum { STREET_LAMPS_FIRST = 3, ANY_KIND = (1 << CITY_LAMP_KINDS) - 1 };
 
 static double squared_distance(const float a[3], const float b[3])
 {
@@ -77,7 +82,7 @@ static const struct city_lamp *nearest_lamp(const struct scenery_lights_settings
     return nearest;
 }
 
-static void add_lamp(const struct city_lamp *lamp, struct choice *choice)
+static void add_lamp(const struct city_lamp *lamp, enum scenery_time time, struct choice *choice)
 {
     const struct lamp_light *light = &lamp_lights[lamp->kind];
     struct rg_light *spot = &choice->lights->lights[choice->lights->count];
@@ -89,7 +94,8 @@ static void add_lamp(const struct city_lamp *lamp, struct choice *choice)
                               .shadows = true};
     memcpy(spot->position_m, lamp->position, sizeof(spot->position_m));
     memcpy(spot->direction, lamp->direction, sizeof(spot->direction));
-    memcpy(spot->colour, light->colour, sizeof(spot->colour));
+    for (int c = 0; c < 3; c++)
+        spot->colour[c] = light->colour[c] * lamp_exposures[time];
 }
 
 static void add_lamps(const struct scenery_lights_settings *s, unsigned kinds, int most,
@@ -99,7 +105,7 @@ static void add_lamps(const struct scenery_lights_settings *s, unsigned kinds, i
     for (int i = 0;
          i < most && choice->lights->count < s->count && (lamp = nearest_lamp(s, kinds, choice));
          i++)
-        add_lamp(lamp, choice);
+        add_lamp(lamp, s->time, choice);
 }
 
 static bool choose_preset(const struct scenery_lights_settings *s, struct rg_lights *lights)

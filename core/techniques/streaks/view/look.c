@@ -82,6 +82,7 @@ static void set_looks(streaks_params *p, const struct streaks_settings *set,
     p->opacity = (float)set->streak_opacity;
     p->splash_gain = (float)set->splash_gain;
     p->splash_opacity = (float)set->splash_opacity;
+    p->splash_matt = set->splash_matt;
     const bool fades = set->limits && set->splash_fade > 0;
     p->splash_last = fades ? (float)(1 / set->splash_fade) : 1;
     p->splash_fade = fades ? (float)(1 / (set->splash_fade * set->culling_radius_m)) : 0;

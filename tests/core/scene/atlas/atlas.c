@@ -266,9 +266,9 @@ static void test_splashes(void **state)
         double highest = 0;
         for (int frame = 0; frame < RG_ATLAS_FRAMES; frame++)
             highest = fmax(highest, splash_mean(material, frame));
-        if (!(highest > 0.02 && highest < 0.5))
+        if (!(highest > 0.003 && highest < 0.1))
             fail_msg("material %d: %g of the picture", material, highest);
-        assert_above(splash_mean(material, 0), 0.005);
+        assert_above(splash_mean(material, 0), 0.001);
         assert_below(splash_mean(material, RG_ATLAS_FRAMES - 1), 0.02 * highest);
     }
     assert_above(splash_mean(1, 5), 3 * splash_mean(2, 5)); // a puddle's crown against asphalt's

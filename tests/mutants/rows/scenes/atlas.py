@@ -1,10 +1,11 @@
 """The atlas of streaks and splashes: its cells, levels, lobes and hash."""
 from fault import Fault
 
-TESTS = ("atlas, lobes", "atlas, rays", "atlas, cache", "atlas, database", "atlas, compared", "atlas, streaks")
+TESTS = ("atlas, lobes", "atlas, rays", "atlas, cache", "atlas, database", "atlas, compared", "atlas, streaks", "atlas, splashed water")
 OWN_CACHE = True  # nobody may keep an atlas made by a fault
 
 LOBES, LEVELS = "core/scene/atlas/lights.c", "core/scene/atlas/levels.c"
+SPLASH, WATER = "core/scene/atlas/splash.c", "core/scene/atlas/optics/water.c"
 FIND, COMPARE, FIGURES = "core/scene/atlas/cave/find.c", "core/scene/atlas/cave/compare.c", "harness/atlas/compare.c"
 
 ROWS = [
@@ -27,4 +28,9 @@ ROWS = [
     Fault(COMPARE, "row->flat |= «!correlate(w->ours, w->theirs, count, &row->correlation[way])»;", "(correlate(w->ours, w->theirs, count, &row->correlation[way]), false)", "even pictures count as unlike"),
     Fault(FIGURES, "above += «value > GOOD»;", "value > 0.5", "pictures above one half count as good"),
     Fault(FIGURES, "const double x = «log(row->ours)», y", "row->ours", "brightness is compared by itself, not by its logarithm"),
+    Fault(WATER, "follow(w, ball, at, out, left * «mirrors», deep + 1, light);", "0", "balls of a splash mirror nothing"),
+    Fault(WATER, "left * (reflectance(facing) «- reflectance(-way[1])»)", "- 0", "a wave mirrors what flat water does, too"),
+    Fault(WATER, "along(inside, «-2 * after», normal, inside);", "-1 * after", "light leaves a ball askew after its reflection inside"),
+    Fault(SPLASH, "atan2(fabs(from[0]), «-from[2]») * steps", "from[2]", "lights show on splashes from behind as from before"),
+    Fault(SPLASH, "light->cells[height][phi] / (sum «* cell_sr»)", "* 1", "lights show on splashes alike however wide their cell"),
 ]

@@ -1,6 +1,7 @@
 #include "tests/core/techniques/streaks/splash/crown.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "tests/oracle/raster.h"
 
@@ -120,7 +121,7 @@ void crown_reach(const struct crown_eye *eye, const struct crown_splash *splash,
     const double reach_m = 1.3 * splash->wide * splash->size, near_m = c[3] - reach_m;
     const double x = (c[0] / c[3] + 1) / 2 * eye->width, y = (c[1] / c[3] + 1) / 2 * eye->height;
     const bool is_known = near_m > 0;
-    const double reach = is_known ? 2 * reach_m * eye->focal_px / near_m : 0;
+    const double reach = is_known ? 2 * reach_m * eye->focal_px / near_m + 2 : 0;
     box[0] = is_known ? (int)fmax(x - reach, 0) : 0;
     box[1] = is_known ? (int)fmax(y - reach, 0) : 0;
     box[2] = is_known ? (int)fmin(x + reach + 1, eye->width) : eye->width;
@@ -145,13 +146,35 @@ static bool covers(const struct crown_eye *eye, const double c[4], const double 
     return oracle_covers(corners, 4, x, y);
 }
 
+// Draws a picture at least a pixel wide, and as high as the eye sees it, about its middle. Returns
+// the share of the drawn picture that it would cover.
+static double enlarge(const struct crown_eye *eye, const double middle[3], const double from_eye[3],
+                      const double left[3], double pixel_m, double *wide, double corner[3],
+                      double along[3])
+{
+    double towards[3], above[3];
+    for (int i = 0; i < 3; i++)
+        towards[i] = eye->at[i] - middle[i];
+    cross_unit(from_eye, left, above);
+    const double tall = sqrt(dot(along, along)), slant = dot(along, towards) / tall;
+    const double seen = tall * sqrt(1 - slant * slant / dot(towards, towards));
+    const double wider = fmax(*wide, pixel_m), taller = fmax(seen, pixel_m);
+    const double share = *wide * seen / (wider * taller);
+    for (int i = 0; i < 3; i++) {
+        corner[i] -= above[i] * (taller - seen) / 2;
+        along[i] += above[i] * (taller - seen);
+    }
+    *wide = wider;
+    return share;
+}
+
 // The picture stands on its foot, which is a fifth of its height above its lower edge. It turns to
 // the eye as far as its axis allows.
 bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, int x, int y,
                 struct crown_pixel *pixel)
 {
     const uint32_t chance = chance_of(splash->number);
-    const double wide = splash->wide * splash->size * differs(chance);
+    double wide = splash->wide * splash->size * differs(chance), lost = 1;
     const double tall = splash->wide * splash->size * differs(chance >> 22) * 2 / 3;
     double corner[3], from_eye[3], left[3], across[3], along[3], middle[3];
     for (int i = 0; i < 3; i++) {
@@ -161,15 +184,17 @@ bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, 
         middle[i] = corner[i] + along[i] / 2;
     }
     cross_unit(splash->up, from_eye, left);
+    double c[4], s[4], t[4], m[4];
+    clip_of(eye, middle, 1, m);
+    const double pixels = wide * eye->focal_px / m[3];
+    lost = enlarge(eye, middle, from_eye, left, m[3] / eye->focal_px, &wide, corner, along);
     for (int i = 0; i < 3; i++) {
         corner[i] += left[i] * wide / 2;
         across[i] = -left[i] * wide;
     }
-    double c[4], s[4], t[4], m[4];
     clip_of(eye, corner, 1, c);
     clip_of(eye, across, 0, s);
     clip_of(eye, along, 0, t);
-    clip_of(eye, middle, 1, m);
     // Solves for the place whose clip coordinates over w are the pixel's.
     const double px = (x + 0.5) / eye->width * 2 - 1, py = (y + 0.5) / eye->height * 2 - 1;
     const double a = s[0] - px * s[3], b = t[0] - px * t[3], e = px * c[3] - c[0];
@@ -179,10 +204,10 @@ bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, 
     const double w = c[3] + u * s[3] + v * t[3];
     if (!covers(eye, c, s, t, x, y))
         return false;
-    const double pixels = wide * eye->focal_px / m[3];
     const double level = floor(log2(fmax(CROWN_WIDE / pixels, 1)) + 0.5);
     const bool mirrored = chance >> 10 & 1;
-    pixel->cover = splash->drops *
+    memcpy(pixel->middle, middle, sizeof(middle));
+    pixel->cover = splash->drops * lost *
                    film_at(splash, (int)fmin(level, CROWN_LEVELS - 1), mirrored ? 1 - u : u, 1 - v);
     double towards[3], squared = 0;
     for (int i = 0; i < 3; i++) {

@@ -8,7 +8,8 @@
 
 enum { CROWN_FRAMES = 21, CROWN_WIDE = 48, CROWN_TALL = 32, CROWN_LEVELS = 6 };
 
-// The opacity of one material: frames, each with its halved pictures; row 0 is on top.
+// The shares of one material, of light from above: frames, each with its halved pictures; row 0 is
+// on top.
 struct crown_film {
     double texels[CROWN_FRAMES][CROWN_LEVELS][CROWN_TALL * CROWN_WIDE];
 };
@@ -31,8 +32,9 @@ struct crown_splash {
 
 // A splash as a pixel sees it.
 struct crown_pixel {
-    double cover; // the share that it hides, 0 to 1 for one drop
-    double at[3]; // in the world
+    double cover;     // the share that it hides, 0 to 1 for one drop
+    double at[3];     // in the world
+    double middle[3]; // of the splash's picture
     // Surfaces in front of it by less than this share of the distance do not hide it.
     double near_by;
 };

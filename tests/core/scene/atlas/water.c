@@ -1,0 +1,302 @@
+// Splashed water against an oracle: paths of light that are followed one by one, in double
+// precision, through every surface that they meet. They share nothing with kernels/ or with the
+// tracer, which follows no light from one ball to the next.
+#include <math.h>
+#include <stdint.h>
+
+#include "core/scene/atlas/splash.h"
+#include "tests/tools/expect.h"
+
+static const double pi = 3.14159265358979323846, water_index = 1.333;
+enum {
+    WIDE = RG_SPLASH_WIDTH_PX,
+    TALL = RG_SPLASH_HEIGHT_PX,
+    TRIES = 1024,
+    EVENTS = 64,
+    FIELDS = 3
+};
+
+static uint64_t seed;
+
+static double chance(void)
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(seed >> 11) / 9007199254740992.0;
+}
+
+struct path {
+    double at[3], way[3];
+    int inside; // the ball that it is in, or -1
+};
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// Fresnel's share by its sines and tangents, from an angle on the side of `from` to `to`.
+static double fresnel(double cosine, double from, double to)
+{
+    const double a = acos(fmin(cosine, 1)), sine = sin(a) * from / to;
+    if (sine >= 1)
+        return 1;
+    const double b = asin(sine);
+    if (a < 1e-6)
+        return pow((from - to) / (from + to), 2);
+    return 0.5 * (pow(sin(a - b) / sin(a + b), 2) + pow(tan(a - b) / tan(a + b), 2));
+}
+
+// --- what a path meets first ---
+
+static double meet_ball(const struct rg_water_ball *ball, const struct path *path, bool leaves)
+{
+    double off[3];
+    for (int i = 0; i < 3; i++)
+        off[i] = path->at[i] - ball->at[i];
+    const double b = dot(off, path->way), c = dot(off, off) - ball->radius_m * ball->radius_m;
+    if (b * b < c)
+        return INFINITY;
+    const double far = leaves ? -b + sqrt(b * b - c) : -b - sqrt(b * b - c);
+    return far > 1e-9 ? far : INFINITY;
+}
+
+// The sheet's edge at an angle, and whether a place of the cone is below it.
+static bool is_on_sheet(const struct rg_water *w, const double at[3])
+{
+    const double angle = atan2(at[2], at[0]);
+    return at[1] >= 0 && at[1] <= w->height_m * (0.87 + 0.13 * cos(w->spikes * angle + w->turn));
+}
+
+// Steps along the path until the cone is crossed, and halves the step that crossed it.
+static double meet_sheet(const struct rg_water *w, const struct path *path, double end)
+{
+    const double step = 5e-4;
+    double last = 0;
+    for (double far = 1e-7; far < end && far < 0.15; far += step) {
+        double low = far - step, high = far, at[3];
+        for (int i = 0; i < 3; i++)
+            at[i] = path->at[i] + far * path->way[i];
+        const double off = hypot(at[0], at[2]) - w->foot_m - w->flare * at[1];
+        const bool crossed = last * off < 0;
+        last = off;
+        for (int halving = 0; crossed && halving < 40; halving++) {
+            const double middle = 0.5 * (low + high);
+            for (int i = 0; i < 3; i++)
+                at[i] = path->at[i] + middle * path->way[i];
+            const double here = hypot(at[0], at[2]) - w->foot_m - w->flare * at[1];
+            *(here * off > 0 ? &high : &low) = middle;
+        }
+        if (crossed && low > 1e-7 && is_on_sheet(w, at))
+            return low;
+    }
+    return INFINITY;
+}
+
+// --- what happens there ---
+
+static void mirror(struct path *path, const double normal[3])
+{
+    const double into = dot(path->way, normal);
+    for (int i = 0; i < 3; i++)
+        path->way[i] -= 2 * into * normal[i];
+}
+
+static void cross_ball(const struct rg_water *w, int ball, struct path *path)
+{
+    const bool leaves = path->inside >= 0;
+    double normal[3];
+    for (int i = 0; i < 3; i++)
+        normal[i] = (path->at[i] - w->balls[ball].at[i]) / w->balls[ball].radius_m;
+    const double from = leaves ? water_index : 1, to = leaves ? 1 : water_index;
+    const double cosine = fabs(dot(path->way, normal)), side = leaves ? 1 : -1;
+    if (chance() < fresnel(cosine, from, to)) {
+        mirror(path, normal);
+        return;
+    }
+    const double sine2 = (1 - cosine * cosine) * from * from / to / to;
+    for (int i = 0; i < 3; i++)
+        path->way[i] = from / to * (path->way[i] - side * cosine * normal[i]) +
+                       side * sqrt(1 - sine2) * normal[i];
+    path->inside = leaves ? -1 : ball;
+}
+
+static void cross_sheet(const struct rg_water *w, struct path *path)
+{
+    const double length = hypot(1, w->flare), radius = hypot(path->at[0], path->at[2]);
+    const double normal[3] = {path->at[0] / radius / length, -w->flare / length,
+                              path->at[2] / radius / length};
+    const double one = fresnel(fabs(dot(path->way, normal)), 1, water_index);
+    if (chance() < 2 * one / (1 + one))
+        mirror(path, normal);
+}
+
+// A direction's field of the sky: overhead, beyond the splash, or on the viewer's side.
+static int field_of(double height_deg, double azimuth_deg)
+{
+    return height_deg > 40 ? 0 : azimuth_deg > 100 ? 1 : 2;
+}
+
+// The field of the sky in which a path ends, or -1 below the horizon.
+static int end_of(const struct rg_water *w, struct path path)
+{
+    for (int event = 0; event < EVENTS; event++) {
+        const double ground = path.way[1] < 0 ? -path.at[1] / path.way[1] : INFINITY;
+        double nearest = ground;
+        int ball = -1;
+        for (int i = 0; i < w->count; i++) {
+            if (path.inside >= 0 && i != path.inside)
+                continue;
+            const double far = meet_ball(&w->balls[i], &path, path.inside >= 0);
+            if (far < nearest) {
+                nearest = far;
+                ball = i;
+            }
+        }
+        const double sheet = path.inside < 0 && w->height_m > 0
+                                 ? meet_sheet(w, &path, fmin(nearest, 0.15))
+                                 : INFINITY;
+        if (sheet >= nearest && ball < 0)
+            return ground < INFINITY
+                       ? -1
+                       : field_of(asin(path.way[1]) * 180 / pi,
+                                  acos(-path.way[2] / hypot(path.way[0], path.way[2])) * 180 / pi);
+        for (int i = 0; i < 3; i++)
+            path.at[i] += fmin(sheet, nearest) * path.way[i];
+        if (sheet < nearest)
+            cross_sheet(w, &path);
+        else
+            cross_ball(w, ball, &path);
+    }
+    return -1;
+}
+
+// Adds the shares of paths through a texel that end in each field.
+static void add_texel(const struct rg_water *w, int column, int row, double shares[FIELDS])
+{
+    const double tilt = 15 * pi / 180, texel = 0.06 / WIDE;
+    for (int k = 0; k < TRIES; k++) {
+        const double x = (column + chance() - WIDE / 2.0) * texel;
+        const double up = (TALL - row - chance()) * texel - 0.008;
+        const struct path path = {
+            {x, up * cos(tilt) + 0.1 * sin(tilt), up * sin(tilt) - 0.1 * cos(tilt)},
+            {0, -sin(tilt), cos(tilt)},
+            -1};
+        const int field = end_of(w, path);
+        if (field >= 0)
+            shares[field] += 1.0 / TRIES;
+    }
+}
+
+static void expect_fields(const struct rg_splash_light *light, const double due[FIELDS])
+{
+    double is[FIELDS] = {0}, sums[2] = {0};
+    for (int height = 0; height < RG_ATLAS_LIGHTS; height++)
+        for (int phi = 0; phi < RG_ATLAS_PHIS; phi++)
+            is[field_of(20 * height - 90, 20 * phi + 10)] += light->cells[height][phi];
+    for (int i = 0; i < FIELDS; i++) {
+        sums[0] += is[i];
+        sums[1] += due[i];
+    }
+    for (int i = 0; i < FIELDS; i++)
+        if (fabs(is[i] / sums[0] - due[i] / sums[1]) > 0.02)
+            fail_msg("field %d of the sky: %.3f of the light, not %.3f", i, is[i] / sums[0],
+                     due[i] / sums[1]);
+}
+
+// The crowns are compared as a whole where the tracer sees water, texel by texel, and by where
+// their light comes from. The tracer's 64 rays a texel leave the smallest droplets to chance.
+static void expect_crown(int material, double time_s)
+{
+    struct rg_water water;
+    struct rg_splash_light light = {0};
+    float texels[TALL * WIDE];
+    rg_splash_water(material, time_s, &water);
+    water.ring_height_m = 0; // the wave has a test of its own
+    assert_true(rg_splash_see(&water, texels, &light));
+    double is = 0, due = 0, apart = 0, fields[FIELDS] = {0};
+    int mask = 0;
+    for (int i = 0; i < TALL * WIDE; i++) {
+        if (!(texels[i] > 0))
+            continue;
+        double shares[FIELDS] = {0}, share = 0;
+        add_texel(&water, i % WIDE, i / WIDE, shares);
+        for (int k = 0; k < FIELDS; k++) {
+            share += shares[k];
+            fields[k] += shares[k];
+        }
+        is += (double)texels[i];
+        due += share;
+        apart += fabs((double)texels[i] - share);
+        mask++;
+    }
+    print_message("material %d, %.0f ms: %d balls, %d texels, %.4f of the sky's light, %.4f due, "
+                  "%.1f %% apart in the mean\n",
+                  material, 1000 * time_s, water.count, mask, is / mask, due / mask,
+                  100 * apart / due);
+    assert_at_least(mask, 60);
+    assert_below(fabs(is / due - 1), 0.05);
+    assert_below(apart, 0.35 * due);
+    expect_fields(&light, fields);
+}
+
+// A wave of one slope, seen from 15 degrees above: the side that is turned away mirrors as much
+// more of the sky as Fresnel says, and nothing shows in a furnace that is not mirrored.
+static void test_waves(void **state)
+{
+    (void)state;
+    const double tilt = 15 * pi / 180, way[3] = {0, -sin(tilt), cos(tilt)};
+    // A place half way up the ring's outer side, behind the impact.
+    const struct rg_water water = {.ring_m = 0.01, .ring_width_m = 0.004, .ring_height_m = 0.0001};
+    const double away = 0.012, slope = -0.0001 * pi / 0.004 / sqrt(1.2);
+    const double start[3] = {0, 0.1 * sin(tilt), away - 0.1 * cos(tilt)};
+    const double flat = fresnel(sin(tilt), 1, water_index);
+    struct rg_water_light light;
+    rg_water_see(&water, NULL, start, way, &light);
+    assert_equals(light.count, 1);
+    const double turned = atan(-slope), due = fresnel(sin(tilt - turned), 1, water_index) - flat;
+    assert_below(fabs(light.share[0] / due - 1), 1e-6);
+    assert_below(fabs(asin(light.from[0][1]) - (tilt - 2 * turned)), 1e-6);
+    const double before[3] = {0, 0.1 * sin(tilt), -away - 0.1 * cos(tilt)};
+    rg_water_see(&water, NULL, before, way, &light);
+    assert_equals(light.count, 0); // it faces the viewer, and mirrors less than flat water
+}
+
+// An even sky shows with all its directions' parts: they make 1.
+static void test_parts_make_a_sky(void **state)
+{
+    (void)state;
+    struct rg_splash_light light = {0};
+    float texels[TALL * WIDE], parts[RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
+    assert_true(rg_splash_draw(0, 2, texels, &light));
+    rg_splash_parts(&light, parts);
+    double sum = 0;
+    for (int height = 0; height < RG_ATLAS_LIGHTS; height++) {
+        const double low = fmax(20 * height - 100, -90), high = fmin(20 * height - 80, 90);
+        for (int phi = 0; phi < RG_ATLAS_PHIS; phi++) {
+            sum += (double)parts[height][phi] * 2 * pi / RG_ATLAS_PHIS *
+                   (sin(high * pi / 180) - sin(low * pi / 180));
+            assert_true(high > 0 || parts[height][phi] == 0);
+        }
+    }
+    assert_below(fabs(sum - 1), 1e-6);
+}
+
+static void test_crowns_are_as_bright_as_paths_find(void **state)
+{
+    (void)state;
+    seed = 7;
+    expect_crown(0, 0.015);
+    expect_crown(0, 0.033);
+    expect_crown(1, 0.021);
+    expect_crown(3, 0.009);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_crowns_are_as_bright_as_paths_find),
+        cmocka_unit_test(test_waves),
+        cmocka_unit_test(test_parts_make_a_sky),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
