@@ -23,7 +23,7 @@
 struct atlas_options {
     struct rg_length length;
     char *from, *compare, *output; // folders
-    bool json;
+    bool measured, json;
 };
 
 #define AT(field) offsetof(struct atlas_options, field)
@@ -35,6 +35,9 @@ static const struct rg_option options[] = {
               "atlas",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
+    {RG_OPTION_FLAG, "measured",
+     .about = "of drops that swing as in wind tunnels, not as in the original database",
+     .offset = AT(measured), .excludes = "from"},
     {RG_OPTION_TEXT, "from", .argument = "DIR",
      .about = "packs the original streak database in this folder, and generates nothing",
      .offset = AT(from), .names = RG_NAMES_FOLDER},
@@ -60,7 +63,8 @@ static bool can_be_kept(const struct atlas_options *o, int64_t bytes)
     return !o->output || rg_output_can_be_written(o->output, bytes);
 }
 
-static const char *const size_names[RG_ATLAS_SIZE_COUNT] = {"full", "small", "cave", "cave-small"};
+static const char *const size_names[RG_ATLAS_SIZE_COUNT] = {
+    "full", "small", "cave", "cave-small", "measured", "measured-small"};
 
 // An atlas and its origin.
 struct found {
@@ -96,9 +100,11 @@ static bool find(const struct atlas_options *o, struct found *found)
 {
     char why[256];
     enum rg_atlas_cached state;
-    const enum rg_atlas_size size = o->from ? o->length.quick ? RG_ATLAS_CAVE_SMALL : RG_ATLAS_CAVE
-                                    : o->length.quick ? RG_ATLAS_SMALL
-                                                      : RG_ATLAS_FULL;
+    const bool quick = o->length.quick;
+    const enum rg_atlas_size size =
+        o->from ? quick ? RG_ATLAS_CAVE_SMALL : RG_ATLAS_CAVE
+                : rg_atlas_swinging(quick ? RG_ATLAS_SMALL : RG_ATLAS_FULL,
+                                    o->measured ? RG_SWINGS_MEASURED : RG_SWINGS_DATABASE);
     const double start_ms = rg_now_ms();
     struct rg_progress progress;
     const struct rg_atlas_progress tells = {tell, &progress};
@@ -223,11 +229,10 @@ static int make_textures(const struct atlas_options *o, const char *name)
     const struct rg_technique *technique = rg_subject_technique(name);
     if (!technique)
         return rg_exit_of_error();
-    if (o->from || o->compare || o->length.quick || o->length.full) {
-        rg_error(
-            "atlas %s: --from, --compare, --quick and --full are about the streak atlas; leave "
-            "them out",
-            name);
+    if (o->from || o->compare || o->measured || o->length.quick || o->length.full) {
+        rg_error("atlas %s: --from, --compare, --measured, --quick and --full are about the streak "
+                 "atlas; leave them out",
+                 name);
         return rg_exit_of_error();
     }
     if (!can_be_kept(o, TEXTURES_BYTES) || !rg_textures_make(technique, o->output, &rows))
@@ -279,7 +284,8 @@ static int atlas_command(const void *values, const struct rg_words *arguments)
 const struct rg_command rg_command_atlas = {
     .name = "atlas",
     .reader = RG_FOR_PAPERS,
-    .usage = "[TECHNIQUE] [--quick|--full] [--from DIR] [--compare DIR] [-o DIR] [--json]",
+    .usage =
+        "[TECHNIQUE] [--quick|--full] [--measured] [--from DIR] [--compare DIR] [-o DIR] [--json]",
     .about = "makes, describes and exports the streak atlas or a technique's textures",
     .options = options,
     .options_size = sizeof(struct atlas_options),

@@ -3,14 +3,28 @@
 #include <math.h>
 #include <string.h>
 
-// The depth of a point below the surface, in radii: the definition, by angles.
+#define PI 3.14159265358979323846
+
+struct oracle_drop oracle_drop_at(bool database, int oscillation, double part)
+{
+    static const double azimuths[10] = {0, 0, 270, 0, 90, 180, 270, 0, 90, 180};
+    const double upright = oscillation == 0 ? 0 : oscillation == 1 || oscillation > 5 ? 0.2 : 0.1;
+    const double bent = oscillation < 2 ? 0 : database || oscillation > 5 ? 0.1 : 0.05;
+    const double scale = database ? 1 : 0.25;
+    const double w2 = sqrt(8 * 0.0728 / (1000 * pow(1.6e-3, 3))), turn = w2 * part / 60;
+    return (struct oracle_drop){.a = (database ? 0 : -0.051) + scale * upright * sin(turn),
+                                .b = scale * bent * sin(2 * turn),
+                                .phi_drop = azimuths[oscillation] * PI / 180,
+                                .index = 1.333,
+                                .blind = database ? 0.6 : 0};
+}
+
+// The depth of a point below the surface, in radii: the definition.
 static double depth_at(const struct oracle_drop *drop, const double p[3])
 {
-    const double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-    const double theta = acos(p[1] / length), phi = atan2(p[0], p[2]), c = cos(theta);
-    const double r = 1 + drop->a * (3 * c * c - 1) / 2 +
-                     drop->b * 1.5 * sin(theta) * (5 * c * c - 1) * cos(phi - drop->phi_drop);
-    return r - length;
+    const double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]), c = p[1] / length;
+    const double aside = (p[0] * sin(drop->phi_drop) + p[2] * cos(drop->phi_drop)) / length;
+    return 1 + drop->a * (3 * c * c - 1) / 2 + drop->b * 1.5 * (5 * c * c - 1) * aside - length;
 }
 
 static void normal_at(const struct oracle_drop *drop, const double p[3], double normal[3])
@@ -30,18 +44,19 @@ static void normal_at(const struct oracle_drop *drop, const double p[3], double 
         normal[i] /= sqrt(length);
 }
 
-// Steps along a ray until it crosses the surface, then halves the step; moves p there.
-static bool march(const struct oracle_drop *drop, double p[3], const double d[3], bool inside)
+// Steps along a ray until it crosses the surface, then halves the step; moves p there. Returns the
+// way; 0: there is no surface.
+static double march(const struct oracle_drop *drop, double p[3], const double d[3], bool inside)
 {
-    const double step = 1.0 / 512;
+    const double step = 1.0 / 64;
     double low = inside ? 0.02 : 0;
-    for (double high = low + step; high < 8; low = high, high += step) {
+    for (double high = low + step; high < 6; low = high, high += step) {
         double q[3];
         for (int i = 0; i < 3; i++)
             q[i] = p[i] + high * d[i];
         if ((depth_at(drop, q) > 0) == inside)
             continue;
-        for (int k = 0; k < 60; k++) {
+        for (int k = 0; k < 40; k++) {
             const double middle = 0.5 * (low + high);
             for (int i = 0; i < 3; i++)
                 q[i] = p[i] + middle * d[i];
@@ -51,9 +66,9 @@ static bool march(const struct oracle_drop *drop, double p[3], const double d[3]
                 high = middle;
         }
         memcpy(p, q, 3 * sizeof(*p));
-        return true;
+        return high;
     }
-    return false;
+    return 0;
 }
 
 // Splits light at a surface, by Snell's angles. Returns the reflected share.
@@ -82,14 +97,18 @@ bool oracle_drop_light(const struct oracle_drop *drop, const double start[3], co
     double p[3], d[3], normal[3], inside[3];
     memcpy(p, start, sizeof(p));
     memset(share, 0, ORACLE_WAYS * sizeof(*share));
-    if (!march(drop, p, ray, false))
+    if (march(drop, p, ray, false) <= 0)
         return false;
     normal_at(drop, p, normal);
     share[0] = part(ray, normal, 1 / drop->index, direction[0], d);
     double left = 1 - share[0];
     for (int way = 1; way < ORACLE_WAYS; way++) {
-        if (!march(drop, p, d, true))
-            return false;
+        const double way_radii = march(drop, p, d, true);
+        if (way_radii < drop->blind) {
+            memcpy(direction[way], d, sizeof(d));
+            share[way] = left;
+            return true;
+        }
         normal_at(drop, p, normal);
         const double reflected = part(d, normal, drop->index, inside, direction[way]);
         share[way] = left * (1 - reflected);

@@ -8,10 +8,13 @@
 enum { ORACLE_WAYS = 5 };
 
 // r = 1 + a (3 c^2 - 1) / 2 + b 3/2 s (5 c^2 - 1) cos(phi - phi_drop), angles in radians: phi is
-// counted from +z to +x.
+// counted from +z to +x. Inside, a ray passes through a surface that is nearer than `blind`.
 struct oracle_drop {
-    double a, b, phi_drop, index;
+    double a, b, phi_drop, index, blind;
 };
+
+// One of the ten oscillations of a set at a part of the exposure: the database's, or the measured.
+struct oracle_drop oracle_drop_at(bool database, int oscillation, double part);
 
 // The sources of the light on a ray from `start` in direction `ray`, against the light's way. Each
 // way of light (reflected; refracted; with one to three reflections inside) gets a unit vector

@@ -30,6 +30,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/scene/atlas/optics/drop.h"
+
 enum {
     RG_ATLAS_OSCILLATIONS = 10,
     RG_ATLAS_VIEWS = 5,
@@ -54,10 +56,12 @@ enum {
 #define RG_ATLAS_DROP_MM 3.2f
 
 enum rg_atlas_size {
-    RG_ATLAS_FULL,       // 2880 x 3606, 12 levels; 280 MB
+    RG_ATLAS_FULL,       // 2880 x 3606, 12 levels; 280 MB; drops swing as the database's
     RG_ATLAS_SMALL,      // levels 2 to 11 of such an atlas, traced coarsely: 720 x 901; 18 MB
     RG_ATLAS_CAVE,       // full and small, packed from the original database by
     RG_ATLAS_CAVE_SMALL, // `raingauge atlas --from DIR`
+    RG_ATLAS_MEASURED,   // as full and small, of drops that swing as was measured
+    RG_ATLAS_MEASURED_SMALL,
     RG_ATLAS_SIZE_COUNT
 };
 
@@ -80,6 +84,13 @@ struct rg_atlas {
         hash; // XXH3 of the factors, then the texels of the three images, as little-endian bytes
 };
 
+// Whether a size is a quarter of the full one each way, and whether it is traced, not packed.
+bool rg_atlas_is_small(enum rg_atlas_size size);
+bool rg_atlas_is_traced(enum rg_atlas_size size);
+
+// The full or small atlas of drops that swing so; other sizes are returned as they are.
+enum rg_atlas_size rg_atlas_swinging(enum rg_atlas_size size, enum rg_swings swings);
+
 // A listener for progress: `done` of `total` units, which take about equally long. It is called by
 // one thread at a time.
 struct rg_atlas_progress {
@@ -93,9 +104,9 @@ struct rg_atlas_progress {
 // logged line, on failure. The caller destroys it.
 struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 
-// Traces an atlas without the cache, in parallel, in about four minutes of one core, or eight
-// seconds for the small size. Its bits depend neither on the number of threads nor on the
-// processor's vectors. `size` is RG_ATLAS_FULL or RG_ATLAS_SMALL.
+// Traces an atlas without the cache, in parallel: the database's full one in a minute of one core,
+// the measured one in four, the small ones in eight seconds. Its bits depend neither on the number
+// of threads nor on the processor's vectors. `size` is one that is traced.
 struct rg_atlas *rg_atlas_make(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 void rg_atlas_destroy(struct rg_atlas *atlas);
 

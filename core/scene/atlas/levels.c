@@ -49,12 +49,29 @@ const uint16_t *rg_atlas_texels(const struct rg_atlas *atlas, enum rg_atlas_part
     return atlas->images[part].texels + offset_of(&atlas->images[part], layer, level);
 }
 
+bool rg_atlas_is_small(enum rg_atlas_size size)
+{
+    return size == RG_ATLAS_SMALL || size == RG_ATLAS_CAVE_SMALL || size == RG_ATLAS_MEASURED_SMALL;
+}
+
+bool rg_atlas_is_traced(enum rg_atlas_size size)
+{
+    return size != RG_ATLAS_CAVE && size != RG_ATLAS_CAVE_SMALL;
+}
+
+enum rg_atlas_size rg_atlas_swinging(enum rg_atlas_size size, enum rg_swings swings)
+{
+    if (swings == RG_SWINGS_DATABASE || size > RG_ATLAS_SMALL)
+        return size;
+    return size == RG_ATLAS_SMALL ? RG_ATLAS_MEASURED_SMALL : RG_ATLAS_MEASURED;
+}
+
 struct rg_atlas *rg_atlas_allocate(enum rg_atlas_size size)
 {
     struct rg_atlas *atlas = rg_alloc(1, sizeof(*atlas), "streak atlas");
     if (!atlas)
         return NULL;
-    const int first = size == RG_ATLAS_SMALL || size == RG_ATLAS_CAVE_SMALL ? 2 : 0;
+    const int first = rg_atlas_is_small(size) ? 2 : 0;
     atlas->size = size;
     atlas->first_level = first;
     for (int part = 0; part < 2; part++)

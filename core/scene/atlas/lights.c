@@ -3,9 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-// A light counts as dark beyond this many standard deviations: 4e-5 of the peak.
-#define EDGE_DEVIATIONS 4.5
-
 // The most that half the diagonal of a grid square can be: at a face's middle, 2 / 32 / sqrt(2).
 #define SQUARE_REACH_RAD 0.0443
 
@@ -71,19 +68,29 @@ int rg_lobes_square(float x, float y, float z)
     return ((2 * axis + (d[axis] < 0)) * RG_LOBE_GRID + t) * RG_LOBE_GRID + s;
 }
 
+// Fills the profile of a lamp, and the radiance at which its irradiance is 1.
+static void fill_profile(struct rg_lobes *lobes)
+{
+    const double edge = cos((RG_LAMP_DEG + RG_RIM_DEG) * M_PI / 180);
+    double irradiance = 0;
+    lobes->edge = (float)edge;
+    for (int i = 0; i < RG_LOBE_STEPS + 2; i++) {
+        const double cosine = fmin(1, edge + (1 - edge) * i / RG_LOBE_STEPS);
+        const double inwards_deg = RG_LAMP_DEG - acos(cosine) * 180 / M_PI;
+        const double radiance = fmin(fmax(0.5 + 0.5 * inwards_deg / RG_RIM_DEG, 0), 1);
+        const double part = i == 0 || i == RG_LOBE_STEPS ? 0.5 : i < RG_LOBE_STEPS;
+        lobes->profile[i] = (float)radiance;
+        irradiance += radiance * part * 2 * M_PI * (1 - edge) / RG_LOBE_STEPS;
+    }
+    lobes->peak = (float)(1 / irradiance);
+}
+
 void rg_lobes_fill(struct rg_lobes *lobes, int count, float (*directions)[3])
 {
-    const double deviation = RG_LOBE_DEG * M_PI / 180, edge = EDGE_DEVIATIONS * deviation;
-    // density of the von Mises-Fisher distribution on the sphere
-    const double kappa = 1 / (deviation * deviation);
     lobes->count = count;
     memcpy(lobes->direction, directions, (size_t)count * sizeof(*directions));
-    lobes->peak = (float)(kappa / (2 * M_PI * (1 - exp(-2 * kappa))));
-    lobes->edge = (float)cos(edge);
-    for (int i = 0; i < RG_LOBE_STEPS + 2; i++)
-        lobes->profile[i] =
-            (float)exp(-kappa * (1 - cos(edge)) * fmax(0, 1 - (double)i / RG_LOBE_STEPS));
-    const double reach = cos(edge + SQUARE_REACH_RAD);
+    fill_profile(lobes);
+    const double reach = cos((RG_LAMP_DEG + RG_RIM_DEG) * M_PI / 180 + SQUARE_REACH_RAD);
     for (int square = 0; square < RG_LOBE_SQUARES; square++) {
         double d[3];
         middle_of(square, d);

@@ -1,4 +1,4 @@
-// Lobes of light: which lights a direction meets, and how bright they are there.
+// Lobes of light: which lamps a direction meets, and how bright they are there.
 #ifndef RG_CORE_SCENE_ATLAS_LIGHTS_H
 #define RG_CORE_SCENE_ATLAS_LIGHTS_H
 
@@ -9,8 +9,10 @@
 // Lights at elevation -90 and 90 have no azimuth, so that 90 cells share 74 directions.
 enum { RG_LOBE_COUNT = 2 + (RG_ATLAS_LIGHTS - 2) * RG_ATLAS_PHIS };
 
-// The standard deviation of a light's radiance around its direction, a Gaussian on the sphere.
-#define RG_LOBE_DEG 3.0
+// A lamp is an even disc of this radius, as in the database's pictures. Its rim fades from half a
+// degree inside to half a degree outside, so that the steps between rays don't show.
+#define RG_LAMP_DEG 7.5
+#define RG_RIM_DEG  0.5
 
 // A grid on the faces of a cube sorts directions; each square lists the lights that directions in
 // it can meet.

@@ -11,8 +11,8 @@ enum { OSCILLATION = 6, VIEW = 1, LEVEL = 3, EVERY_FRAMES = 9 };
 
 static bool add_streaks(XXH3_state_t *state, enum rg_atlas_size size)
 {
-    const struct rg_streak_detail coarse = {.moments = 4, .column = 4, .along = 16};
     const struct rg_streak_detail detail = rg_streak_detail(size);
+    const struct rg_streak_detail coarse = {detail.swings, .moments = 4, .column = 4, .along = 16};
     struct rg_lobes *lobes = rg_alloc(1, sizeof(*lobes), "streak atlas");
     struct rg_streaks streaks = {0};
     if (lobes)
@@ -50,7 +50,8 @@ uint64_t rg_atlas_sample(enum rg_atlas_size size)
     if (!state)
         return 0;
     XXH3_64bits_reset(state);
-    const bool made = (size >= RG_ATLAS_CAVE || add_streaks(state, size)) && add_splashes(state);
+    const bool made =
+        (!rg_atlas_is_traced(size) || add_streaks(state, size)) && add_splashes(state);
     const uint64_t hash = made ? XXH3_64bits_digest(state) : 0;
     XXH3_freeState(state);
     return hash;

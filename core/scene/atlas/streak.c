@@ -23,6 +23,7 @@ struct tracing {
     double fall_rows;         // over the exposure
     double top_row;           // row of the drop's middle when the exposure begins
     double share;             // weight of one ray at one moment in a pixel
+    enum rg_swings swings;
     int moments;
     int column[RG_TRACE_MAX]; // the picture's column of each ray
     float (*light)[RG_ATLAS_CELL_PX];
@@ -33,9 +34,14 @@ struct tracing {
 
 struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size)
 {
-    return size == RG_ATLAS_SMALL
-               ? (struct rg_streak_detail){.moments = 32, .column = 20, .along = 48}
-               : (struct rg_streak_detail){.moments = 192, .column = 8, .along = 176};
+    const bool small = rg_atlas_is_small(size);
+    if (size == RG_ATLAS_MEASURED)
+        return (struct rg_streak_detail){.moments = 192, .column = 8, .along = 176};
+    return (struct rg_streak_detail){.swings = size == RG_ATLAS_MEASURED_SMALL ? RG_SWINGS_MEASURED
+                                                                               : RG_SWINGS_DATABASE,
+                                     .moments = RG_DATABASE_POSES,
+                                     .column = small ? 20 : 12,
+                                     .along = small ? 64 : 256};
 }
 
 // The integral of a tent of width 2 from its middle.
@@ -120,11 +126,12 @@ static void trace_row(struct tracing *t, const struct rg_drop_shape *shape, int 
     add_row(t, t->env, weights, first, count, t->streaks->env);
 }
 
-// Traces the drop as it is after k parts of the exposure. Each moment shifts the rows of rays by
-// the golden ratio, so that later moments fill the gaps of earlier ones.
+// Traces the drop as it is after k parts of the exposure. Each moment shifts the
+// rows of rays by the golden ratio, so that later moments fill the gaps of earlier ones.
 static void trace_moment(struct tracing *t, int oscillation, int k)
 {
-    const struct rg_drop_shape shape = rg_drop_shape(oscillation, RG_EXPOSURE_S * k / t->moments);
+    const struct rg_drop_shape shape =
+        rg_drop_shape(t->swings, oscillation, RG_EXPOSURE_S * k / t->moments);
     const double turn = k * 0.6180339887498949;
     const float shift = (float)(turn - floor(turn)) - 0.5f;
     for (int j = 0; j < t->rows; j++)
@@ -138,6 +145,7 @@ static bool prepare(struct tracing *t, int view, int level, const struct rg_stre
     t->radius_x = 0.5f * RG_ATLAS_DROP_PX / (float)(1 << level);
     t->radius_y = (float)(0.5 * (double)RG_ATLAS_DROP_PX * shrink);
     const double foreshortening = cos(view * 20 * M_PI / 180);
+    t->swings = detail->swings;
     t->fall_rows = RG_DROP_FALL * 2 * (double)t->radius_y * foreshortening;
     t->top_row = 0.5 * (height - t->fall_rows);
     t->moments = detail->moments;

@@ -166,7 +166,9 @@ static void tell_textures(struct streaks *s)
 
 static bool create_textures(struct streaks *s)
 {
-    s->textures = streaks_textures_get(s->base.device, (enum rg_atlas_size)s->settings.atlas);
+    const enum rg_atlas_size size = rg_atlas_swinging((enum rg_atlas_size)s->settings.atlas,
+                                                      (enum rg_swings)s->settings.swings);
+    s->textures = streaks_textures_get(s->base.device, size);
     return s->textures;
 }
 

@@ -60,6 +60,7 @@ static const struct rg_param rows[] = {
     {"shadows", RG_PARAM_CHOICE, AT(shadows), 1, 0, 1, "1", "whether the scene casts shadows on itself and on particles", "off on"},
     {"shadow_map_px", RG_PARAM_INT, AT(shadow_map_px), 2048, 16, 8192, "px", "a side of a light's shadow map", NULL},
     {"atlas", RG_PARAM_CHOICE, AT(atlas), 0, 0, 3, "1", "of streak textures: the whole one, one of a quarter of the size, or the original database as `raingauge atlas --from` packed it, or with --quick", "full small cave cave-small"},
+    {"swings", RG_PARAM_CHOICE, AT(swings), 0, 0, 1, "1", "of the drops of the traced atlases: as flat and swinging as little as in wind tunnels, or as much as in the original database", "measured database"},
     {"taps", RG_PARAM_CHOICE, AT(taps), 0, 0, 2, "1", "streak textures read for each light", "2 4 8"},
     {"view_below", RG_PARAM_CHOICE, AT(absolute_views), 0, 0, 1, "1", "a streak seen from below: mirrored with its light, or as the thesis has it, as if from above", "mirrored absolute"},
     {"last_mip", RG_PARAM_INT, AT(last_mip), 5, 0, 5, "1", "the coarsest level of the streak atlas that is read", NULL},
@@ -91,11 +92,11 @@ static const struct rg_param rows[] = {
 
 // In the order of the choices; the first has the defaults.
 static const char *const looks[] = {
-    "spectrum=marshall-palmer thin_streaks=area streak_gain=1 streak_opacity=1 far_layers=4 "
-    "splash_materials=on "
+    "spectrum=marshall-palmer swings=measured thin_streaks=area streak_gain=1 streak_opacity=1 "
+    "far_layers=4 splash_materials=on "
     "splash_up=normal splash_s=0.126 splash_width_mm=60 splash_gain=1 splash_opacity=1 "
     "splash_light=water splash_fade=0.25",
-    "spectrum=off thin_streaks=points streak_gain=4 streak_opacity=3 far_layers=0 "
+    "spectrum=off swings=database thin_streaks=points streak_gain=4 streak_opacity=3 far_layers=0 "
     "splash_materials=off "
     "splash_up=vertical splash_s=0.15 splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 "
     "splash_light=matt splash_fade=0",

@@ -38,7 +38,7 @@ struct streaks_settings {
     int lights, environment_light, shadows, shadow_map_px;
     char lights_file[RG_PATH_SIZE];
     // the look of particles
-    int atlas, taps, absolute_views, last_mip, points;
+    int atlas, swings, taps, absolute_views, last_mip, points;
     int look, drops, splashes, splash_materials, splashes_upright, splash_matt;
     double drop_radius_mm, exposure_s, splash_s, splash_width_mm;
     double streak_gain, streak_opacity, splash_gain, splash_opacity, splash_fade;

@@ -5,9 +5,9 @@
 // The thesis has drops of one size and one splash for all surfaces, and draws thin streaks if they
 // cover a pixel's middle.
 #define POINTS                                                                                     \
-    "spectrum=off thin_streaks=points splash_materials=off splash_up=vertical splash_s=0.15 "      \
-    "splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 splash_light=matt splash_fade=0 "     \
-    "far_layers=0"
+    "spectrum=off swings=database thin_streaks=points splash_materials=off splash_up=vertical "    \
+    "splash_s=0.15 splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 splash_light=matt "     \
+    "splash_fade=0 far_layers=0"
 
 // The thesis's machine and view.
 #define RAIN                                                                                       \

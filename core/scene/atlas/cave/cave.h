@@ -7,7 +7,7 @@
 // Converts a factor of the database to radiance for an irradiance of 1. It brings the 18 streaks of
 // rows theta_light 10 and 50, seen from the front, nearest to the traced ones (least squares of the
 // logarithms).
-#define RG_CAVE_POINT_SCALE 0.2726f
+#define RG_CAVE_POINT_SCALE 0.2710f
 
 // Packs the database under a folder that holds point_light_database and env_light_database:
 //

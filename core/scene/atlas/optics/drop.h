@@ -1,13 +1,17 @@
-// The oscillating drop of Garg and Nayar: its ten oscillations, its shape at a moment, and the
-// motion of its image over the exposure.
+// The oscillating drop: two sets of ten oscillations, its shape at a moment, and the motion of its
+// image over the exposure.
 #ifndef RG_CORE_SCENE_ATLAS_OPTICS_DROP_H
 #define RG_CORE_SCENE_ATLAS_OPTICS_DROP_H
 
-// The surface, in radii of the drop at rest:
+// How drops swing: as Garg and Nayar's database has them, or as was measured in wind tunnels.
+enum rg_swings { RG_SWINGS_MEASURED, RG_SWINGS_DATABASE };
+
+// The surface, in radii of a sphere:
 //   r = 1 + a P20(cos theta) + b P31(cos theta) cos(phi - phi_drop)
-// theta from +y; (mx, mz) is the horizontal direction of phi_drop.
+// theta from +y; (mx, mz) is the horizontal direction of phi_drop. A ray inside passes through the
+// surface where it would meet it nearer than `blind`.
 struct rg_drop_shape {
-    float a, b, mx, mz;
+    float a, b, mx, mz, blind;
 };
 
 // An upper bound of the distance of the surface from its centre, in radii.
@@ -21,7 +25,11 @@ struct rg_drop_shape {
 // The drop's fall in the exposure, in its diameters: 8.16 m/s.
 #define RG_DROP_FALL 42.5
 
-// The shape in an oscillation of the database, 0 to 9, at a time in seconds.
-struct rg_drop_shape rg_drop_shape(int oscillation, double time_s);
+// The database's streaks are made of pictures of the drop, a 45th of the exposure apart, each of
+// which fades into the next one.
+enum { RG_DATABASE_POSES = 45 };
+
+// The shape in an oscillation of the set, 0 to 9, at a time in seconds.
+struct rg_drop_shape rg_drop_shape(enum rg_swings swings, int oscillation, double time_s);
 
 #endif

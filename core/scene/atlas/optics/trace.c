@@ -104,14 +104,14 @@ INLINE float enter(struct rg_drop_shape s, struct vector p, struct vector d, flo
     return solve(s, p, d, outside, deepest, outside, STEPS_IN);
 }
 
-// The other end of a ray that goes from a point on the surface through the drop in direction d.
-INLINE struct vector cross(struct rg_drop_shape s, struct vector p, struct vector d)
+// How far a ray goes from a point on the surface through the drop in direction d.
+INLINE float cross(struct rg_drop_shape s, struct vector p, struct vector d)
 {
     const float middle = -dot(p, d);
     const float chord = most(2 * middle, 0.1f);
     const float room = middle * middle + RG_DROP_REACH * RG_DROP_REACH - dot(p, p);
     const float outside = middle + sqrtf(most(room, 0));
-    return along(p, solve(s, p, d, chord, 0.05f, most(outside, chord), STEPS_THROUGH), d);
+    return solve(s, p, d, chord, 0.05f, most(outside, chord), STEPS_THROUGH);
 }
 
 // Splits unpolarised light in direction d at a surface with unit normal n against d; `ratio` is the
@@ -155,11 +155,14 @@ INLINE void trace(struct rg_drop_shape s, struct vector towards, struct vector s
     struct vector d = unit(outside.refracted);
 #pragma GCC unroll 8
     for (int way = 1; way < RG_DROP_WAYS; way++) {
-        p = cross(s, p, d);
+        const float t = cross(s, p, d), seen = t < s.blind ? 0.0f : 1.0f;
+        p = along(p, t, d);
         const struct vector inward = scaled(unit(field_at(s, p).gradient), -1);
         const struct parted inside = part(d, inward, RG_DROP_INDEX);
-        keep(row, way, i, inside.refracted, left * (1 - inside.reflectance));
-        left *= inside.reflectance;
+        const float reflectance = seen * inside.reflectance;
+        keep(row, way, i, along(scaled(inside.refracted, seen), 1 - seen, d),
+             left * (1 - reflectance));
+        left *= reflectance;
         d = unit(inside.reflected);
     }
 }

@@ -315,18 +315,33 @@ static void test_unpacked_database(void **state)
     assert_non_null(strstr(rg_last_error(), "atlas --from"));
 }
 
+// Each size has a file of its own, and swings choose among the traced ones.
+static void test_sizes(void **state)
+{
+    (void)state;
+    static const enum rg_atlas_size measured[RG_ATLAS_SIZE_COUNT] = {
+        RG_ATLAS_MEASURED,   RG_ATLAS_MEASURED_SMALL, RG_ATLAS_CAVE,
+        RG_ATLAS_CAVE_SMALL, RG_ATLAS_MEASURED,       RG_ATLAS_MEASURED_SMALL};
+    char paths[RG_ATLAS_SIZE_COUNT][RG_ATLAS_PATH_SIZE];
+    for (int i = 0; i < RG_ATLAS_SIZE_COUNT; i++) {
+        const enum rg_atlas_size size = (enum rg_atlas_size)i;
+        assert_int_equal(rg_atlas_swinging(size, RG_SWINGS_MEASURED), measured[i]);
+        assert_int_equal(rg_atlas_swinging(size, RG_SWINGS_DATABASE), size);
+        assert_int_equal(rg_atlas_is_small(size), rg_atlas_is_small(measured[i]));
+        assert_true(rg_atlas_cache_path(size, paths[i], why));
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(paths[i], paths[k]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_flipped_bits),
-        cmocka_unit_test(test_wrong_lengths),
-        cmocka_unit_test(test_other_things),
-        cmocka_unit_test(test_full_disk),
-        cmocka_unit_test(test_where),
-        cmocka_unit_test(test_killed),
-        cmocka_unit_test(test_writers_at_once),
-        cmocka_unit_test(test_unpacked_database),
+        cmocka_unit_test(test_sizes),           cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_flipped_bits),    cmocka_unit_test(test_wrong_lengths),
+        cmocka_unit_test(test_other_things),    cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_where),           cmocka_unit_test(test_killed),
+        cmocka_unit_test(test_writers_at_once), cmocka_unit_test(test_unpacked_database),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -71,7 +71,7 @@ static void test_shares(void **state)
     assert_below(fabs(rg_lobe_share_sr(0) - 2 * M_PI * (1 - cos(M_PI / 18))), 1e-9);
 }
 
-// A lobe's radiance has an irradiance of 1 over the sphere, and falls as a Gaussian of 3 degrees.
+// A lamp has an irradiance of 1. It is an even disc of 7.5 degrees whose rim fades over one.
 static void test_radiance(void **state)
 {
     (void)state;
@@ -83,9 +83,14 @@ static void test_radiance(void **state)
         sum += (double)rg_lobe_radiance(&lobes, (float)cos(angle)) * 2 * M_PI * sin(angle) *
                widest / STEPS;
     }
-    assert_below(fabs(sum - 1), 2e-3);
-    const double at_3 = (double)rg_lobe_radiance(&lobes, (float)cos(3 * M_PI / 180));
-    assert_below(fabs(at_3 / (double)lobes.peak - exp(-0.5)), 2e-3);
+    assert_below(fabs(sum - 1), 1e-3);
+    static const double expected[][2] = {{0, 1},     {3, 1},       {6.9, 1},
+                                         {7.5, 0.5}, {7.75, 0.25}, {8, 0}};
+    for (int i = 0; i < 6; i++) {
+        const float cosine = (float)cos(expected[i][0] * M_PI / 180);
+        const double radiance = (double)(rg_lobe_radiance(&lobes, cosine) / lobes.peak);
+        assert_below(fabs(radiance - expected[i][1]), 2e-2);
+    }
 }
 
 // A square's list holds every light that its directions can look into.

@@ -20,7 +20,8 @@
 #define DIAMETER_PX (0.742 * 32)
 #define FALL_PX     (42.5 * DIAMETER_PX)
 
-static const struct rg_streak_detail fine = {.moments = 16, .column = 32, .along = 96};
+static const struct rg_streak_detail fine = {RG_SWINGS_DATABASE, .moments = 16, .column = 32,
+                                             .along = 96};
 static struct rg_lobes lobes;
 
 static int setup(void **state)
@@ -64,7 +65,7 @@ static void test_published_brightness(void **state)
         print_message("%.2f%s", exp(logs[i] - mean), i % 9 < 8 ? " " : "\n"); // for docs/atlas.md
     print_message("one of their units is %.4f/sr\n", exp(mean));
     for (int i = 0; i < 18; i++)
-        if (fabs(exp(logs[i] - mean) - 1) > 0.3)
+        if (fabs(exp(logs[i] - mean) - 1) > 0.33)
             fail_msg("light %d, azimuth %d: %.3f times the published brightness", i < 9 ? 10 : 50,
                      10 + 20 * (i % 9), exp(logs[i] - mean));
     assert_below(fabs(exp(mean) / (double)RG_CAVE_POINT_SCALE - 1), 0.01);
@@ -90,7 +91,8 @@ static double chord_in_column(int c, double middle, double radius)
 static void test_environment_is_the_chord(void **state)
 {
     (void)state;
-    const struct rg_streak_detail detail = {.moments = 8, .column = 16, .along = 256};
+    const struct rg_streak_detail detail = {RG_SWINGS_DATABASE, .moments = 8, .column = 16,
+                                            .along = 256};
     struct rg_streaks s;
     assert_true(rg_streaks_trace(0, 0, 0, &detail, &lobes, &s));
     assert_int_equal(s.width, 32);
@@ -111,8 +113,10 @@ static void test_heights(void **state)
 {
     (void)state;
     static const int heights[5] = {1050, 988, 810, 544, 214};
-    const struct rg_streak_detail coarse = {.moments = 16, .column = 4, .along = 96};
-    for (int view = 0; view < 5; view++) {
+    for (int k = 0; k < 10; k++) {
+        const int view = k / 2;
+        const enum rg_swings swings = k % 2 ? RG_SWINGS_DATABASE : RG_SWINGS_MEASURED;
+        const struct rg_streak_detail coarse = {swings, .moments = 16, .column = 4, .along = 96};
         struct rg_streaks s;
         assert_true(rg_streaks_trace(0, view, 0, &coarse, &lobes, &s));
         assert_int_equal(s.height, heights[view]);
@@ -121,10 +125,11 @@ static void test_heights(void **state)
             first++;
         while (s.env[last * 32 + 15] <= 0)
             last--;
-        const double length = FALL_PX * cos(20 * view * PI / 180) + DIAMETER_PX;
-        const double wanted = 0.5 * (s.height - length);
-        assert_below(fabs(first - wanted), 1.5);
-        assert_below(fabs(s.height - 1 - last - wanted), 1.5);
+        const double fall = FALL_PX * cos(20 * view * PI / 180);
+        const double wanted = 0.5 * (s.height - fall - DIAMETER_PX);
+        const double room = k % 2 ? 1.5 : 2.2; // a drop at rest is flat
+        assert_below(fabs(first - wanted), room);
+        assert_below(fabs(s.height - 1 - last - wanted), room);
         rg_streaks_free(&s);
     }
 }
@@ -168,7 +173,8 @@ static void test_oscillations(void **state)
     (void)state;
     static const struct seen seen[] = {{0, 0, 0, 1},   {1, .2, 0, 1},   {2, .1, .1, -1},
                                        {4, .1, .1, 1}, {6, .2, .1, -1}, {8, .2, .1, 1}};
-    const struct rg_streak_detail detail = {.moments = 64, .column = 8, .along = 64};
+    const struct rg_streak_detail detail = {RG_SWINGS_DATABASE, .moments = 64, .column = 8,
+                                            .along = 64};
     for (size_t k = 0; k < sizeof(seen) / sizeof(seen[0]); k++) {
         struct rg_streaks s;
         assert_true(rg_streaks_trace(seen[k].oscillation, 0, 0, &detail, &lobes, &s));
@@ -215,7 +221,8 @@ static void test_mirror_images(void **state)
     (void)state;
     static const int pairs[][2] = {{0, 0}, {1, 1}, {2, 4}, {6, 8}, {3, 3}};
     static struct rg_lobes pair;
-    const struct rg_streak_detail coarse = {.moments = 24, .column = 12, .along = 48};
+    const struct rg_streak_detail coarse = {RG_SWINGS_DATABASE, .moments = 24, .column = 12,
+                                            .along = 48};
     for (int i = 0; i < 15; i++) {
         struct rg_streaks a, b;
         lobes_at(-50 + 40 * (i % 4), 30 + 40 * (i % 4), &pair);

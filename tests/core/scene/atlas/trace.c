@@ -14,7 +14,7 @@
 #define PI    3.14159265358979323846
 #define INDEX ((double)RG_DROP_INDEX)
 
-static const struct rg_drop_shape sphere = {0, 0, 0, 1};
+static const struct rg_drop_shape sphere = {.mz = 1};
 static struct rg_drop_row row;
 
 static void trace_sphere(float first_u, float step_u, int count)
@@ -107,8 +107,9 @@ static void test_energy(void **state)
             sum += (double)row.share[way][i];
         assert_below(fabs(sum - (1 - (1 - r) * pow(r, RG_DROP_WAYS - 1))), 1e-5);
     }
-    for (int oscillation = 0; oscillation < 10; oscillation++) {
-        const struct rg_drop_shape shape = rg_drop_shape(oscillation, 0.0043);
+    for (int oscillation = 0; oscillation < 20; oscillation++) {
+        const struct rg_drop_shape shape =
+            rg_drop_shape((enum rg_swings)(oscillation / 10), oscillation % 10, 0.0043);
         const struct rg_drop_view view = rg_drop_view(40);
         double all = 0, rays = 0;
         for (int j = -60; j <= 60; j++) {
@@ -123,7 +124,7 @@ static void test_energy(void **state)
                 rays += sum > 0;
             }
         }
-        if (!(all / rays > (oscillation ? 0.95 : 0.998)))
+        if (!(all / rays > (oscillation == 10 ? 0.998 : 0.95)))
             fail_msg("oscillation %d: %g of the light is found", oscillation, all / rays);
     }
 }
@@ -156,21 +157,17 @@ static void expect_oracle(const struct oracle_drop *drop, const double start[3],
     }
 }
 
-// Every oscillation at two moments, from all views, without the rays that touch the rim.
+// Every oscillation of both sets at two moments, from all views, without the rays that touch the
+// rim.
 static void test_oscillating(void **state)
 {
     (void)state;
-    static const double amplitudes[10][2] = {{0, 0},   {.2, 0},  {.1, .1}, {.1, .1}, {.1, .1},
-                                             {.1, .1}, {.2, .1}, {.2, .1}, {.2, .1}, {.2, .1}};
-    static const double azimuths[10] = {0, 0, 270, 0, 90, 180, 270, 0, 90, 180};
-    const double w2 = sqrt(8 * 0.0728 / (1000 * pow(1.6e-3, 3))), w3 = 2 * w2;
     int compared = 0;
-    for (int k = 0; k < 20; k++) {
+    for (int k = 0; k < 40; k++) {
         const double time = k % 2 ? 0.0021 : 0.0118, tilt = 20 * (k % 5) * PI / 180;
-        const struct oracle_drop drop = {amplitudes[k / 2][0] * sin(w2 * time),
-                                         amplitudes[k / 2][1] * sin(w3 * time),
-                                         azimuths[k / 2] * PI / 180, INDEX};
-        const struct rg_drop_shape shape = rg_drop_shape(k / 2, time);
+        const enum rg_swings swings = k < 20 ? RG_SWINGS_DATABASE : RG_SWINGS_MEASURED;
+        const struct oracle_drop drop = oracle_drop_at(k < 20, k / 2 % 10, time * 60);
+        const struct rg_drop_shape shape = rg_drop_shape(swings, k / 2 % 10, time);
         const struct rg_drop_view view = rg_drop_view(20 * (k % 5));
         for (int j = -3; j <= 3; j++) {
             rg_drop_trace(&shape, &view, (float)j * 0.2f, -0.6f, 0.1f, 13, &row);
@@ -184,14 +181,35 @@ static void test_oscillating(void **state)
             }
         }
     }
-    assert_above(compared, 5000);
+    assert_above(compared, 10000);
+}
+
+// A ray that would meet the wall again within 0.6 radii leaves the database's drop straight on,
+// with all the light that it has left.
+static void test_blind(void **state)
+{
+    (void)state;
+    struct rg_drop_shape bent = rg_drop_shape(RG_SWINGS_DATABASE, 9, 0.88 / 60);
+    const struct rg_drop_view view = rg_drop_view(0);
+    rg_drop_trace(&bent, &view, 0.7f, 0.2f, 0.1f, 1, &row);
+    const struct rg_drop_row blind = row;
+    bent.blind = 0;
+    rg_drop_trace(&bent, &view, 0.7f, 0.2f, 0.1f, 1, &row);
+    assert_below(row.share[2][0], 1e-6f); // totally reflected there
+    assert_above(blind.share[2][0], 0.9f);
+    const float *d[3] = {blind.x[2], blind.y[2], blind.z[2]};
+    assert_below(fabsf(*d[0] * *d[0] + *d[1] * *d[1] + *d[2] * *d[2] - 1), 1e-5f);
+    assert_below(*d[1], 0); // on along the wall, down and away
+    assert_below(*d[2], 0);
+    for (int way = 3; way < RG_DROP_WAYS; way++)
+        assert_equals(blind.share[way][0], 0);
 }
 
 // The ways left and right of an upright drop's middle mirror each other.
 static void test_mirrored(void **state)
 {
     (void)state;
-    const struct rg_drop_shape shape = rg_drop_shape(1, 0.003);
+    const struct rg_drop_shape shape = rg_drop_shape(RG_SWINGS_MEASURED, 1, 0.003);
     const struct rg_drop_view view = rg_drop_view(20);
     rg_drop_trace(&shape, &view, 0.3f, -0.95f, 0.1f, 20, &row);
     for (int way = 0; way < RG_DROP_WAYS; way++)
@@ -207,7 +225,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sphere),           cmocka_unit_test(test_rainbows),
         cmocka_unit_test(test_normal_incidence), cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_oscillating),      cmocka_unit_test(test_mirrored),
+        cmocka_unit_test(test_oscillating),      cmocka_unit_test(test_blind),
+        cmocka_unit_test(test_mirrored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

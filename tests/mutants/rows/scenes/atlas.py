@@ -1,19 +1,27 @@
 """The atlas of streaks and splashes: its cells, levels, lobes and hash."""
 from fault import Fault
 
-TESTS = ("atlas, lobes", "atlas, rays", "atlas, cache", "atlas, database", "atlas, compared", "atlas, streaks", "atlas, splashed water")
+TESTS = ("atlas, lobes", "atlas, rays", "atlas, cache", "atlas, database", "atlas, compared", "atlas, streaks", "atlas, splashed water",
+         "atlas, brightness")
 OWN_CACHE = True  # nobody may keep an atlas made by a fault
 
 LOBES, LEVELS = "core/scene/atlas/lights.c", "core/scene/atlas/levels.c"
 SPLASH, WATER = "core/scene/atlas/splash.c", "core/scene/atlas/optics/water.c"
+DROP, RAYS = "core/scene/atlas/optics/drop.c", "core/scene/atlas/optics/trace.c"
 FIND, COMPARE, FIGURES = "core/scene/atlas/cave/find.c", "core/scene/atlas/cave/compare.c", "harness/atlas/compare.c"
 
 ROWS = [
     Fault(LOBES, "direction[0] = (float)(cos(elevation) * «sin(azimuth)»);", "-sin(azimuth)", "lights of the atlas are mirrored"),
     Fault(LOBES, "return 1 + (light - 1) * «RG_ATLAS_PHIS» + phi;", "(RG_ATLAS_PHIS - 1)", "cells of the atlas share lobes"),
     Fault(LOBES, "return «4» * half * (sin(elevation + half)", "2", "a lobe's share of the sphere is half"),
-    Fault(LOBES, "lobes->peak = (float)(kappa / («2 * M_PI» * (1 - exp(-2 * kappa))));", "4 * M_PI", "lobes have half their light"),
-    Fault(LOBES, "const double reach = cos(edge «+ SQUARE_REACH_RAD»);", "- SQUARE_REACH_RAD", "lobes end at the grid's lines"),
+    Fault(LOBES, "lobes->peak = (float)(«1» / irradiance);", "0.5", "lobes have half their light"),
+    Fault(LOBES, "cos((RG_LAMP_DEG + RG_RIM_DEG) * M_PI / 180 «+ SQUARE_REACH_RAD»);", "- SQUARE_REACH_RAD", "lobes end at the grid's lines"),
+    Fault(DROP, "(float)((is_database ? «0» : MEASURED_REST_A20) +", "MEASURED_REST_A20", "the database's drops are flat at rest"),
+    Fault(DROP, "&(is_database ? «database : measured»)[oscillation];", "measured : database", "the two sets of swings are exchanged"),
+    Fault(DROP, ".blind = is_database ? «BLIND» : 0", "0", "light runs along the wall of the database's drops"),
+    Fault(RAYS, "seen = «t < s.blind» ? 0.0f : 1.0f;", "t > s.blind", "light passes far walls, not near ones"),
+    Fault(RAYS, "keep(row, way, i, along(scaled(inside.refracted, seen), «1 - seen», d),", "0", "light that passes a near wall is refracted there"),
+    Fault(LEVELS, "return size == RG_ATLAS_SMALL ? «RG_ATLAS_MEASURED_SMALL» : RG_ATLAS_MEASURED;", "RG_ATLAS_MEASURED", "the small atlas of measured swings is the full one"),
     Fault(LOBES, "return ((2 * axis + «(d[axis] < 0)») * RG_LOBE_GRID", "(d[axis] > 0)", "rays look up the opposite lobes"),
     Fault(LEVELS, "return (rows[view + 1] >> level) «- (rows[view] >> level)»;", "- 0", "rows of the atlas overlap"),
     Fault(LEVELS, "rg_float_bits(value) + «0x1000u»", "0u", "the atlas' halves are cut off, not rounded"),

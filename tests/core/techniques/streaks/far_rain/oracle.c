@@ -127,7 +127,8 @@ static void expect_equal(const char *about, int kinds, int taps)
     const double bias = sum.is / sum.due - 1;
     print_message("%s, %d taps: %d pixels, %d off, bias %.4f %%\n", about, taps, sum.pixels,
                   sum.off, 100 * bias);
-    assert_at_most(sum.off, 0.001 * sum.pixels);
+    // Two taps take the nearest lamp, and where two are as near, either; they differ most.
+    assert_at_most(sum.off, (taps == 2 ? 0.003 : 0.001) * sum.pixels);
     assert_at_most(fabs(bias), 0.002);
 }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/streaks/rig.h"
+#include "tests/oracle/drop.h"
 #include "tests/tools/expect.h"
 
 static const double pi = 3.14159265358979323846;
@@ -17,41 +18,36 @@ enum { MOMENTS = 32, GAIN = 1000, SKY = 16 };
 
 // The distance of a drop's surface from its middle, in radii (docs/atlas.md). `n` is a unit vector;
 // y is up.
-static double surface_at(double a, double b, double phi, const double n[3])
+static double surface_at(const struct oracle_drop *drop, const double n[3])
 {
-    const double c = n[1], s = sqrt(fmax(1 - c * c, 0));
-    const double towards = s > 1e-9 ? (n[0] * sin(phi) + n[2] * cos(phi)) / s : 0;
-    return 1 + a * (3 * c * c - 1) / 2 + b * 1.5 * s * (5 * c * c - 1) * towards;
+    const double c = n[1], aside = n[0] * sin(drop->phi_drop) + n[2] * cos(drop->phi_drop);
+    return 1 + drop->a * (3 * c * c - 1) / 2 + drop->b * 1.5 * (5 * c * c - 1) * aside;
 }
 
 // The distance of a drop's outline from its middle, seen from an elevation, in a direction about
 // the view. It is the farthest that the surface reaches to that side.
-static double outline_at(double a, double b, double phi, double elevation, double about)
+static double outline_at(const struct oracle_drop *drop, double elevation, double about)
 {
     double farthest = 0;
     for (int k = -10; k <= 10; k++) {
         const double ahead = sin(k * 0.06), beside = cos(k * 0.06), up = beside * cos(about);
         const double n[3] = {beside * sin(about), up * cos(elevation) + ahead * sin(elevation),
                              ahead * cos(elevation) - up * sin(elevation)};
-        farthest = fmax(farthest, surface_at(a, b, phi, n) * beside);
+        farthest = fmax(farthest, surface_at(drop, n) * beside);
     }
     return farthest;
 }
 
-// The mean cross-section of an oscillation over a whole swing, over that of the drop at rest.
+// The mean cross-section of an oscillation over an exposure, over that of a sphere.
 static double section_of(int oscillation, double elevation)
 {
     enum { TIMES = 16, WAYS = 24 };
-    static const double a20[] = {0, 0.2, 0.1, 0.1, 0.1, 0.1, 0.2, 0.2, 0.2, 0.2};
-    const double a31 = oscillation < 2 ? 0 : 0.1, phi = ((oscillation - 3) & 3) * pi / 2;
     double sum = 0;
-    for (int time = 0; time < TIMES; time++)
-        for (int way = 0; way < WAYS; way++) {
-            const double turn = 2 * pi * (time + 0.5) / TIMES;
-            sum += pow(outline_at(a20[oscillation] * sin(turn), a31 * sin(2 * turn), phi, elevation,
-                                  2 * pi * (way + 0.5) / WAYS),
-                       2);
-        }
+    for (int time = 0; time < TIMES; time++) {
+        const struct oracle_drop drop = oracle_drop_at(false, oscillation, (time + 0.5) / TIMES);
+        for (int way = 0; way < WAYS; way++)
+            sum += pow(outline_at(&drop, elevation, 2 * pi * (way + 0.5) / WAYS), 2);
+    }
     return sum / (TIMES * WAYS);
 }
 
@@ -159,7 +155,8 @@ static struct cover cover_of(const char *about, const char *settings, int gain, 
     int seen;
     const struct cover c = {(lit - dry) / (gain * (double)sky), pixels_due(s, &seen)};
     assert_above(seen, 2000);
-    if (!(fabs(c.is / c.due - 1) < 0.015))
+    // The atlas has views 20 degrees apart, between which the cross-section is not linear.
+    if (!(fabs(c.is / c.due - 1) < 0.02))
         fail_msg("%s: %d drops cover %.1f pixels, %.3f of their cross-sections", about, seen, c.is,
                  c.is / c.due);
     rain_close(s);

@@ -293,9 +293,9 @@ struct glow {
 
 static struct glow glow_of(double elevation, double azimuth)
 {
-    enum { RAYS = 32 };
-    const struct oracle_drop rest = {0, 0, 0, 1.333};
-    const double level = cos(elevation * pi / 180), lobe = 3 * pi / 180,
+    enum { RAYS = 128 };
+    const struct oracle_drop rest = oracle_drop_at(false, 0, 0);
+    const double level = cos(elevation * pi / 180), edge = cos(7.5 * pi / 180),
                  to[3] = {level * sin(azimuth * pi / 180), sin(elevation * pi / 180),
                           level * cos(azimuth * pi / 180)};
     double sum = 0, moment = 0;
@@ -308,9 +308,8 @@ static struct glow glow_of(double elevation, double azimuth)
         hits++;
         for (int way = 0; way < ORACLE_WAYS; way++) {
             const double *d = direction[way];
-            const double away = acos(fmin(d[0] * to[0] + d[1] * to[1] + d[2] * to[2], 1));
-            const double light =
-                share[way] * exp(-away * away / (2 * lobe * lobe)) / (2 * pi * lobe * lobe);
+            const double cosine = d[0] * to[0] + d[1] * to[1] + d[2] * to[2];
+            const double light = cosine > edge ? share[way] / (2 * pi * (1 - edge)) : 0;
             sum += light;
             moment += light * u;
         }
@@ -350,7 +349,7 @@ static struct lit lit_by(double elevation, double azimuth, const char *view, dou
     return lit;
 }
 
-// Bounds are wide: the oracle's rays are few for lobes of 3 degrees, and the atlas blends. Light
+// Bounds are wide: the oracle's rays are few for lamps of 7.5 degrees, and the atlas blends. Light
 // from behind is a hundred times light from beside. Both are off the middle by at least half a
 // radius.
 static void test_light_has_a_side(void **state)
