@@ -33,6 +33,8 @@ QEMU_LACKS = {
     "cage": "filters of system calls",
     "mesh files": "limits of memory, in which qemu itself does not fit",
     "program": "posix_spawn's error for a program that is not there",
+    "workers that end": "the same, and clocks",
+    "values that are there are found": "valgrind, which is this machine's",
     "room": "time: 9 s of this machine are many minutes",
 }
 # The first bytes of a program for arm64, and which of their bits count.
