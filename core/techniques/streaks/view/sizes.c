@@ -156,7 +156,7 @@ static void tell_one(struct streaks *s)
     const double radius_mm = set->drop_radius_mm;
     const double section_mm2_m3 = s->sizes.drops_m3 * M_PI * radius_mm * radius_mm;
     const double water_mm3_m2_s = set->drops_m2_s * 4 / 3 * M_PI * pow(radius_mm, 3);
-    rg_tell(&s->base, "rain_mm_h", water_mm3_m2_s * 3600 * 1e-6);
+    rg_tell(&s->base, "rain_rate_mm_h", water_mm3_m2_s * 3600 * 1e-6);
     rg_tell(&s->base, "extinction_per_km", rg_extinction_per_km(section_mm2_m3));
 }
 
@@ -170,7 +170,7 @@ static void tell_spectrum(struct streaks *s)
     const struct rg_rainfall left = spectrum.most_mm > spectrum.least_mm
                                         ? rg_spectrum_rainfall(&spectrum)
                                         : (struct rg_rainfall){0};
-    rg_tell(&s->base, "rain_mm_h", kept.rain_mm_h);
+    rg_tell(&s->base, "rain_rate_mm_h", kept.rain_mm_h);
     rg_tell(&s->base, "extinction_per_km", rg_extinction_per_km(kept.section_mm2_m3));
     rg_tell(&s->base, "rain_nominal_mm_h", set->rain_mm_h);
     rg_tell(&s->base, "rain_realised_mm_h", realised_mm_h(s));

@@ -276,7 +276,7 @@ static void check_rain(const struct rain *r, const char *more)
     // Kolmogorov-Smirnov test at 1 % for this many drops, and half a class of 512.
     assert_below(most, 1.63 / sqrt((double)count) * (s->settings.kept ? 2 : 1) + 0.001);
     near("rain that is told", told(s, "rain_realised_mm_h"), rain / there, all ? 1e-3 : 0.02);
-    near("rain that is kept", told(s, "rain_mm_h"), integral(r, largest_mm, flux), 1e-3);
+    near("rain that is kept", told(s, "rain_rate_mm_h"), integral(r, largest_mm, flux), 1e-3);
     near("extinction", told(s, "extinction_per_km"), integral(r, largest_mm, section) / 1000, 1e-3);
     assert_equals(told(s, "rain_nominal_mm_h"), r->rain_mm_h);
     free(drops);
@@ -299,12 +299,12 @@ static void test_rate(void **state)
 {
     (void)state;
     struct streaks *s = rain_open("spectrum=best look=thesis drops_m2_s=535.50222");
-    near("rain", told(s, "rain_mm_h"), 535.50222 * volume(3.2) * 3.6e-3, 1e-9);
+    near("rain", told(s, "rain_rate_mm_h"), 535.50222 * volume(3.2) * 3.6e-3, 1e-9);
     near("extinction", told(s, "extinction_per_km"), 535.50222 / 8.16 * section(3.2) / 1000, 1e-9);
     rain_close(s);
     s = rain_open("look=photograph rain_mm_h=7");
-    near("rain", told(s, "rain_mm_h") + told(s, "rain_left_out_mm_h"), 7, 1e-3);
-    near("rain of particles", told(s, "rain_realised_mm_h"), told(s, "rain_mm_h"), 0.02);
+    near("rain", told(s, "rain_rate_mm_h") + told(s, "rain_left_out_mm_h"), 7, 1e-3);
+    near("rain of particles", told(s, "rain_realised_mm_h"), told(s, "rain_rate_mm_h"), 0.02);
     rain_close(s);
 }
 

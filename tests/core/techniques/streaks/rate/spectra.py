@@ -74,7 +74,7 @@ def told(raingauge, settings):
 def faults_of_facts(raingauge):
     for name, law, rate in (("marshall-palmer", marshall_palmer, 1), ("best", best, 100)):
         facts = told(raingauge, ["spectrum=" + name, "normalised=off", "terminal_speed=atlas", "rain_mm_h=%d" % rate])
-        for fact, due in (("extinction_per_km", extinction(law, rate)), ("rain_mm_h", rain(law, rate, atlas) - facts["rain_left_out_mm_h"])):
+        for fact, due in (("extinction_per_km", extinction(law, rate)), ("rain_rate_mm_h", rain(law, rate, atlas) - facts["rain_left_out_mm_h"])):
             if abs(facts[fact] / due - 1) > 0.002:
                 yield "%s, %d mm/h: %s is %g, not %g" % (name, rate, fact, facts[fact], due)
 
