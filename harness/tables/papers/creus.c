@@ -2,10 +2,10 @@
 // results/published/creus-*.csv, which a test compares.
 #include "harness/tables/papers/published.h"
 
-// The thesis draws thin streaks if they cover a pixel's middle, and has one splash for all
-// surfaces.
+// The thesis draws the database's drops, and thin streaks if they cover a pixel's middle. It has
+// one splash for all surfaces.
 #define POINTS                                                                                     \
-    "thin_streaks=points splash_materials=off splash_up=vertical splash_s=0.15 "                   \
+    "swings=database thin_streaks=points splash_materials=off splash_up=vertical splash_s=0.15 "   \
     "splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 splash_fade=0 far_layers=0"
 
 // The thesis's machine and view.
