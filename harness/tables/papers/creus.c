@@ -2,8 +2,8 @@
 // results/published/creus-*.csv, which a test compares.
 #include "harness/tables/papers/published.h"
 
-// The thesis has drops of one size and one splash for all surfaces, and draws thin streaks if they
-// cover a pixel's middle.
+// The thesis has the database's drops, of one size, and one splash for all surfaces, and draws thin
+// streaks if they cover a pixel's middle.
 #define POINTS                                                                                     \
     "spectrum=off swings=database thin_streaks=points splash_materials=off splash_up=vertical "    \
     "splash_s=0.15 splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 splash_light=matt "     \
