@@ -76,9 +76,8 @@ static void test_steady_rain_leaves_a_steady_pane(void **state)
 {
     (void)state;
     struct rig rig;
-    rig_open_sized(&rig, "cpu",
-                   "move=sliding resolution_px=64 pane_mm=75 drops=40 rain_drops_s=15 step_s=0.05",
-                   64, 64);
+    rig_open_sized(&rig, "cpu", "move=sliding resolution_px=64 pane_mm=75 drops=40 step_s=0.05", 64,
+                   64);
     struct pane mean[2] = {{0, 0}, {0, 0}};
     rig_step(&rig, 180);
     for (int half = 0; half < 2; half++) {
