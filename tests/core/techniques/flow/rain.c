@@ -166,25 +166,21 @@ static void test_hulls_are_measured(void **state)
 }
 
 // At the defaults 95 % of the drops at rest that are wider than 2 mm have an area of more than 95 %
-// of their convex hull's, and the pane is as wet at any time.
+// of their convex hull's.
 static void test_drops_at_rest_are_round(void **state)
 {
     (void)state;
     enum { LOOKS = 4 };
     struct rig rig;
-    double resting = 0, convex = 0, wet[LOOKS], mean = 0;
+    double resting = 0, convex = 0;
     rig_open(&rig, "cpu", "move=sliding survey=on");
     for (int look = 0; look < LOOKS; look++) {
-        rig_step(&rig, look ? 300 : 600);
+        rig_step(&rig, look ? 120 : 600);
         free(rig_draw(&rig));
         resting += told(&rig, "resting_above_2_mm");
         convex += told(&rig, "resting_above_2_mm") * told(&rig, "resting_convex_percent") / 100;
-        wet[look] = told(&rig, "wet_percent");
-        mean += wet[look] / LOOKS;
     }
-    print_message("%.2f %% of %g; %.2f %% wet\n", 100 * convex / resting, resting, mean);
-    for (int look = 0; look < LOOKS; look++)
-        assert_below(fabs(wet[look] / mean - 1), 0.12);
+    print_message("%.2f %% of %g\n", 100 * convex / resting, resting);
     assert_above(resting, LOOKS * 100);
     assert_above(convex / resting, 0.95);
     rig_close(&rig);
