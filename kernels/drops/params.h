@@ -46,6 +46,15 @@
 #define DROPS_MEANDER     4u
 #define DROPS_RESIDUAL    5u
 #define DROPS_LAND_CHANCE 6u
+#define DROPS_BEADS       7u
+
+// Beads of trails: the squares that have one each, the radius and height of the largest, the size
+// of the smallest by it, and the height of water that runs off the glass between them.
+#define DROPS_BEAD_SQUARE_MM 4.0f
+#define DROPS_BEAD_RADIUS_MM 1.8f
+#define DROPS_BEAD_MM        0.48f
+#define DROPS_BEAD_LEAST     0.35f
+#define DROPS_BEAD_GAP_MM    1.3f
 
 // Bits of the buffer `tiles`, one word for each tile.
 #define DROPS_AWAKE   1u // worked on in this step
@@ -123,6 +132,7 @@ RG_STRUCT(drops_params)
     // The passes over height and ID maps, one or more in a step.
     int apart; // cells between those that it is flattened and thinned with; 1 by the paper's rules
     float dry_mm;   // above 0; lower water is removed
+    float gap_mm;   // lower water is removed, if no drop at rest puts it back; 0: none
     float owned_mm; // above 0; lower water has no owner
     int down_cell;  // from a cell to the one below it, in cells of a map, as drops run
     int right_cell;
@@ -135,7 +145,7 @@ RG_STRUCT(drops_params)
     int has_joined; // 1: some have merged in this step
     int is_removal; // 1: all drops go in this step
 };
-RG_STRUCT_SIZE(drops_params, 47)
+RG_STRUCT_SIZE(drops_params, 48)
 
 // The cell of a map at a column and row of the pane.
 RG_FN int drops_cell(drops_params p, int column, int row)

@@ -6,7 +6,7 @@
 #include "core/techniques/params.h"
 
 enum drops_rules { DROPS_PAPER, DROPS_PHYSICAL };
-enum drops_trail { DROPS_HEMISPHERES, DROPS_LINES };
+enum drops_trail { DROPS_HEMISPHERES, DROPS_LINES, DROPS_TRAIL_BEADS };
 enum drops_view {
     DROPS_VIEW_PANE,
     DROPS_VIEW_HEIGHT,

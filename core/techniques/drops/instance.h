@@ -11,6 +11,7 @@
 
 enum drops_stage {
     DROPS_RUN_AFFINITY,
+    DROPS_RUN_BEADS,
     DROPS_RUN_RUN,
     DROPS_RUN_TRAIL,
     DROPS_RUN_CLAIM,

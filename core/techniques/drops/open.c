@@ -31,8 +31,14 @@ static bool shows_discs(const struct rg_instance *i)
     return view_of(i) == DROPS_VIEW_PARTICLES;
 }
 
+static bool has_beads(const struct rg_instance *i)
+{
+    return ((const struct drops *)i)->settings.trail == DROPS_TRAIL_BEADS;
+}
+
 static const struct rg_stage stages[DROPS_STAGES] = {
     [DROPS_RUN_AFFINITY] = {"drops_affinity", PARAMS},
+    [DROPS_RUN_BEADS] = {"drops_beads", has_beads, PARAMS},
     [DROPS_RUN_RUN] = {"drops_run", PARAMS},
     [DROPS_RUN_TRAIL] = {"drops_trail", PARAMS},
     [DROPS_RUN_CLAIM] = {"drops_claim", PARAMS},
@@ -126,6 +132,7 @@ drops_params drops_params_of(const struct drops_settings *s)
         .patch_mm = (float)ruling,
         .reach_cells = (int)lround((3 * ruling / l - 1) / 2),
         .lines = s->trail == DROPS_LINES,
+        .gap_mm = s->trail == DROPS_TRAIL_BEADS ? DROPS_BEAD_GAP_MM : 0,
         .spacing_mm = (float)(1.5 * l),
         .apart = (int)lround(ruling / l),
         .does_sleep = s->sleep && has_one_pass(s),
@@ -159,6 +166,7 @@ static void add_maps(struct drops *d)
     rg_add_buf(i, "still", cells, NULL);
     rg_add_buf(i, "still_ids", cells, NULL);
     rg_add_buf(i, "affinity", cells, NULL);
+    rg_add_buf(i, "held", cells, NULL);
     rg_add_buf(i, "labels", cells, NULL);
     rg_add_buf(i, "leaders", cells, nobody);
     rg_add_state(i, d->height, "height", d->params.stride, DROPS_MARGIN);
@@ -228,8 +236,9 @@ bool drops_open(struct rg_instance *instance)
     if (rg_open_stages(instance, stages, DROPS_STAGES, d, NULL) < 0)
         return false;
     d->scan = rg_scan_create(instance->device, 3 * s->max_drops);
-    return d->scan && rg_stage_over(instance, DROPS_RUN_AFFINITY, (struct rg_extent){0, 0, 0},
-                                    (struct rg_extent){s->columns, s->rows, 1});
+    const struct rg_extent first = {0, 0, 0}, all = {s->columns, s->rows, 1};
+    return d->scan && rg_stage_over(instance, DROPS_RUN_AFFINITY, first, all) &&
+           rg_stage_over(instance, DROPS_RUN_BEADS, first, all);
 }
 
 void drops_close(struct rg_instance *instance)

@@ -23,7 +23,7 @@ static const struct rg_param rows[] = {
     {"substeps", RG_PARAM_INT, AT(substeps), 4, 1, 64, "1", "parts of a step in which drops choose their way anew (b)", NULL},
     {"remove_s", RG_PARAM_FLOAT, AT(remove_s), -1, -1, 1000000, "s", "when all drops are removed, so that water shrinks; -1: never", NULL},
     {"rules", RG_PARAM_CHOICE, AT(rules), DROPS_PAPER, 0, 1, "1", "what drops see ahead, the least one, and how fast water flattens and thins: in cells and steps, as in the paper, or as it is there with cells of 0.5 mm and steps of 1/60 s", "paper physical"},
-    {"trail", RG_PARAM_CHOICE, AT(trail), DROPS_HEMISPHERES, 0, 1, "1", "what a drop leaves on its way: hemispheres 1.5 cells apart, or one swept along the line", "hemispheres lines"},
+    {"trail", RG_PARAM_CHOICE, AT(trail), DROPS_HEMISPHERES, 0, 2, "1", "what a drop leaves on its way: hemispheres 1.5 cells apart, one swept along the line, or hemispheres that break into beads", "hemispheres lines beads"},
     {"erode_mm", RG_PARAM_FLOAT, AT(erode_mm), 0.01, 0, 10, "mm", "lower water is none, where it is smoothed (T_e)", NULL},
     {"owned_mm", RG_PARAM_FLOAT, AT(owned_mm), 0.5, 0, 10, "mm", "lower water is no drop's, where it is smoothed (T_id)", NULL},
     {"erode", RG_PARAM_CHOICE, AT(erode), 1, 0, 1, "1", "whether trails thin", "off on"},

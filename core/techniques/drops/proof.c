@@ -89,6 +89,7 @@ static const struct rg_pose poses[] = {
     {WET "turn_deg=180 trail=lines substeps=2 residual=off", 300, 20},
     {WET "tilt_deg=50 turn_deg=70 merge=off cell_mm=0.4", 300, 20},
     {WET "smooth=off erode=off remove_s=0.2 view=ids", 300, 20},
+    {WET "trail=beads turn_deg=-30", 300, 20},
     {"drops_s=60", 500, RG_POSE_LEFT_OUT}, // the paper's pane
     {NULL, 0, 0},
 };
@@ -122,6 +123,7 @@ static const struct rg_contrast contrasts[] = {
     {"no residual drops", WET "view=height", "residual=off"},
     {"water that does not flatten", WET "view=height", "smooth=off"},
     {"trails of lines", WET "view=height", "trail=lines"},
+    {"trails of beads", WET "view=height", "trail=beads"},
     {"drops that are not removed", WET "view=height remove_s=1", "remove_s=-1"},
     {"a turned pane", WET "view=height", "turn_deg=5"},
     {"water owned from 20 % higher on", WET "view=ids", "owned_mm=0.6"},

@@ -16,6 +16,7 @@ const struct rg_technique rg_technique_flow = {
     .size = sizeof(struct flow),
     .settings = offsetof(struct flow, settings),
     .open = flow_open,
+    .close = flow_close,
     .step = flow_step,
     .draw = flow_draw,
 };

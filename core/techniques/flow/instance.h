@@ -10,6 +10,7 @@
 enum flow_pass {
     // movement
     FLOW_SPLAT,
+    FLOW_LAND,
     FLOW_GIVEN,
     FLOW_DRAIN,
     FLOW_MOVE,
@@ -25,9 +26,14 @@ enum flow_pass {
     FLOW_SMOOTH_THRICE,
     FLOW_SMOOTH_WIDE,
     FLOW_PACE,
+    FLOW_SPREAD_OUT,
+    FLOW_SPREAD_BACK,
+    FLOW_WET_ROWS,
+    FLOW_WET,
     FLOW_CLOSE_ACROSS,
     FLOW_RIDGE_ACROSS,
     FLOW_PULL,
+    FLOW_RELAX_FAR,
     FLOW_RELAX,
     FLOW_CLING,
     FLOW_SLIDE_OFF,
@@ -59,7 +65,9 @@ enum { FLOW_DROP_SIZES = 5 };
 
 // The facts of `survey`; NULL without it.
 struct flow_told {
+    struct rg_fact *landed; // NULL for move=paper
     struct rg_fact *wet, *centre, *drops[FLOW_DROP_SIZES];
+    struct rg_fact *resting, *convex; // NULL for move=paper
 };
 
 struct flow {
@@ -70,6 +78,9 @@ struct flow {
     struct rg_fact *texels;          // has resolution_px where the camera decides it; else NULL
     struct rg_asset *water, *moved;  // the maps of this frame and of the next, swapped
     struct rg_asset *kept, *heading; // the texels' directions, likewise; NULL: they have none
+    struct rg_asset *landing;        // what drops that slide bring, by texel (land.c); or NULL
+    uint32_t *landing_words;         // the host's copy
+    double owed_mm3[FLOW_MAX_PANES]; // of drops that landed, less than a droplet
     struct rg_asset *panes;          // the panes' orientations
     struct rg_asset *ways;           // the slides of water (flow_ways_at); NULL: nothing slides
     struct flow_told told;
@@ -90,8 +101,19 @@ bool flow_open(struct rg_instance *instance);
 bool flow_step(struct rg_instance *instance);
 bool flow_draw(struct rg_instance *instance);
 
-// Lands `count` drops on each pane: the initial ones if `frame` is -1, else those of a frame.
-bool flow_land(struct flow *flow, int64_t frame, int count);
+void flow_close(struct rg_instance *instance);
+
+// --- drops that land (land.c) ---
+
+// Texels that one run of FLOW_LAND reaches at most.
+int64_t flow_landing_texels(const struct flow *flow);
+// Lands the drops of move=sliding: the initial ones, or those of the current frame.
+bool flow_land_initial(struct flow *flow);
+bool flow_land_rain(struct flow *flow);
+// Lands `count` drops of move=paper on each pane: the initial ones if `frame` is -1, else those of
+// a frame.
+bool flow_splat_drops(struct flow *flow, int64_t frame, int count);
+
 // --- the level of detail (detail.c) ---
 
 // Sizes in words of all panes' maps, at the level that needs most.

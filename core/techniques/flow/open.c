@@ -5,6 +5,7 @@
 
 #include "core/base/alloc.h"
 #include "core/scene/mesh/mesh.h"
+#include "core/techniques/flow/inputs/rain.h"
 #include "core/techniques/flow/instance.h"
 #include "core/techniques/scenery/environment.h"
 #include "kernels/flow/panes/normal_map.h"
@@ -89,7 +90,8 @@ static bool runs_on(const struct rg_instance *i)
 #define AT(field) offsetof(struct flow, field)
 
 static const struct rg_stage stages[FLOW_PASS_COUNT] = {
-    [FLOW_SPLAT] = {"flow_splat", .params = AT(drop)},
+    [FLOW_SPLAT] = {"flow_splat", is_paper, .params = AT(drop)},
+    [FLOW_LAND] = {"flow_land", is_sliding, .params = AT(movement)},
     [FLOW_GIVEN] = {"flow_given", has_one_direction, .params = AT(movement), .over = "given"},
     [FLOW_DRAIN] = {"flow_drain", has_one_direction, .params = AT(movement), .over = "arriving"},
     [FLOW_MOVE] = {"flow_move", has_one_direction, .params = AT(movement), .over = "given"},
@@ -112,11 +114,18 @@ static const struct rg_stage stages[FLOW_PASS_COUNT] = {
     [FLOW_SMOOTH_WIDE] = {"flow_smooth", is_sliding, .params = AT(sliding), .over = "level",
                           .named = {{"rough", "level"}, {"even", "wide"}}},
     [FLOW_PACE] = {"flow_pace", is_sliding, .params = AT(sliding), .over = "level"},
+    [FLOW_SPREAD_OUT] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
+                         .named = {{"slow", "pace"}, {"cells", "mean"}, {"fast", "spread"}}},
+    [FLOW_SPREAD_BACK] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
+                          .named = {{"slow", "spread"}, {"cells", "mean"}, {"fast", "pace"}}},
+    [FLOW_WET_ROWS] = {"flow_wet_rows", is_sliding, .params = AT(sliding), .over = "given"},
+    [FLOW_WET] = {"flow_wet", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_CLOSE_ACROSS] = {"flow_across", is_sliding, .params = AT(sliding), .over = "close_rows",
                            .named = {{"cells", "close"}, {"rows", "close_rows"}}},
     [FLOW_RIDGE_ACROSS] = {"flow_across", is_sliding, .params = AT(sliding), .over = "close_rows",
                            .named = {{"cells", "ridge"}, {"rows", "ridge_rows"}}},
     [FLOW_PULL] = {"flow_pull", is_sliding, .params = AT(sliding), .over = "given"},
+    [FLOW_RELAX_FAR] = {"flow_relax_far", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_RELAX] = {"flow_relax", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_CLING] = {"flow_cling", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_SLIDE_OFF] = {"flow_slide_off", is_sliding, .params = AT(sliding), .over = "arriving"},
@@ -205,12 +214,21 @@ static void add_sliding(struct flow *flow)
     rg_add_buf(i, "close", all, NULL);
     rg_add_buf(i, "wide", all, NULL);
     rg_add_buf(i, "pace", all, NULL);
+    rg_add_buf(i, "spread", all, NULL);
+    rg_add_buf(i, "mean", all, NULL);
     rg_add_buf(i, "ridge", all, NULL);
     rg_add_buf(i, "close_rows", rows, NULL);
     rg_add_buf(i, "ridge_rows", rows, NULL);
     rg_add_buf(i, "pull", texels, NULL);
+    rg_add_buf(i, "wet_rows", texels, NULL);
+    rg_add_buf(i, "wet", texels, NULL);
     rg_add_buf(i, "paced", texels, NULL);
     rg_add_buf(i, "beads", 2 * (int64_t)flow->finest_px * flow->finest_px, NULL);
+    const int64_t landing = 2 * flow_landing_texels(flow);
+    flow->landing = rg_add_buf(i, "landing", landing, NULL);
+    flow->landing_words = rg_alloc((size_t)landing, sizeof(*flow->landing_words), "landing drops");
+    i->has_failed |= !flow->landing_words;
+    flow->told.landed = rg_tell(i, "landed_mm3", 0);
     flow->ways = rg_add_buf(i, "ways", 2 * FLOW_PACES * FLOW_MAX_PANES, NULL);
 }
 
@@ -341,6 +359,7 @@ bool flow_open(struct rg_instance *instance)
                     has_model(instance) ? FLOW_COUNTER_COUNT : FLOW_TRIANGLES);
     add_water(flow);
     add_maps(flow);
+    rg_tell(instance, "pane_rain_mm_h", flow_pane_rain_mm_h(s));
     if (is_sliding(instance))
         add_sliding(flow);
     if (s->texels_a_pixel > 0)
@@ -355,5 +374,10 @@ bool flow_open(struct rg_instance *instance)
         return false;
     if (s->model_sides == FLOW_BOTH_SIDES)
         instance->stages[FLOW_MODEL].row.cull = RG_CULL_NONE;
-    return flow_land(flow, -1, s->drops);
+    return is_paper(instance) ? flow_splat_drops(flow, -1, s->drops) : flow_land_initial(flow);
+}
+
+void flow_close(struct rg_instance *instance)
+{
+    free(((struct flow *)instance)->landing_words);
 }

@@ -22,7 +22,7 @@ static bool land_drop(struct flow *flow)
                          (struct rg_extent){x1 - x0, y1 - y0, 1});
 }
 
-bool flow_land(struct flow *flow, int64_t frame, int count)
+bool flow_splat_drops(struct flow *flow, int64_t frame, int count)
 {
     for (int pane = 0; pane < flow->pane_count; pane++) {
         for (int i = 0; i < count; i++) {
@@ -61,6 +61,8 @@ static bool move(struct flow *flow)
     return ok;
 }
 
+enum { SPREADS = 3 };
+
 // Panes that one stage handles together, one group after the other.
 struct group {
     struct flow *flow;
@@ -75,20 +77,31 @@ static bool run(const struct group *g, enum flow_pass pass)
                          (struct rg_extent){all.width, all.height, g->count});
 }
 
+static bool spread(const struct group *g)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < SPREADS; i++)
+        ok = run(g, FLOW_SPREAD_OUT) && run(g, FLOW_SPREAD_BACK);
+    return ok;
+}
+
 // Smooths the lattice of heights: two runs for the pull of surrounding water, two more for its
 // amount.
 static bool look_around(const struct group *g)
 {
     return run(g, FLOW_LEVEL) && run(g, FLOW_SMOOTH_ONCE) && run(g, FLOW_SMOOTH_TWICE) &&
-           run(g, FLOW_CLOSE_ACROSS) && run(g, FLOW_PULL) && run(g, FLOW_SMOOTH_THRICE) &&
-           run(g, FLOW_SMOOTH_WIDE) && run(g, FLOW_PACE) && run(g, FLOW_RIDGE_ACROSS);
+           run(g, FLOW_CLOSE_ACROSS) && run(g, FLOW_WET_ROWS) && run(g, FLOW_WET) &&
+           run(g, FLOW_PULL) && run(g, FLOW_SMOOTH_THRICE) && run(g, FLOW_SMOOTH_WIDE) &&
+           run(g, FLOW_PACE) && spread(g) && run(g, FLOW_RIDGE_ACROSS);
 }
 
 static bool relax(const struct group *g)
 {
     bool ok = true;
-    for (int i = flow_relax_runs(&g->flow->settings); ok && i > 0; i--) {
-        ok = run(g, FLOW_RELAX);
+    const int count = flow_relax_runs(&g->flow->settings);
+    for (int i = 0; ok && i < count; i++) {
+        g->flow->sliding.reach = flow_relax_reach(&g->flow->settings, i);
+        ok = run(g, g->flow->sliding.reach > 1 ? FLOW_RELAX_FAR : FLOW_RELAX);
         swap(g->flow);
     }
     return ok;
@@ -144,10 +157,12 @@ bool flow_step(struct rg_instance *instance)
         return false;
     const int n = flow->settings.resolution_px;
     flow->movement = flow_params_at(&flow->settings, flow->noise_size, instance->frame);
-    const bool ok =
-        flow_turn_panes(flow) &&
-        flow_land(flow, instance->frame, flow_drops_at(&flow->settings, instance->frame)) &&
-        (flow->settings.move == FLOW_MOVE_PAPER ? move(flow) : slide(flow));
+    const bool ok = flow_turn_panes(flow) &&
+                    (flow->settings.move == FLOW_MOVE_PAPER
+                         ? flow_splat_drops(flow, instance->frame,
+                                            flow_drops_at(&flow->settings, instance->frame)) &&
+                               move(flow)
+                         : flow_land_rain(flow) && slide(flow));
     instance->counters[FLOW_TEXELS].value += (int64_t)flow->pane_count * n * n;
     instance->frame++;
     return ok;

@@ -1,12 +1,17 @@
-// Tells facts about flow's panes: the wet share, the place of the water, and drops by size.
+// Tells facts about flow's panes: the wet share, the place of the water, drops by size, and how
+// many of those that rest have the shape that surface tension allows.
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
+#include "core/techniques/flow/convex.h"
 #include "core/techniques/flow/instance.h"
 
 // Upper bounds of the size classes: diameters of circles of a drop's area; the last class has none.
 static const double below_mm[FLOW_DROP_SIZES - 1] = {1, 2, 4, 8};
+// Drops at rest that are wider must cover more than this share of their convex hulls.
+#define RESTING_MM 2.0
+#define CONVEX     0.95
 static const char *const size_names[FLOW_DROP_SIZES] = {
     "drops_below_1_mm", "drops_1_to_2_mm", "drops_2_to_4_mm", "drops_4_to_8_mm", "drops_above_8_mm",
 };
@@ -18,43 +23,62 @@ void flow_add_survey(struct flow *flow)
     flow->told.centre = rg_tell(i, "centre_percent", 0);
     for (int size = 0; size < FLOW_DROP_SIZES; size++)
         flow->told.drops[size] = rg_tell(i, size_names[size], 0);
+    if (flow->settings.move == FLOW_MOVE_PAPER)
+        return;
+    flow->told.resting = rg_tell(i, "resting_above_2_mm", 0);
+    flow->told.convex = rg_tell(i, "resting_convex_percent", 0);
 }
 
 // A pane without its margin.
 struct pane {
     int size;
-    float *water; // a map with margins; counted drops are set to dry
-    int *stack;   // texels still to visit
-    float wet;    // height from which a texel counts as wet
+    double texel_mm;
+    float wet;            // height from which a texel counts as wet
+    float *water;         // a map with margins; counted drops are set to dry
+    int *texels;          // of the drop that was taken last, by index
+    const uint32_t *pace; // of the lattice's cells; NULL: nothing slides
+    int cells, texels_a_cell;
 };
 
-// Counts the connected wet texels around (x, y) and dries them.
-static int64_t take_drop(const struct pane *p, int x, int y)
+// Lists the connected wet texels around (x, y) and dries them.
+static int take_drop(const struct pane *p, int x, int y)
 {
     const int stride = p->size + 2 * FLOW_MARGIN, beside[4] = {1, -1, stride, -stride};
-    int64_t count = 0;
-    int height = 0;
-    p->stack[height++] = flow_index(p->size, x, y);
-    p->water[p->stack[0]] = 0;
-    while (height > 0) {
-        const int at = p->stack[--height];
-        count++;
+    int count = 0;
+    p->texels[count++] = flow_index(p->size, x, y);
+    p->water[p->texels[0]] = 0;
+    for (int i = 0; i < count; i++) {
         for (int side = 0; side < 4; side++) {
-            const int next = at + beside[side];
+            const int next = p->texels[i] + beside[side];
             if (p->water[next] >= p->wet) {
                 p->water[next] = 0;
-                p->stack[height++] = next;
+                p->texels[count++] = next;
             }
         }
     }
     return count;
 }
 
-static int size_of(double texels, double texel_mm)
+static bool is_resting(const struct pane *p, int count)
 {
-    const double diameter_mm = 2 * texel_mm * sqrt(texels / M_PI);
+    const int stride = p->size + 2 * FLOW_MARGIN;
+    bool rests = true;
+    for (int i = 0; i < count && rests; i++) {
+        const int x = p->texels[i] % stride - FLOW_MARGIN, y = p->texels[i] / stride - FLOW_MARGIN;
+        rests = !p->pace[flow_index(p->cells, x / p->texels_a_cell, y / p->texels_a_cell)];
+    }
+    return rests;
+}
+
+static double diameter_mm(int texels, double texel_mm)
+{
+    return 2 * texel_mm * sqrt(texels / M_PI);
+}
+
+static int size_of(int texels, double texel_mm)
+{
     int size = 0;
-    while (size < FLOW_DROP_SIZES - 1 && diameter_mm >= below_mm[size])
+    while (size < FLOW_DROP_SIZES - 1 && diameter_mm(texels, texel_mm) >= below_mm[size])
         size++;
     return size;
 }
@@ -63,10 +87,24 @@ struct sums {
     double wet, water, down; // wet: texels; water: units of height; down: water weighted by the
                              // share of the pane above it
     int64_t drops[FLOW_DROP_SIZES];
+    int64_t resting, convex; // drops wider than RESTING_MM; and those of them without dents
 };
 
-static void survey_pane(const struct pane *p, double texel_mm, struct sums *sums)
+static bool survey_drop(const struct pane *p, int x, int y, struct sums *sums)
 {
+    const int count = take_drop(p, x, y);
+    sums->drops[size_of(count, p->texel_mm)]++;
+    if (!p->pace || diameter_mm(count, p->texel_mm) < RESTING_MM || !is_resting(p, count))
+        return true;
+    const double convexity = flow_convexity(p->texels, count, p->size + 2 * FLOW_MARGIN);
+    sums->resting++;
+    sums->convex += convexity > CONVEX;
+    return convexity >= 0;
+}
+
+static bool survey_pane(const struct pane *p, struct sums *sums)
+{
+    bool ok = true;
     for (int y = 0; y < p->size; y++)
         for (int x = 0; x < p->size; x++) {
             const double water = (double)p->water[flow_index(p->size, x, y)];
@@ -75,9 +113,10 @@ static void survey_pane(const struct pane *p, double texel_mm, struct sums *sums
             sums->down += water * (y + 0.5) / p->size;
         }
     for (int y = 0; y < p->size; y++)
-        for (int x = 0; x < p->size; x++)
+        for (int x = 0; x < p->size && ok; x++)
             if (p->water[flow_index(p->size, x, y)] >= p->wet)
-                sums->drops[size_of((double)take_drop(p, x, y), texel_mm)]++;
+                ok = survey_drop(p, x, y, sums);
+    return ok;
 }
 
 static void tell(struct flow *flow, const struct sums *sums)
@@ -87,27 +126,51 @@ static void tell(struct flow *flow, const struct sums *sums)
     flow->told.centre->number = sums->water > 0 ? 100 * sums->down / sums->water : 0;
     for (int size = 0; size < FLOW_DROP_SIZES; size++)
         flow->told.drops[size]->number = (double)sums->drops[size];
+    if (!flow->told.resting)
+        return;
+    flow->told.resting->number = (double)sums->resting;
+    flow->told.convex->number =
+        sums->resting > 0 ? 100 * (double)sums->convex / (double)sums->resting : 100;
+}
+
+// Reads all panes' maps of one buffer, of so many words a pane.
+static void *read_maps(const struct flow *flow, const struct rg_asset *asset, int length)
+{
+    const size_t words = (size_t)flow->pane_count * (size_t)length;
+    uint32_t *map = rg_alloc(words, sizeof(*map), "survey");
+    if (map && rg_buf_read(asset->buf, 0, map, (int64_t)(words * sizeof(*map))))
+        return map;
+    free(map);
+    return NULL;
 }
 
 bool flow_survey(struct flow *flow)
 {
     const int n = flow->settings.resolution_px, length = flow_map_length(n);
-    const double texel_mm = flow->settings.pane_mm / n;
+    const int cells = flow_lattice_cells(&flow->settings);
+    const struct rg_asset *paces = rg_asset_find(&flow->base, "pace");
     if (!flow->told.wet)
         return true;
-    float *water = rg_alloc((size_t)flow->pane_count * (size_t)length, sizeof(*water), "survey");
-    int *stack = rg_alloc((size_t)length, sizeof(*stack), "survey");
-    const bool ok = water && stack &&
-                    rg_buf_read(flow->water->buf, 0, water,
-                                flow->pane_count * (int64_t)length * (int64_t)sizeof(*water));
+    float *water = read_maps(flow, flow->water, length);
+    uint32_t *pace = paces ? read_maps(flow, paces, flow_map_length(cells)) : NULL;
+    int *texels = rg_alloc((size_t)length, sizeof(*texels), "survey");
     struct sums sums = {0};
-    for (int pane = 0; ok && pane < flow->pane_count; pane++)
-        survey_pane(&(struct pane){n, water + (int64_t)pane * length, stack,
-                                   (float)flow->settings.wet_height},
-                    texel_mm, &sums);
+    bool ok = water && texels && (pace || !paces);
+    for (int i = 0; ok && i < flow->pane_count; i++)
+        ok = survey_pane(
+            &(struct pane){.size = n,
+                           .texel_mm = flow->settings.pane_mm / n,
+                           .wet = (float)flow->settings.wet_height,
+                           .water = water + (int64_t)i * length,
+                           .texels = texels,
+                           .pace = pace ? pace + (int64_t)i * flow_map_length(cells) : NULL,
+                           .cells = cells,
+                           .texels_a_cell = (n + cells - 1) / cells},
+            &sums);
     if (ok)
         tell(flow, &sums);
     free(water);
-    free(stack);
+    free(pace);
+    free(texels);
     return ok;
 }

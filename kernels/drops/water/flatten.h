@@ -14,7 +14,8 @@
     IN(2, float, height)                                                                           \
     IN(3, uint, ids)                                                                               \
     IN(4, float, still)                                                                            \
-    IN(5, uint, still_ids) INOUT(6, float, next_height) INOUT(7, uint, next_ids)
+    IN(5, uint, still_ids)                                                                         \
+    INOUT(6, float, next_height) INOUT(7, uint, next_ids) IN(8, float, held)
 #include "kernels/dialect/slots/slots.h"
 
 #include "kernels/drops/tiles/stir.h"
@@ -114,6 +115,14 @@ RG_FN float thinned(rg_ctx rg, drops_params p, ends at, ways w, int cell)
     uint has_left = mask_of(at_left < p.dry_mm) & ~at.is_first;
     uint has_right = mask_of(at_right < p.dry_mm) & ~at.is_last;
     return either((has_left | has_right) & rg_to_uint(-p.does_erode), 0.0f, here);
+}
+
+// What is left of water in trails that break into beads: what the glass holds, and none between
+// beads once it is low. Without beads all of it.
+RG_FN float beaded(rg_ctx rg, drops_params p, int cell, float thin)
+{
+    uint is_low = mask_of(thin < p.gap_mm) & mask_of(still_at(rg, cell) == 0.0f);
+    return rg_max(either(is_low, 0.0f, thin), rg_min(wet_at(rg, cell), held_at(rg, cell)));
 }
 
 // The first that is not 0.
@@ -216,7 +225,7 @@ RG_FN changes changed(drops_params p, changes was, int i, uint change)
 RG_FN changes renewed(rg_ctx rg, drops_params p, changes was, ends at, ways w, int first, int i)
 {
     int cell = first + i;
-    float h = either(at.is_beyond, 0.0f, thinned(rg, p, at, w, cell));
+    float h = either(at.is_beyond, 0.0f, beaded(rg, p, cell, thinned(rg, p, at, w, cell)));
     uint own = owner_at(rg, cell);
     uint id = h >= p.owned_mm ? own : 0u;
     next_height_put(rg, cell, h);

@@ -1,10 +1,12 @@
-// flow: water dries, and the lattice gets the mean height of its cells' texels. A run over cells.
+// flow: water dries, and the lattice gets the mean height of its cells' texels, one map to
+// be smoothed and one to stay. A run over cells.
 // The square of a height falls at a constant rate, like that of a drying drop's radius (the d2
 // law): films go at once, and beads last.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params
-#define RG_SLOTS  INOUT(1, float, water) INOUT(2, float, level) ATOMIC(3, uint, ledger)
+#define RG_SLOTS                                                                                   \
+    INOUT(1, float, water) INOUT(2, float, level) ATOMIC(3, uint, ledger) OUT(4, float, mean)
 #include "kernels/dialect/slots/slots.h"
 
 RG_FN float left_of(flow_slide_params p, float water)
@@ -51,7 +53,9 @@ RG_GRID_KERNEL(flow_level)
             }
         }
     }
-    level_put(rg, flow_pane_index(p.cells, z, x, y), sum / rg_to_float(k * k));
+    float mean = sum / rg_to_float(k * k);
+    level_put(rg, flow_pane_index(p.cells, z, x, y), mean);
+    mean_put(rg, flow_pane_index(p.cells, z, x, y), mean);
     if (gone > 0.0f)
         ledger_add(rg, FLOW_LEDGER_DRAINED, rg_to_uint(gone * FLOW_DROPLETS_PER_UNIT));
 }

@@ -32,8 +32,23 @@ RG_STRUCT(flow_slide_params)
     float dried2;                  // decrease of a height's square in a run
     float part;                    // of a droplet, 0 to 1, added before rounding down in this run
     float holds;                   // height above which water drips off
+    float joined;         // height above which water of cells or texels side by side forms one drop
+    float wet_per_height; // share of wet glass by the water's height, up to 1
+    float fill;           // share of wet glass around from which a dry texel gets wet
+    float tension;        // pull of the wet glass around
+    float steeper;        // slope of the threshold to wet a dry texel, per share of wet glass less
+    int apart;            // texels between those that tell how wet the glass is around
+    float near;           // so many of them away a texel counts no more; at most 5
+    float near_scale;     // 1 over the sum of their weights
+    int reach;            // of this levelling, in texels
 };
-RG_STRUCT_SIZE(flow_slide_params, 18)
+RG_STRUCT_SIZE(flow_slide_params, 27)
+
+// The weight of wet glass by its distance from a texel, in steps of p.apart texels.
+RG_FN float flow_near_weight(flow_slide_params p, int away)
+{
+    return rg_max(p.near - rg_to_float(away), 0.0f);
+}
 
 // Bilinear interpolation on the lattice: the index of the first of four cells, and the weights of
 // those to the right and below.

@@ -159,7 +159,7 @@ static void a_law_that_fails_once_fails(void **state)
     static const struct rg_law laws[] = {
         {"order", always_holds}, {"water", fails_once}, {NULL, NULL}};
     static const struct rg_proof proof = {
-        .poses = rig_poses, .dry = "drops=0 rain_drops_s=0", .laws = laws};
+        .poses = rig_poses, .dry = "drops=0 rain_drops_s=0 pane_rain_mm_h=0", .laws = laws};
     struct rg_checks checks;
     rig_flow.proof = &proof;
     asked_on_cpu = 0;
@@ -179,7 +179,7 @@ static void an_image_without_rain_proves_nothing(void **state)
 {
     (void)state;
     struct rg_checks checks;
-    rig_verify(RIG_CHEAP " drops=0 rain_drops_s=0", RG_T0, 16, 16, &checks);
+    rig_verify(RIG_CHEAP " drops=0 rain_drops_s=0 pane_rain_mm_h=0", RG_T0, 16, 16, &checks);
     assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_OK);
     assert_int_equal(rig_outcome(&checks, "image", "cpu"), RG_NOTHING);
     assert_says(&checks, "image", "cpu", "proves nothing");

@@ -14,7 +14,7 @@
 const struct rg_pose rig_poses[] = {{.set = ""}, {.set = NULL}};
 const struct rg_law rig_no_laws[] = {{NULL, NULL}};
 static const struct rg_proof proof = {
-    .poses = rig_poses, .dry = "drops=0 rain_drops_s=0", .laws = rig_no_laws};
+    .poses = rig_poses, .dry = "drops=0 rain_drops_s=0 pane_rain_mm_h=0", .laws = rig_no_laws};
 struct rg_technique rig_flow;
 enum rg_verify_length rig_length;
 int rig_steps;

@@ -135,7 +135,7 @@ static const struct rg_pose long_poses[] = {
 static const struct rg_pose uncommon_poses[] = {
     {"", 11, RG_POSE_LEFT_OUT}, {"", 0, 0}, {"", 8, 0}, {"", RG_POSE_LEFT_OUT, 5}, {NULL, 0, 0}};
 static const struct rg_proof long_proof = {
-    .poses = long_poses, .dry = "drops=0 rain_drops_s=0", .laws = rig_no_laws};
+    .poses = long_poses, .dry = "drops=0 rain_drops_s=0 pane_rain_mm_h=0", .laws = rig_no_laws};
 
 // Verifies these poses: all seeds together take `with_all` steps, and the line says how many a run
 // has.
@@ -219,8 +219,9 @@ static void poses_take_turns_with_seeds(void **state)
 static void verify_mutants(const char *scene, const struct rg_mutant *mutants,
                            enum rg_outcome outcome, const char *says)
 {
-    const struct rg_proof seen = {
-        .dry = "drops=0 rain_drops_s=0", .mutant_scene = scene, .mutants = mutants};
+    const struct rg_proof seen = {.dry = "drops=0 rain_drops_s=0 pane_rain_mm_h=0",
+                                  .mutant_scene = scene,
+                                  .mutants = mutants};
     struct rg_checks checks = {0};
     struct rg_progress progress;
     struct rg_verify v = {.technique = &rig_flow,
@@ -250,7 +251,7 @@ static void a_mutant_that_lives_fails(void **state)
                                         {"a model behind", "model_size", 1.01, 0},
                                         {"a rounding", "fresnel_bias", 1.002, 0},
                                         {NULL, NULL, 0, 0}};
-    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=400", mutants, RG_FAIL,
+    verify_mutants(RIG_CHEAP " pane_rain_mm_h=0 drops=400", mutants, RG_FAIL,
                    "killed 1/3; T1 accepts: a model behind, a rounding");
 }
 
@@ -262,7 +263,7 @@ static void a_mutant_that_is_none_fails(void **state)
     const struct rg_mutant above[] = {seed, {"too many drops", "drops", 1, 1e6}, none};
     const struct rg_mutant below[] = {{"too few drops", "drops", 1, -401}, seed, none};
     const struct rg_mutant itself[] = {seed, {"the model", "fresnel_bias", 1, 0}, none};
-    const char scene[] = RIG_CHEAP " rain_drops_s=0 drops=400";
+    const char scene[] = RIG_CHEAP " pane_rain_mm_h=0 drops=400";
     verify_mutants(scene, above, RG_FAIL,
                    "'too many drops' is none: drops is 400 in the model's scene and would be "
                    "1000400, of 0 to 100000; mend the list of flow");
@@ -297,7 +298,7 @@ static void a_mutant_that_fails_is_an_error(void **state)
     const struct rg_mutant mutants[] = {
         {"fewer drops", "drops", 0.5, 0}, {"another seed", "seed", 1, 1}, {NULL, NULL, 0, 0}};
     rig_flow.step = fail_on_another_seed;
-    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=400", mutants, RG_ERROR,
+    verify_mutants(RIG_CHEAP " pane_rain_mm_h=0 drops=400", mutants, RG_ERROR,
                    "kernel 'rain': its driver is tired");
 }
 
@@ -321,7 +322,7 @@ static void a_mutant_is_judged_where_it_rains(void **state)
     (void)state;
     const struct rg_mutant mutants[] = {{"Fresnel bias a quarter higher", "fresnel_bias", 1.25, 0},
                                         {NULL, NULL, 0, 0}};
-    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=60", mutants, RG_OK, "killed 1/1");
+    verify_mutants(RIG_CHEAP " pane_rain_mm_h=0 drops=60", mutants, RG_OK, "killed 1/1");
 }
 
 // Whose error it was decides the exit status.

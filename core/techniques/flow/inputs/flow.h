@@ -44,6 +44,7 @@ struct flow_settings {
     double noise_low, noise_window, noise_scroll_x, noise_scroll_y;
     // sources
     int drops;
+    double pane_rain_mm_h, contact_deg;
     double rain_drops_s, step_s, drop_radius_min_mm, drop_radius_max_mm, height_per_mm;
     int survey;
     // lighting
@@ -95,11 +96,13 @@ void flow_view_model(const struct flow_settings *settings, int64_t frame, const 
 int flow_environment_levels(const struct flow_settings *settings);
 int flow_reflection_level(const struct flow_settings *settings);
 
-// A drop by its number on a pane: one of the initial ones if `frame` is -1, else of those that fall
-// in that frame.
+// A drop of move=paper by its number on a pane: one of the initial ones if `frame` is -1, else of
+// those that fall in that frame. inputs/rain.h has those of move=sliding.
 flow_splat_params flow_drop(const struct flow_settings *settings, int pane, int64_t frame,
                             int number);
-// The number of drops that fall on a pane in a frame: constant on average, not random.
+// The number of drops that have fallen on a pane before a frame: constant on average, not random.
+int64_t flow_fallen_before(const struct flow_settings *settings, int64_t frame);
+// The number of those that fall in a frame.
 int flow_drops_at(const struct flow_settings *settings, int64_t frame);
 
 // The remainder map (FLOW_REMAINDER_ENTRIES floats, 0 to 1) and the noise map (size x size floats),

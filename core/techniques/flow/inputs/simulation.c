@@ -1,5 +1,5 @@
 // The host's part of flow's simulation: orientation, drops, and the kernels' parameters.
-#include "core/techniques/flow/inputs/flow.h"
+#include "core/techniques/flow/inputs/rain.h"
 
 #include <math.h>
 
@@ -166,24 +166,20 @@ flow_normals_params flow_normals_params_of(const struct flow_settings *s)
     };
 }
 
-// Random streams of flow. The item is a drop's number and the step its frame. If drops slide, they
-// are numbered through all frames, so that the same ones fall whatever step_s is.
+// Random streams of the paper's drops. The item is a drop's number and the step its frame.
 enum { STREAM_SEEDED = 1, STREAM_RAIN = 2, STREAMS_A_PANE = 16 };
 
-// The number of drops that have fallen on a pane before a frame. The epsilon lets a number that is
-// whole except for rounding count as whole, whatever step_s is.
-static int64_t fallen_before(const struct flow_settings *s, int64_t frame)
+// The epsilon lets a number that is whole except for rounding count as whole, whatever step_s is.
+int64_t flow_fallen_before(const struct flow_settings *s, int64_t frame)
 {
     const double spare = s->move == FLOW_MOVE_SLIDING ? 1e-6 : 0;
-    return (int64_t)floor((double)frame * (s->rain_drops_s * s->step_s) + spare);
+    return (int64_t)floor((double)frame * (flow_rain_drops_s(s) * s->step_s) + spare);
 }
 
 flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t frame, int number)
 {
     const uint stream = frame < 0 ? STREAM_SEEDED : STREAM_RAIN;
-    const bool is_counted = frame < 0 || s->move == FLOW_MOVE_SLIDING;
-    const int64_t item = frame < 0 || !is_counted ? number : fallen_before(s, frame) + number;
-    rg_uint4 w = rg_random((uint)s->seed, (uint)item, is_counted ? 0u : (uint)frame,
+    rg_uint4 w = rg_random((uint)s->seed, (uint)number, frame < 0 ? 0u : (uint)frame,
                            stream + STREAMS_A_PANE * (uint)pane);
     const double px_per_mm = s->resolution_px / s->pane_mm;
     // Small drops are frequent and large ones rare: the radius is distributed as a square.
@@ -203,5 +199,5 @@ flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t fra
 
 int flow_drops_at(const struct flow_settings *s, int64_t frame)
 {
-    return (int)(fallen_before(s, frame + 1) - fallen_before(s, frame));
+    return (int)(flow_fallen_before(s, frame + 1) - flow_fallen_before(s, frame));
 }

@@ -17,8 +17,17 @@
 #define BENT_MM      0.8
 #define LEAST_MM     0.4
 #define MOST_MM      1.0
-#define HOLDS_MM     40.0
-#define GOLDEN       0.6180339887498949
+#define FAR_MM       1.2  // the farthest texels that level with one another
+#define NEAR_MM      1.45 // how far away wet glass counts
+#define TENSION_MM   0.3  // the pull of glass that is all wet, as a height of water
+#define JOINED_MM    0.03 // height above which water of cells or texels forms one drop
+#define FILM_MM      0.06 // height of water from which on glass counts as wet
+// A dry texel gets wet by any water where this share of the glass around is wet, and by water as
+// steep as contact_slope where it is less by 1 / STEEPER.
+#define FILL     0.5
+#define STEEPER  5.0
+#define HOLDS_MM 40.0
+#define GOLDEN   0.6180339887498949
 
 static double texel_mm(const struct flow_settings *s)
 {
@@ -55,9 +64,61 @@ static double levelled(const struct flow_settings *s)
     return s->levelling_mm_s * run_s(s) * MOST_MM / (texel_mm(s) * texel_mm(s));
 }
 
+// Texels between those that tell how wet the glass is around a place, so that a step of four
+// reaches NEAR_MM; how many steps that is; and the sum of their weights.
+static int apart(const struct flow_settings *s)
+{
+    return (int)fmax(ceil(NEAR_MM / (5 * texel_mm(s)) - 1e-9), 1);
+}
+
+static double near_steps(const struct flow_settings *s)
+{
+    return fmax(NEAR_MM / (apart(s) * texel_mm(s)), 1);
+}
+
+static double near_scale(const struct flow_settings *s)
+{
+    double sum = near_steps(s);
+    for (int away = 1; away <= 4; away++)
+        sum += 2 * fmax(near_steps(s) - away, 0);
+    return 1 / (sum * sum);
+}
+
+// One round of levelling: texels far apart twice, then at half the distance, and so on down to
+// neighbours. It ends with the row that the texels' width allows.
+static const int reaches[] = {4, 4, 2, 2, 1};
+enum { REACHES = sizeof(reaches) / sizeof(reaches[0]) };
+
+static int first_reach(const struct flow_settings *s)
+{
+    int first = 0;
+    while (reaches[first] > 1 && reaches[first] * texel_mm(s) > FAR_MM)
+        first++;
+    return first;
+}
+
+// Runs between neighbours that would level as far as a round.
+static int neighbours_a_round(const struct flow_settings *s)
+{
+    int sum = 0;
+    for (int i = first_reach(s); i < REACHES; i++)
+        sum += reaches[i] * reaches[i];
+    return sum;
+}
+
+static int relax_rounds(const struct flow_settings *s)
+{
+    return (int)ceil(levelled(s) / neighbours_a_round(s) / LEVELLED);
+}
+
 int flow_relax_runs(const struct flow_settings *s)
 {
-    return (int)ceil(levelled(s) / LEVELLED);
+    return relax_rounds(s) * (REACHES - first_reach(s));
+}
+
+int flow_relax_reach(const struct flow_settings *s, int run)
+{
+    return reaches[first_reach(s) + run % (REACHES - first_reach(s))];
 }
 
 static double fraction(double x)
@@ -88,7 +149,8 @@ flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t ru
         .slowest_mm_s = (float)(s->slide_most_mm_s * pow(FLOW_PACE_RATIO, 2 - FLOW_PACES)),
         .reach2 = (float)(REACH_MM * REACH_MM / cell_mm2),
         .aside = (float)fmin(ASIDE_MM / cell_mm, FLOW_MARGIN - 2),
-        .levelling = (float)(levelled(s) / MOST_MM * s->relief / fmax(flow_relax_runs(s), 1)),
+        .levelling = (float)(levelled(s) / MOST_MM * s->relief /
+                             fmax(relax_rounds(s) * neighbours_a_round(s), 1)),
         .bent = (float)(BENT_MM * to_height),
         .least_layer = (float)(LEAST_MM * to_height),
         .most_layer = (float)(MOST_MM * to_height),
@@ -97,6 +159,14 @@ flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t ru
         .dried2 = (float)(2 * s->drying_mm2_s * run_s(s) * to_height * to_height),
         .part = (float)phase_of(run),
         .holds = (float)(HOLDS_MM * to_height),
+        .joined = (float)(JOINED_MM * to_height),
+        .wet_per_height = (float)(s->relief / FILM_MM),
+        .fill = (float)FILL,
+        .tension = (float)(TENSION_MM * to_height),
+        .steeper = (float)STEEPER,
+        .apart = apart(s),
+        .near = (float)near_steps(s),
+        .near_scale = (float)near_scale(s),
     };
 }
 

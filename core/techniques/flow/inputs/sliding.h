@@ -11,6 +11,8 @@ int flow_lattice_cells(const struct flow_settings *settings);
 // each run levels.
 int flow_slide_runs(const struct flow_settings *settings);
 int flow_relax_runs(const struct flow_settings *settings);
+// The distance in texels between those that level with one another: 1, 2 or 4.
+int flow_relax_reach(const struct flow_settings *settings, int run);
 
 // The parameters of a run's kernels; runs are numbered through all frames.
 flow_slide_params flow_slide_params_at(const struct flow_settings *settings, int64_t run);

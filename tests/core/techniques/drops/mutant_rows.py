@@ -7,6 +7,7 @@ MODEL = ("model",)
 CHANCE = ("chance",)
 PANE = ("view/pane", "view/oracle")
 MAPS = ("view/maps",)
+BEADS = ("beads",)
 
 ROWS = [Row(*row) for row in (
     # running
@@ -305,6 +306,12 @@ ROWS = [Row(*row) for row in (
     ("heights are not rounded", "water/flatten.h",
      "rg_floor(h * DROPS_HEIGHTS_A_MM + 0.5f)",
      "rg_floor(h * DROPS_HEIGHTS_A_MM)", MODEL),
+    ("the glass holds no beads", "water/flatten.h",
+     "rg_min(wet_at(rg, cell), held_at(rg, cell))", "0.0f", BEADS),
+    ("beads rise on dry glass", "water/flatten.h",
+     "rg_min(wet_at(rg, cell), held_at(rg, cell))", "held_at(rg, cell)", BEADS),
+    ("bands stay between beads", "water/flatten.h",
+     "either(is_low, 0.0f, thin)", "thin", BEADS),
     ("IDs of lower water", "water/flatten.h",
      "uint id = h >= p.owned_mm ? own : 0u;",
      "uint id = h >= p.owned_mm * 0.5f ? own : 0u;", MODEL),

@@ -133,7 +133,7 @@ static void test_drops_come_from_the_next_block(void **state)
     char text[160];
     for (int i = 0; i < 3; i++) {
         snprintf(text, sizeof(text),
-                 "move=sliding resolution_px=128 pane_mm=37 drops=0 rain_drops_s=0 "
+                 "move=sliding resolution_px=128 pane_mm=37 drops=0 pane_rain_mm_h=0 "
                  "slide_above_mm3=0.05 pane_roll_deg=%s",
                  rolls[i]);
         struct both both;
@@ -167,8 +167,8 @@ static void test_rain_falls_on_dry_panes(void **state)
     compare("move=paper resolution_px=100 drops=0 rain_drops_s=200 direction=texel "
             "pane_roll_deg=-160",
             30);
-    compare("move=sliding resolution_px=64 drops=0 rain_drops_s=200", 30);
-    compare("move=sliding resolution_px=100 drops=0 rain_drops_s=200 pane_roll_deg=30", 30);
+    compare("move=sliding resolution_px=64 drops=0 pane_rain_mm_h=100", 30);
+    compare("move=sliding resolution_px=100 drops=0 pane_rain_mm_h=100 pane_roll_deg=30", 30);
 }
 
 // The panes are no whole number of blocks, and their water runs on to the next panes.
@@ -181,7 +181,7 @@ static void test_water_runs_over_the_edges(void **state)
     compare("move=paper view=box run_on=on resolution_px=40 drops=60 rain_drops_s=300 "
             "pane_pitch_deg=40 pane_roll_deg=30 direction=texel spin_roll_deg_s=200",
             40);
-    compare("move=sliding view=box run_on=on resolution_px=90 drops=60 rain_drops_s=300 "
+    compare("move=sliding view=box run_on=on resolution_px=90 drops=60 pane_rain_mm_h=200 "
             "pane_pitch_deg=40 pane_roll_deg=30 spin_roll_deg_s=200 slide_above_mm3=2",
             40);
 }
@@ -191,11 +191,12 @@ static void test_panes_dry_up(void **state)
 {
     (void)state;
     struct both both;
-    both_open(&both, "move=sliding resolution_px=64 drops=40 rain_drops_s=0 drying_mm2_s=20");
+    both_open(&both, "move=sliding resolution_px=64 drops=40 pane_rain_mm_h=0 drying_mm2_s=20");
     assert_above(both.came, 0);
     both_step(&both, 60);
     assert_int_equal(both.came, 0);
-    static const char *const dry[] = {"water", "moved", "given", "paced", "level", "pull"};
+    static const char *const dry[] = {"water", "moved", "given", "paced",
+                                      "level", "pull",  "mean",  "wet"};
     for (size_t i = 0; i < sizeof(dry) / sizeof(dry[0]); i++) {
         const struct rg_asset *asset = rg_asset_find(both.rigs[0].instance, dry[i]);
         uint32_t *words = contents(asset);

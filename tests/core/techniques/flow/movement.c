@@ -466,6 +466,7 @@ static void test_rain_falls_at_its_rate(void **state)
     (void)state;
     struct flow_settings s;
     rg_params_reset(&flow_param_table, &s);
+    s.move = FLOW_MOVE_PAPER;
     static const double rates[] = {0, 7, 60, 100, 1234.5};
     for (size_t i = 0; i < sizeof(rates) / sizeof(rates[0]); i++) {
         s.rain_drops_s = rates[i];
@@ -494,7 +495,7 @@ static void test_a_drop_holds_its_volume(void **state)
         rig_set(&rig, text);
         rig_put(&rig, dry);
         struct flow *flow = (struct flow *)rig.instance;
-        assert_true(flow_land(flow, -1, 1));
+        assert_true(flow_splat_drops(flow, -1, 1));
         const flow_splat_params drop = flow_drop(&flow->settings, 0, -1, 0);
         const double x = (double)drop.centre_x, y = (double)drop.centre_y;
         const double r = (double)drop.radius_px;

@@ -35,7 +35,7 @@ static int64_t droplets_of(const struct rig *rig, double mm)
 static void open_sliding(struct rig *rig, const char *assignments)
 {
     char text[512];
-    snprintf(text, sizeof(text), "move=sliding resolution_px=64 pane_mm=96 rain_drops_s=0 %s",
+    snprintf(text, sizeof(text), "move=sliding resolution_px=64 pane_mm=96 pane_rain_mm_h=0 %s",
              assignments);
     rig_open(rig, device, text);
 }
@@ -137,9 +137,11 @@ static void test_water_moves_as_in_the_model(void **state)
     (void)state;
     compare("seed=3 drops=90", 64, 1);
     compare("seed=4 drops=70 pane_roll_deg=30 pane_pitch_deg=40 slide_above_mm3=5", 64, 1);
-    compare("seed=5 drops=60 resolution_px=96 pane_mm=48 drop_radius_max_mm=3 pane_roll_deg=-120 "
+    compare("seed=5 drops=60 resolution_px=96 pane_mm=48 drop_radius_max_mm=3 levelling_mm_s=40 "
+            "pane_roll_deg=-120 "
             "step_s=0.05",
             32, 3);
+    compare("seed=7 drops=30 resolution_px=160 pane_mm=48 levelling_mm_s=150", 40, 1);
     compare("seed=6 drops=60 pane_roll_deg=180 bead_mm=0 cohesion=1.5 contact_slope=0.3", 64, 1);
 }
 
@@ -300,7 +302,7 @@ static void test_the_ledger_balances(void **state)
     for (int pose = 0; pose < 3; pose++) {
         char text[256];
         snprintf(text, sizeof(text),
-                 "move=sliding resolution_px=64 drops=300 rain_drops_s=600 seed=%d %s", pose + 1,
+                 "move=sliding resolution_px=64 drops=300 pane_rain_mm_h=300 seed=%d %s", pose + 1,
                  poses[pose]);
         struct rig rig;
         rig_open(&rig, device, text);
