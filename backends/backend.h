@@ -49,8 +49,8 @@ struct rg_limits {
     char no_draws[120];               // why DRAW programs cannot run: "has no queue that draws"
     bool has_clock;                   // `time` works
     bool has_queries;                 // the API's own occlusion queries
-    bool has_fixed;                   // fixed_draw works
-    char no_native[120];              // why there is no native device: "lacks geometryShader"
+    bool has_fixed; // the API has a pipeline of its own: fixed_draw works, and native devices do
+    char no_native[120]; // why there is no native device: "lacks geometryShader"
 };
 
 // Sizes: a name with settings, which may include several paths; and the libraries of a driver's

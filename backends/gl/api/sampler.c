@@ -32,6 +32,7 @@ GLuint gl_image_view(struct rg_image *image, enum rg_sampler sampling)
                   gl_format(desc->format).internal, 0, (GLuint)desc->levels, 0,
                   is_cube ? 6 : (GLuint)desc->layers);
     set_state(*view, sampling);
+    gl_label(GL_TEXTURE, *view, image->name);
     if (gl_check((struct gl_device *)image->device, "glTextureView", "image", image->name))
         return *view;
     glDeleteTextures(1, view);
