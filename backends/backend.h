@@ -49,7 +49,8 @@ struct rg_limits {
     char no_draws[120];               // why DRAW programs cannot run: "has no queue that draws"
     bool has_clock;                   // `time` works
     bool has_queries;                 // the API's own occlusion queries
-    bool has_fixed;                   // fixed_draw works
+    bool has_fixed; // the API has a pipeline of its own: fixed_draw works, and native devices do
+    char no_native[120]; // why there is no native device: "lacks geometryShader"
 };
 
 // Sizes: a name with settings, which may include several paths; and the libraries of a driver's
@@ -77,6 +78,7 @@ struct rg_device_info {
 struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
+    bool native;                // filters, corners and depth are the driver's (docs/native.md)
     bool rounds;                // programs round quotients and roots (backends/asked/rounding.h)
     bool blends;                // programs blend by themselves (backends/asked/blending.h)
     struct rg_work *work;       // core/device's counts; not for the backend
@@ -84,9 +86,12 @@ struct rg_device {
     struct rg_shared *shared;   // owned by core/device/shared.c
 };
 
-// The ways of the device's GRID kernels, and of its draws without blending.
-static inline unsigned rg_device_ways(const struct rg_device *device)
+// The ways of a kernel on this device, without blending.
+static inline unsigned rg_device_ways(const struct rg_device *device,
+                                      const struct rg_kernel *kernel)
 {
+    if (device->native && (kernel->draw || rg_kernel_samples(kernel)))
+        return RG_CODE_NATIVE;
     return device->rounds ? RG_CODE_ROUNDS : 0;
 }
 
@@ -192,7 +197,8 @@ struct rg_backend {
     const char *name;    // "vulkan"
     const char *package; // the Debian package with a driver; NULL: none is needed
     bool rough;          // the API's language allows inexact quotients and roots (rounding.h)
-    bool packed;         // draws primitives packed by core/device/packing.c, rather than items
+    bool packed;         // draws primitives packed by core/device/packing.c, rather than items;
+                         // native devices draw items
 
     // Fills `infos` with up to `max` devices, best first, and returns their number; 0: no driver is
     // installed; else an enum rg_list_end. Without devices `why` (of `why_size` bytes,
@@ -254,6 +260,12 @@ struct rg_backend {
     // compare it with the wall clock.
     bool (*time)(struct rg_device *device, int64_t *time_ns);
 };
+
+// Whether the device draws packed primitives.
+static inline bool rg_device_packs(const struct rg_device *device)
+{
+    return device->backend->packed && !device->native;
+}
 
 // All backends, NULL-terminated; the build generates the list from backends/meson.build.
 extern const struct rg_backend *const rg_backends[];

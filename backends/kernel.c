@@ -11,9 +11,9 @@
 #include "core/base/log.h"
 
 const struct rg_slot_info rg_drawn_slots[RG_DRAWN_SLOTS] = {
-    {"packed primitives", RG_SLOT_PRIMS, RG_SLOT_IN, 4, RG_FORMAT_NONE, NULL},
-    {"visible samples", RG_SLOT_SAMPLES, RG_SLOT_ATOMIC, 4, RG_FORMAT_NONE, "u"},
-    {"depth behind", RG_SLOT_BEHIND, RG_SLOT_IMAGE, 0, RG_D32F, NULL},
+    {"packed primitives", RG_SLOT_PRIMS, RG_SLOT_IN, 4, RG_FORMAT_NONE, NULL, RG_TEXELS},
+    {"visible samples", RG_SLOT_SAMPLES, RG_SLOT_ATOMIC, 4, RG_FORMAT_NONE, "u", RG_TEXELS},
+    {"depth behind", RG_SLOT_BEHIND, RG_SLOT_IMAGE, 0, RG_D32F, NULL, RG_TEXELS},
 };
 
 const struct rg_kernel *rg_kernel_find(const char *name)
@@ -24,6 +24,15 @@ const struct rg_kernel *rg_kernel_find(const char *name)
         if (!strcmp(all[i]->name, name))
             return all[i];
     return NULL;
+}
+
+bool rg_kernel_samples(const struct rg_kernel *kernel)
+{
+    const bool has_form = kernel->draw || kernel->code[RG_CODE_NATIVE_GLSL].size;
+    bool samples = false;
+    for (int i = 0; i < kernel->slot_count; i++)
+        samples = samples || kernel->slots[i].sampler != RG_TEXELS;
+    return has_form && samples;
 }
 
 int rg_kernel_index(const struct rg_kernel *kernel)
@@ -57,9 +66,31 @@ static unsigned char *read_whole(FILE *file, size_t *size)
     return bytes;
 }
 
+static enum rg_code_kind native_kind_of(enum rg_code_kind kind)
+{
+    switch (kind) {
+    case RG_CODE_GLSL:
+        return RG_CODE_NATIVE_GLSL;
+    case RG_CODE_SPIRV:
+        return RG_CODE_NATIVE_SPIRV;
+    case RG_CODE_VERTEX_GLSL:
+        return RG_CODE_NATIVE_VERTEX_GLSL;
+    case RG_CODE_VERTEX_SPIRV:
+        return RG_CODE_NATIVE_VERTEX_SPIRV;
+    case RG_CODE_FRAGMENT_GLSL:
+        return RG_CODE_NATIVE_FRAGMENT_GLSL;
+    case RG_CODE_FRAGMENT_SPIRV:
+        return RG_CODE_NATIVE_FRAGMENT_SPIRV;
+    default:
+        return kind;
+    }
+}
+
 static enum rg_code_kind kind_of(enum rg_code_kind kind, unsigned ways)
 {
     const bool rounds = ways & RG_CODE_ROUNDS;
+    if (ways & RG_CODE_NATIVE)
+        return native_kind_of(kind);
     switch (kind) {
     case RG_CODE_SPIRV:
         return rounds ? RG_CODE_ROUNDED_SPIRV : kind;
@@ -131,7 +162,15 @@ static bool read_code(const char *folder, const struct rg_kernel *kernel, enum r
                                                           "vert.rounded.spv",
                                                           "frag.rounded.spv",
                                                           "frag.blended.spv",
-                                                          "frag.rounded_blended.spv"};
+                                                          "frag.rounded_blended.spv",
+                                                          "native.glsl",
+                                                          "native.spv",
+                                                          "native.vert",
+                                                          "native.vert.spv",
+                                                          "native.geom",
+                                                          "native.geom.spv",
+                                                          "native.frag",
+                                                          "native.frag.spv"};
     char path[4096];
     snprintf(path, sizeof(path), "%s/%s.%s", folder, kernel->name, extensions[kind]);
     const char *why;

@@ -25,6 +25,16 @@ static inline bool rg_slot_is_written(enum rg_slot_kind kind)
     return kind != RG_SLOT_IN && kind != RG_SLOT_IMAGE;
 }
 
+// How a native device's sampler reads an image (SAMPLED of kernels/dialect/slots/slots.h).
+enum rg_sampler {
+    RG_TEXELS,           // it does not: kernels fetch texels
+    RG_SAMPLED_FILTERED, // linear within and between levels, clamped at the edges
+    RG_SAMPLED_TILED,    // the same, repeated
+    RG_SAMPLED_CUBE,     // the same, of six layers as a cube
+    RG_SAMPLED_SHADOW,   // nearest, compared: 1 if the reference is at most the texel
+    RG_SAMPLERS
+};
+
 struct rg_slot_info {
     const char *name; // the kernel's own name for the slot
     int slot;         // 1 to RG_MAX_SLOTS - 1, the binding in every API
@@ -32,6 +42,7 @@ struct rg_slot_info {
     int element_size;      // of a buffer's element, in bytes; 0 for an image
     enum rg_format format; // of an image; RG_FORMAT_NONE for a buffer
     const char *words; // of a buffer's element: a letter a word, as in enum rg_word; NULL: unknown
+    enum rg_sampler sampler; // of an image
 };
 
 // The type of each four bytes of a buffer; one text has an element's, "uff".
@@ -49,7 +60,8 @@ struct rg_embedded_code {
     size_t packed_size, size; // both 0 if the kernel has no such form
 };
 
-// A GRID kernel has the first three; a DRAW program has OpenCL C and the last four.
+// A GRID kernel has the first three, a DRAW program OpenCL C and the four after it; both may have
+// some of the others.
 enum rg_code_kind {
     RG_CODE_GLSL,
     RG_CODE_SPIRV,
@@ -66,6 +78,15 @@ enum rg_code_kind {
     // For fragments that blend by themselves. Their GLSL is the normal one with RG_BLENDS defined.
     RG_CODE_BLENDED_FRAGMENT_SPIRV,
     RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV,
+    // For native devices (docs/native.md): GRID kernels that sample, and all DRAW programs.
+    RG_CODE_NATIVE_GLSL,
+    RG_CODE_NATIVE_SPIRV,
+    RG_CODE_NATIVE_VERTEX_GLSL,
+    RG_CODE_NATIVE_VERTEX_SPIRV,
+    RG_CODE_NATIVE_GEOMETRY_GLSL,
+    RG_CODE_NATIVE_GEOMETRY_SPIRV,
+    RG_CODE_NATIVE_FRAGMENT_GLSL,
+    RG_CODE_NATIVE_FRAGMENT_SPIRV,
     RG_CODE_COUNT
 };
 
@@ -81,8 +102,9 @@ enum {
 };
 
 // Ways of programs, as bits: they round quotients and roots themselves (backends/asked/rounding.h),
-// and blend by themselves (backends/asked/blending.h).
-enum { RG_CODE_ROUNDS = 1, RG_CODE_BLENDS = 2 };
+// and blend by themselves (backends/asked/blending.h). A native device's do neither, and none has
+// another bit beside this one.
+enum { RG_CODE_ROUNDS = 1, RG_CODE_BLENDS = 2, RG_CODE_NATIVE = 4 };
 
 // Slots of fragments besides the program's own, on backends that draw packed primitives.
 enum { RG_DRAWN_SLOTS = 3 };
@@ -112,12 +134,16 @@ const struct rg_kernel *rg_kernel_find(const char *name);
 // All kernels, in the order of the list; returns their number.
 int rg_kernel_all(const struct rg_kernel *const **kernels);
 
+// Whether native devices' samplers read one of its images. Such a kernel, and every DRAW program,
+// has a form of its own for native devices.
+bool rg_kernel_samples(const struct rg_kernel *kernel);
+
 // A kernel's index in rg_kernel_all, for tables by kernel.
 int rg_kernel_index(const struct rg_kernel *kernel);
 
 // The code for a driver: embedded at build time, or, if RG_KERNEL_DIR names a folder, read from
-// NAME.glsl, NAME.spv, NAME.cl and so on there. `ways` has bits of RG_CODE_ROUNDS and
-// RG_CODE_BLENDS; only fragments blend. False, and one logged line, on failure; then there is
+// NAME.glsl, NAME.spv, NAME.cl and so on there. `ways` has bits of RG_CODE_ROUNDS, RG_CODE_BLENDS
+// and RG_CODE_NATIVE; only fragments blend. False, and one logged line, on failure; then there is
 // nothing to free.
 bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, unsigned ways,
                     struct rg_kernel_code *code);

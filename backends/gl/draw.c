@@ -50,23 +50,41 @@ static void set_depth(enum rg_depth_mode depth)
     glDepthMask(depth == RG_DEPTH_WRITE);
 }
 
-// shaders/draw.vert assumes this viewport.
-static void set_viewport(int width, int height)
+// shaders/draw.vert assumes this viewport, in which packed primitives lie.
+static void set_viewport(bool native, int width, int height)
 {
+    if (native) {
+        glViewport(0, 0, width, height);
+        return;
+    }
     glViewport(-((RG_VIEWPORT_PX - width) / 2), -((RG_VIEWPORT_PX - height) / 2), RG_VIEWPORT_PX,
                RG_VIEWPORT_PX);
 }
 
-static void set_state(struct gl_draw_state *now, const struct gl_draw_state *wanted)
+// Clockwise for the viewer, to whom row 0 is the top.
+static void set_cull(enum rg_cull cull)
+{
+    if (cull == RG_CULL_NONE) {
+        glDisable(GL_CULL_FACE);
+        return;
+    }
+    glEnable(GL_CULL_FACE);
+    glFrontFace(GL_CW);
+    glCullFace(cull == RG_CULL_BACK ? GL_BACK : GL_FRONT);
+}
+
+static void set_state(bool native, struct gl_draw_state *now, const struct gl_draw_state *wanted)
 {
     if (now->width != wanted->width || now->height != wanted->height)
-        set_viewport(wanted->width, wanted->height);
+        set_viewport(native, wanted->width, wanted->height);
     if (memcmp(now->scissor, wanted->scissor, sizeof(now->scissor)) != 0)
         glScissor(wanted->scissor[0], wanted->scissor[1], wanted->scissor[2], wanted->scissor[3]);
     if (now->blend != wanted->blend)
         set_blend(wanted->blend);
     if (now->depth != wanted->depth)
         set_depth(wanted->depth);
+    if (now->cull != wanted->cull)
+        set_cull(wanted->cull);
     *now = *wanted;
 }
 
@@ -79,12 +97,38 @@ static struct gl_draw_state state_of(const struct gl_device *device, const struc
         .scissor = {draw->x0, draw->y0, draw->x1 - draw->x0, draw->y1 - draw->y0},
         .blend = device->pub.blends ? RG_BLEND_OFF : draw->blend,
         .depth = framebuffer->key.depth ? draw->depth_mode : RG_DEPTH_OFF,
+        .cull = device->pub.native ? draw->cull : RG_CULL_NONE, // packing has culled
     };
     if (!draw->x1) { // the whole target
         state.scissor[2] = state.width;
         state.scissor[3] = state.height;
     }
     return state;
+}
+
+static bool draw_packed(struct gl_device *device, const struct rg_kernel *kernel,
+                        const struct rg_run *run)
+{
+    struct gl_bound *bound = &device->bound;
+    const int items_a_query = run->draw->items_a_query;
+    const struct rg_buf *arguments = items_a_query ? run->packed->query_args : run->packed->args;
+    gl_bind_arguments(bound, ((const struct gl_buf *)arguments)->id);
+    // Vertex shaders read corners from the storage block, fragment shaders read records from a
+    // texture of words.
+    gl_slot_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
+    if (!gl_slot_words(bound, RG_SLOT_PRIMS, run->packed->prims))
+        return false;
+    if (items_a_query)
+        return gl_draw_queries(device, kernel, run);
+    glDrawArraysIndirect(GL_TRIANGLES, NULL);
+    return true;
+}
+
+// shaders/native.vert takes a vertex for each item.
+static void draw_items(const struct rg_run *run)
+{
+    const rg_draw_state *state = run->params; // an rg_draw_call begins with it
+    glDrawArrays(GL_POINTS, state->item_begin, state->item_end - state->item_begin);
 }
 
 bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const struct rg_run *run)
@@ -95,23 +139,15 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
         return false;
     struct gl_bound *bound = &device->bound;
     const struct gl_draw_state state = state_of(device, draw, framebuffer);
-    set_state(&bound->draw, &state);
+    set_state(device->pub.native, &bound->draw, &state);
     gl_bind_framebuffer(bound, framebuffer->id);
-    const struct rg_buf *arguments =
-        draw->items_a_query ? run->packed->query_args : run->packed->args;
-    gl_bind_arguments(bound, ((const struct gl_buf *)arguments)->id);
-    // Vertex shaders read corners from the storage block, fragment shaders read records from a
-    // texture of words.
-    gl_slot_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
-    if (!gl_slot_words(bound, RG_SLOT_PRIMS, run->packed->prims))
-        return false;
     gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
     if (rg_draw_counts(draw))
         gl_slot_buffer(bound, RG_SLOT_SAMPLES, draw->samples);
-    if (draw->items_a_query && !gl_draw_queries(device, kernel, run))
+    if (device->pub.native)
+        draw_items(run);
+    else if (!draw_packed(device, kernel, run))
         return false;
-    if (!draw->items_a_query)
-        glDrawArraysIndirect(GL_TRIANGLES, NULL);
     // The next run may overwrite what this run reads, and read its counts.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     return gl_check_reported(device, "glDrawArraysIndirect", "kernel", kernel->name);

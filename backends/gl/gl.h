@@ -85,6 +85,7 @@ struct gl_draw_state {
     GLint scissor[4];
     enum rg_blend blend;
     enum rg_depth_mode depth;
+    enum rg_cull cull; // of native devices
 };
 
 // The current bindings, so that equal ones cost no call. 0: nothing.
@@ -127,6 +128,8 @@ struct gl_buf {
 struct gl_image {
     struct rg_image pub;
     GLuint id;
+    GLuint views[RG_SAMPLERS]; // of native devices, by sampling, with the sampler's state; 0 until
+                               // a kernel needs it
 };
 
 struct gl_pass {
@@ -219,6 +222,13 @@ void gl_image_destroy(struct rg_image *image);
 bool gl_image_write(struct rg_image *image, int layer, int level, const void *texels);
 bool gl_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool gl_image_clear(struct rg_image *image, const void *texel);
+
+// api/sampler.c
+
+// The texture by which a native device's programs sample an image; the image owns it. 0 and one
+// logged line on failure.
+GLuint gl_image_view(struct rg_image *image, enum rg_sampler sampling);
+void gl_image_views_destroy(struct gl_image *image);
 
 // slots.c
 

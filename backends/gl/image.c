@@ -47,6 +47,7 @@ void gl_image_destroy(struct rg_image *image)
     struct gl_image *mine = (struct gl_image *)image;
     if (gl_use(gl)) {
         gl_framebuffers_forget(gl, mine->id);
+        gl_image_views_destroy(mine);
         glDeleteTextures(1, &mine->id);
     }
     gl_forget_texture(&gl->bound, mine->id);

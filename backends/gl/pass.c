@@ -31,7 +31,7 @@ struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel 
     struct gl_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
     if (!pass)
         return NULL;
-    pass->program = gl_program_create(gl, kernel, rg_device_ways(device));
+    pass->program = gl_program_create(gl, kernel, rg_device_ways(device, kernel));
     if (!pass->program) {
         free(pass);
         return NULL;
@@ -102,8 +102,8 @@ static GLuint program_of(struct gl_device *gl, struct gl_pass *mine, const struc
     if (!gl->pub.blends || !run->draw || run->draw->blend == RG_BLEND_OFF)
         return mine->program;
     if (!mine->blending)
-        mine->blending =
-            gl_program_create(gl, mine->pub.kernel, rg_device_ways(&gl->pub) | RG_CODE_BLENDS);
+        mine->blending = gl_program_create(
+            gl, mine->pub.kernel, rg_device_ways(&gl->pub, mine->pub.kernel) | RG_CODE_BLENDS);
     return mine->blending;
 }
 

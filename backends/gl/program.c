@@ -11,11 +11,16 @@ struct stage {
     enum rg_code_kind code;
 };
 
-enum { MAX_STAGES = 2 };
+enum { MAX_STAGES = 3 };
 
 static const struct stage grid_stages[MAX_STAGES] = {{GL_COMPUTE_SHADER, RG_CODE_GLSL}};
 static const struct stage draw_stages[MAX_STAGES] = {
     {GL_VERTEX_SHADER, RG_CODE_VERTEX_GLSL},
+    {GL_FRAGMENT_SHADER, RG_CODE_FRAGMENT_GLSL},
+};
+static const struct stage native_stages[MAX_STAGES] = {
+    {GL_VERTEX_SHADER, RG_CODE_VERTEX_GLSL},
+    {GL_GEOMETRY_SHADER, RG_CODE_NATIVE_GEOMETRY_GLSL},
     {GL_FRAGMENT_SHADER, RG_CODE_FRAGMENT_GLSL},
 };
 
@@ -69,7 +74,9 @@ static bool link(const struct gl_device *device, const struct rg_kernel *kernel,
 
 GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel, unsigned ways)
 {
-    const struct stage *stages = kernel->draw ? draw_stages : grid_stages;
+    const struct stage *stages = !kernel->draw             ? grid_stages
+                                 : (ways & RG_CODE_NATIVE) ? native_stages
+                                                           : draw_stages;
     GLuint program = glCreateProgram();
     bool built = true;
     for (int i = 0; built && i < MAX_STAGES && stages[i].type; i++)

@@ -5,14 +5,17 @@ static bool is_image(enum rg_slot_kind kind)
     return kind == RG_SLOT_IMAGE || kind == RG_SLOT_OUT_IMAGE;
 }
 
-static void bind_image(struct gl_bound *bound, const struct rg_slot_info *slot,
-                       const struct rg_image *image)
+static bool bind_image(struct gl_bound *bound, bool native, const struct rg_slot_info *slot,
+                       struct rg_image *image)
 {
-    const GLuint id = ((const struct gl_image *)image)->id;
+    const bool samples = native && slot->sampler != RG_TEXELS;
+    const GLuint id =
+        samples ? gl_image_view(image, slot->sampler) : ((const struct gl_image *)image)->id;
     if (slot->kind == RG_SLOT_IMAGE)
         gl_bind_texture(bound, slot->slot, id);
     else
         gl_bind_image(bound, slot->slot, id, gl_format(slot->format).internal);
+    return id != 0;
 }
 
 void gl_slot_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf)
@@ -31,12 +34,15 @@ bool gl_slot_words(struct gl_bound *bound, int slot, struct rg_buf *buf)
 bool gl_slots_bind(struct gl_bound *bound, const struct gl_pass *pass, const struct rg_run *run)
 {
     const struct rg_kernel *kernel = pass->pub.kernel;
+    const bool native = rg_device_ways(pass->pub.device, kernel) & RG_CODE_NATIVE;
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &kernel->slots[i];
         const struct rg_binding *binding = &run->slots[slot->slot];
+        if (is_image(slot->kind) && !bind_image(bound, native, slot, binding->image))
+            return false;
         if (is_image(slot->kind))
-            bind_image(bound, slot, binding->image);
-        else if (!(pass->word_slots >> slot->slot & 1))
+            continue;
+        if (!(pass->word_slots >> slot->slot & 1))
             gl_slot_buffer(bound, slot->slot, binding->buf);
         else if (!gl_slot_words(bound, slot->slot, binding->buf))
             return false;

@@ -86,6 +86,7 @@ static bool create_logical(struct vk_device *device)
     const VkPhysicalDeviceFeatures wanted = {
         .fragmentStoresAndAtomics = able.fragmentStoresAndAtomics,
         .occlusionQueryPrecise = able.occlusionQueryPrecise,
+        .geometryShader = able.geometryShader, // of native devices
     };
     static const char *const extensions[] = {
         VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME};
@@ -114,24 +115,13 @@ static bool create_logical(struct vk_device *device)
 
 static bool create_shared_objects(struct vk_device *device)
 {
-    const VkSamplerCreateInfo sampler = {
-        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-        .magFilter = VK_FILTER_NEAREST,
-        .minFilter = VK_FILTER_NEAREST,
-        .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST,
-        .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .maxLod = VK_LOD_CLAMP_NONE,
-    };
     const VkQueryPoolCreateInfo queries = {
         .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
         .queryType = VK_QUERY_TYPE_TIMESTAMP,
         .queryCount = 1,
     };
     const char *name = device->pub.info.name;
-    return vk_try("device", name, vkCreateSampler, device->handle, &sampler, NULL,
-                  &device->sampler) &&
+    return vk_samplers_create(device) &&
            (!device->ticks_mask || vk_try("device", name, vkCreateQueryPool, device->handle,
                                           &queries, NULL, &device->timestamp)) &&
            vk_batches_create(device);
@@ -148,7 +138,7 @@ static bool vk_destroy(struct rg_device *device)
         vk_draw_close(vk);
         vk_batches_destroy(vk);
         vkDestroyQueryPool(vk->handle, vk->timestamp, NULL);
-        vkDestroySampler(vk->handle, vk->sampler, NULL);
+        vk_samplers_destroy(vk);
         vkDestroyDevice(vk->handle, NULL);
     }
     vk_instance_close(&vk->instance);

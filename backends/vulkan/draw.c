@@ -33,10 +33,11 @@ bool vk_draw_fill(struct vk_device *device, const struct rg_run *run,
     const bool behind = rg_draw_counts(draw) && draw->depth_mode != RG_DEPTH_OFF;
     VkImageView depth = behind ? vk_place(device, draw->depth, draw->layer, draw->level)
                                : ((struct vk_image *)device->no_depth)->sampled;
-    vk_slot_buffer(&descriptors[RG_SLOT_PRIMS], run->packed->prims);
+    vk_slot_buffer(&descriptors[RG_SLOT_PRIMS],
+                   run->packed ? run->packed->prims : device->no_samples);
     vk_slot_buffer(&descriptors[RG_SLOT_SAMPLES],
                    rg_draw_counts(draw) ? draw->samples : device->no_samples);
-    vk_slot_image(&descriptors[RG_SLOT_BEHIND], device, depth);
+    vk_slot_image(&descriptors[RG_SLOT_BEHIND], device, RG_TEXELS, depth);
     return depth != VK_NULL_HANDLE;
 }
 
@@ -59,17 +60,19 @@ bool vk_can_blend(const struct rg_device *device, const char **word)
 
 // --- running ---
 
-// Sets the viewport that shaders/draw.vert assumes, and the scissor.
-static void set_area(const struct vk_batch *batch, const struct rg_draw *draw, int width,
-                     int height)
+// Sets the viewport, which shaders/draw.vert assumes for packed primitives, and the scissor.
+static void set_area(const struct vk_batch *batch, const struct rg_run *run, int width, int height)
 {
-    const VkViewport viewport = {
-        .x = (float)-((RG_VIEWPORT_PX - width) / 2),
-        .y = (float)-((RG_VIEWPORT_PX - height) / 2),
-        .width = RG_VIEWPORT_PX,
-        .height = RG_VIEWPORT_PX,
-        .maxDepth = 1.0f,
-    };
+    const struct rg_draw *draw = run->draw;
+    VkViewport viewport = {.width = (float)width, .height = (float)height, .maxDepth = 1.0f};
+    if (run->packed)
+        viewport = (VkViewport){
+            .x = (float)-((RG_VIEWPORT_PX - width) / 2),
+            .y = (float)-((RG_VIEWPORT_PX - height) / 2),
+            .width = RG_VIEWPORT_PX,
+            .height = RG_VIEWPORT_PX,
+            .maxDepth = 1.0f,
+        };
     const bool whole = !draw->x1;
     const VkRect2D scissor = {
         {draw->x0, draw->y0},
@@ -78,6 +81,17 @@ static void set_area(const struct vk_batch *batch, const struct rg_draw *draw, i
     };
     vkCmdSetViewport(batch->commands, 0, 1, &viewport);
     vkCmdSetScissor(batch->commands, 0, 1, &scissor);
+}
+
+// shaders/native.vert takes a vertex for each item.
+static void draw_once(VkCommandBuffer commands, const struct rg_run *run)
+{
+    const rg_draw_state *state = run->params; // an rg_draw_call begins with it
+    if (run->packed)
+        vkCmdDrawIndirect(commands, ((struct vk_buf *)run->packed->args)->block.buffer, 0, 1, 0);
+    else
+        vkCmdDraw(commands, (uint32_t)(state->item_end - state->item_begin), 1,
+                  (uint32_t)state->item_begin, 0);
 }
 
 bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_pass *pass,
@@ -101,19 +115,19 @@ bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_p
         (target.blends && !vk_slot_before(device, batch, pass, draw, &sets[1])))
         return false;
     VkCommandBuffer commands = batch->commands;
-    vk_barrier_before_draw(batch);
+    vk_barrier_before_draw(device, batch);
     vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass->layout, 0,
                             target.blends ? 2 : 1, sets, 1, &params_offset);
-    set_area(batch, draw, width, height);
+    set_area(batch, run, width, height);
     if (queries)
         vk_draw_queries(device, batch, run->packed);
     else
-        vkCmdDrawIndirect(commands, ((struct vk_buf *)run->packed->args)->block.buffer, 0, 1, 0);
+        draw_once(commands, run);
     vkCmdEndRenderPass(commands);
     if (queries)
         vk_answer_queries(device, batch, run);
-    vk_barrier_after_draw(batch);
+    vk_barrier_after_draw(device, batch);
     return true;
 }

@@ -4,11 +4,19 @@
 
 #include "core/base/alloc.h"
 
+// Whether a native device may sample an image as a cube.
+static bool is_cube(const struct vk_device *device, const struct rg_image_desc *desc)
+{
+    return device->pub.native && desc->layers == 6 && desc->width == desc->height &&
+           desc->format != RG_D32F;
+}
+
 static VkImageCreateInfo image_info(const struct vk_device *device,
                                     const struct rg_image_desc *desc)
 {
     return (VkImageCreateInfo){
         .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+        .flags = is_cube(device, desc) ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
         .imageType = VK_IMAGE_TYPE_2D,
         .format = vk_format(desc->format),
         .extent = {(uint32_t)desc->width, (uint32_t)desc->height, 1},
@@ -25,13 +33,16 @@ static VkImageCreateInfo image_info(const struct vk_device *device,
 }
 
 static bool create_view(struct vk_device *device, const struct vk_image *image,
-                        const VkImageCreateInfo *info, uint32_t levels, VkImageAspectFlags aspect,
+                        const VkImageCreateInfo *info, VkImageViewType type, uint32_t levels,
                         const char *name, VkImageView *view)
 {
+    const VkImageAspectFlags aspect = info->format == VK_FORMAT_D32_SFLOAT
+                                          ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                          : VK_IMAGE_ASPECT_COLOR_BIT;
     const VkImageViewCreateInfo view_info = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
         .image = image->handle,
-        .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY,
+        .viewType = type,
         .format = info->format,
         .subresourceRange = {aspect, 0, levels, 0, info->arrayLayers},
     };
@@ -78,16 +89,20 @@ static bool create(struct vk_device *device, struct vk_image *image,
         return false;
     vk_name(device, VK_OBJECT_TYPE_IMAGE, VK_HANDLE(image->handle), name);
     const VkImageAspectFlags aspect = vk_aspect(desc->format);
+    const VkImageViewType array = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
     bool storage = info.usage & VK_IMAGE_USAGE_STORAGE_BIT;
     return create_memory(device, image, name) &&
-           create_view(device, image, &info, info.mipLevels, aspect, name, &image->sampled) &&
-           (!storage || create_view(device, image, &info, 1, aspect, name, &image->stored)) &&
+           create_view(device, image, &info, array, info.mipLevels, name, &image->sampled) &&
+           (!storage || create_view(device, image, &info, array, 1, name, &image->stored)) &&
+           (!info.flags || create_view(device, image, &info, VK_IMAGE_VIEW_TYPE_CUBE,
+                                       info.mipLevels, name, &image->cube)) &&
            make_general(device, image, aspect);
 }
 
 static void destroy(struct vk_device *device, struct vk_image *image)
 {
     vk_target_forget(device, image);
+    vkDestroyImageView(device->handle, image->cube, NULL);
     vkDestroyImageView(device->handle, image->stored, NULL);
     vkDestroyImageView(device->handle, image->sampled, NULL);
     vkDestroyImage(device->handle, image->handle, NULL);

@@ -11,7 +11,7 @@ static bool create_module(struct vk_device *device, const struct rg_kernel *kern
                           enum rg_code_kind kind, unsigned ways, VkShaderModule *module)
 {
     struct rg_kernel_code code;
-    if (!rg_kernel_code(kernel, kind, rg_device_ways(&device->pub) | ways, &code))
+    if (!rg_kernel_code(kernel, kind, rg_device_ways(&device->pub, kernel) | ways, &code))
         return false;
     const uint32_t spirv_magic = 0x07230203, header_bytes = 20;
     bool ok = code.size >= header_bytes && code.size % 4 == 0 &&
@@ -57,6 +57,8 @@ static bool create_drawing(struct vk_device *device, const struct rg_kernel *ker
 {
     struct vk_drawing *drawing = pass->drawing = rg_alloc(1, sizeof(*drawing), kernel->name);
     return drawing && create_module(device, kernel, RG_CODE_VERTEX_SPIRV, 0, &drawing->vertex) &&
+           (!device->pub.native ||
+            create_module(device, kernel, RG_CODE_NATIVE_GEOMETRY_SPIRV, 0, &drawing->geometry)) &&
            create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV, 0, &drawing->fragment) &&
            (!device->pub.blends || create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV,
                                                  RG_CODE_BLENDS, &drawing->blending));
@@ -78,9 +80,10 @@ static void destroy_drawing(struct vk_device *device, struct vk_drawing *drawing
 {
     const int count = sizeof(drawing->pipelines) / sizeof(VkPipeline);
     for (int i = 0; i < count; i++)
-        vkDestroyPipeline(device->handle, (&drawing->pipelines[0][0][0])[i], NULL);
+        vkDestroyPipeline(device->handle, (&drawing->pipelines[0][0][0][0])[i], NULL);
     vkDestroyShaderModule(device->handle, drawing->fragment, NULL);
     vkDestroyShaderModule(device->handle, drawing->blending, NULL);
+    vkDestroyShaderModule(device->handle, drawing->geometry, NULL);
     vkDestroyShaderModule(device->handle, drawing->vertex, NULL);
     free(drawing);
 }

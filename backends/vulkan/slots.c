@@ -13,17 +13,20 @@ static VkDescriptorType descriptor_type(enum rg_slot_kind kind)
 }
 
 // The shader stages that read the uniform block, and those that read a slot: only fragments read a
-// program's own slots.
-static VkShaderStageFlags block_stages(const struct rg_kernel *kernel)
+// program's own slots, but native devices have all stages read them.
+static VkShaderStageFlags block_stages(const struct vk_device *device,
+                                       const struct rg_kernel *kernel)
 {
-    return kernel->draw ? VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT
+    const VkShaderStageFlags native = device->pub.native ? VK_SHADER_STAGE_GEOMETRY_BIT : 0;
+    return kernel->draw ? VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | native
                         : VK_SHADER_STAGE_COMPUTE_BIT;
 }
 
-static VkShaderStageFlags slot_stages(const struct rg_kernel *kernel, int slot)
+static VkShaderStageFlags slot_stages(const struct vk_device *device,
+                                      const struct rg_kernel *kernel, int slot)
 {
-    return kernel->draw && slot != RG_SLOT_PRIMS ? VK_SHADER_STAGE_FRAGMENT_BIT
-                                                 : block_stages(kernel);
+    const bool is_own = device->pub.native ? slot < RG_SLOT_PRIMS : slot == RG_SLOT_PRIMS;
+    return kernel->draw && !is_own ? VK_SHADER_STAGE_FRAGMENT_BIT : block_stages(device, kernel);
 }
 
 // The layout of the set with a target's colour, for fragments that blend by themselves.
@@ -45,13 +48,13 @@ static bool create_set_layout(struct vk_device *device, const struct rg_kernel *
                               struct vk_pass *pass)
 {
     VkDescriptorSetLayoutBinding bindings[RG_MAX_SLOTS] = {
-        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, block_stages(kernel), NULL}};
+        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, block_stages(device, kernel), NULL}};
     for (int i = 0; i < pass->slot_count; i++)
         bindings[i + 1] = (VkDescriptorSetLayoutBinding){
             .binding = (uint32_t)pass->slots[i].slot,
             .descriptorType = descriptor_type(pass->slots[i].kind),
             .descriptorCount = 1,
-            .stageFlags = slot_stages(kernel, pass->slots[i].slot),
+            .stageFlags = slot_stages(device, kernel, pass->slots[i].slot),
         };
     const VkDescriptorSetLayoutCreateInfo set = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
@@ -144,26 +147,36 @@ void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf)
 }
 
 void vk_slot_image(union vk_descriptor *descriptor, const struct vk_device *device,
-                   VkImageView view)
+                   enum rg_sampler sampling, VkImageView view)
 {
-    descriptor->image.sampler = device->sampler;
+    descriptor->image.sampler = device->samplers[sampling];
     descriptor->image.imageView = view;
     descriptor->image.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+}
+
+static void fill_image(union vk_descriptor *descriptor, const struct vk_device *device, bool native,
+                       const struct rg_slot_info *slot, const struct vk_image *image)
+{
+    const enum rg_sampler sampling = native ? slot->sampler : RG_TEXELS;
+    vk_slot_image(descriptor, device, sampling,
+                  slot->kind != RG_SLOT_IMAGE   ? image->stored
+                  : sampling == RG_SAMPLED_CUBE ? image->cube
+                                                : image->sampled);
 }
 
 void vk_slots_fill(const struct vk_device *device, const struct rg_kernel *kernel,
                    const struct rg_run *run, union vk_descriptor descriptors[RG_MAX_SLOTS])
 {
+    const bool native = rg_device_ways(&device->pub, kernel) & RG_CODE_NATIVE;
     memset(descriptors, 0, RG_MAX_SLOTS * sizeof(*descriptors));
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_binding *bound = &run->slots[kernel->slots[i].slot];
-        const struct vk_image *image = (const struct vk_image *)bound->image;
         union vk_descriptor *descriptor = &descriptors[kernel->slots[i].slot];
         if (bound->buf)
             vk_slot_buffer(descriptor, bound->buf);
         else
-            vk_slot_image(descriptor, device,
-                          kernel->slots[i].kind == RG_SLOT_IMAGE ? image->sampled : image->stored);
+            fill_image(descriptor, device, native, &kernel->slots[i],
+                       (struct vk_image *)bound->image);
     }
 }
 

@@ -82,7 +82,7 @@ struct vk_device {
     VkDevice handle;
     VkQueue queue;
     struct vk_family family;
-    VkSampler sampler;
+    VkSampler samplers[RG_SAMPLERS];
     VkQueryPool timestamp;
     VkQueryPool occlusion; // RG_MAX_QUERIES; made by the first draw with queries
     uint64_t ticks_mask;   // the valid bits of a timestamp; 0: no timestamps
@@ -110,6 +110,7 @@ struct vk_image {
     struct vk_memory memory;
     VkImageView sampled; // every level
     VkImageView stored;  // level 0; none for a format without storage
+    VkImageView cube;    // every level of six layers, on native devices; else none
     VkImageView *places; // of one layer of one level each, made on first use; NULL: none yet
 };
 
@@ -122,8 +123,9 @@ union vk_descriptor {
 // made on first use.
 struct vk_drawing {
     VkShaderModule vertex, fragment;
+    VkShaderModule geometry; // on native devices
     VkShaderModule blending; // fragments that blend by themselves; none if the driver does
-    VkPipeline pipelines[VK_COLOURS][RG_BLEND_ADD + 1][RG_DEPTH_WRITE + 1];
+    VkPipeline pipelines[VK_COLOURS][RG_BLEND_ADD + 1][RG_DEPTH_WRITE + 1][RG_CULL_FRONT + 1];
 };
 
 struct vk_pass {
@@ -194,6 +196,10 @@ void vk_block_destroy(struct vk_device *device, struct vk_block *block);
 // Whether VK_USE_DEVICE memory is mapped and fast for the host to read.
 bool vk_memory_is_direct(const VkPhysicalDeviceMemoryProperties *memory);
 
+// api/sampler.c
+bool vk_samplers_create(struct vk_device *device);
+void vk_samplers_destroy(struct vk_device *device);
+
 // api/batch.c
 bool vk_batches_create(struct vk_device *device);
 void vk_batches_destroy(struct vk_device *device);
@@ -211,8 +217,8 @@ bool vk_is_idle(const struct vk_device *device);
 // Makes earlier writes visible to later commands other than draws.
 void vk_barrier(const struct vk_batch *batch);
 // The same for a draw: earlier writes to the draw, and the draw's writes to later commands.
-void vk_barrier_before_draw(const struct vk_batch *batch);
-void vk_barrier_after_draw(const struct vk_batch *batch);
+void vk_barrier_before_draw(const struct vk_device *device, const struct vk_batch *batch);
+void vk_barrier_after_draw(const struct vk_device *device, const struct vk_batch *batch);
 
 // buf.c
 struct rg_buf *vk_buf_create(struct rg_device *device, size_t size, const char *name);
@@ -248,7 +254,7 @@ void vk_slots_fill(const struct vk_device *device, const struct rg_kernel *kerne
                    const struct rg_run *run, union vk_descriptor descriptors[RG_MAX_SLOTS]);
 void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf);
 void vk_slot_image(union vk_descriptor *descriptor, const struct vk_device *device,
-                   VkImageView view);
+                   enum rg_sampler sampling, VkImageView view);
 // Makes a set with the target's colour, for a draw that blends by itself.
 bool vk_slot_before(struct vk_device *device, const struct vk_batch *batch,
                     const struct vk_pass *pass, const struct rg_draw *draw, VkDescriptorSet *set);

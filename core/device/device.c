@@ -110,32 +110,76 @@ static void find_libraries(struct rg_device *device)
         all[found] = (struct rg_library){.path = ""};
 }
 
-struct rg_device *rg_device_open(const char *name)
+// The length of a name without ":native" at its end.
+static size_t length_without_native(const char *name)
 {
-    const char *colon = strchr(name, ':');
-    const struct rg_backend *backend = rg_backend_of(name);
-    require_or_null(backend, "device '%s': unknown; `raingauge list devices` prints the names",
-                    name);
-    struct rg_device_info infos[RG_MAX_DEVICES];
+    static const char native[] = ":native";
+    const size_t length = strlen(name), last = sizeof(native) - 1;
+    return length > last && !strcmp(name + length - last, native) ? length - last : length;
+}
+
+// The index of a named device in its backend's list; -1, and one logged line, on failure. `plain`
+// is the name without ":native".
+static int find(const struct rg_backend *backend, const char *name, const char *plain,
+                struct rg_device_info infos[RG_MAX_DEVICES])
+{
+    const char *colon = strchr(plain, ':');
     char why[RG_LIST_WHY_SIZE];
-    int count = list(backend, infos, RG_MAX_DEVICES, why);
+    const int count = list(backend, infos, RG_MAX_DEVICES, why);
     if (count < 0) {
         (count == RG_LIST_BROKEN ? rg_setup_error : rg_driver_error)("device '%s': %s", name, why);
-        return NULL;
+        return -1;
     }
-    if (count == 0)
-        return rg_unsupported_null("device '%s': %s", name, why);
-    int index = choose(infos, count, name, colon ? colon + 1 : NULL);
-    require_or_null(index >= 0,
-                    "device '%s': %s has no such device; `raingauge list devices` prints the names",
-                    name, backend->name);
-    rg_doing_begin("opening device", name);
-    struct rg_work *work = rg_alloc(1, sizeof(*work), name);
-    struct rg_device *device = work ? backend->create(index) : NULL;
+    if (count == 0) {
+        rg_unsupported("device '%s': %s", name, why);
+        return -1;
+    }
+    const int index = choose(infos, count, plain, colon ? colon + 1 : NULL);
+    if (index < 0)
+        rg_error("device '%s': %s has no such device; `raingauge list devices` prints the names",
+                 name, backend->name);
+    return index;
+}
+
+static struct rg_device *create(const struct rg_backend *backend, int index, bool native)
+{
+    struct rg_device *device = backend->create(index);
     if (device && !rg_limits_are_sound(&device->info)) {
         backend->destroy(device);
         device = NULL;
     }
+    if (device)
+        device->native = native;
+    return device;
+}
+
+// Rounds and blends as the driver does; no program counts by the API's queries yet.
+static void tell_native(struct rg_device_info *info)
+{
+    const size_t length = strlen(info->name);
+    snprintf(info->name + length, sizeof(info->name) - length, ":native");
+    info->tier = RG_T2;
+    info->limits.has_queries = false;
+}
+
+struct rg_device *rg_device_open(const char *name)
+{
+    const struct rg_backend *backend = rg_backend_of(name);
+    require_or_null(backend, "device '%s': unknown; `raingauge list devices` prints the names",
+                    name);
+    char plain[RG_DEVICE_NAME_SIZE];
+    const size_t length = length_without_native(name);
+    const bool native = name[length];
+    snprintf(plain, sizeof(plain), "%.*s", (int)length, name);
+    struct rg_device_info infos[RG_MAX_DEVICES];
+    const int index = find(backend, name, plain, infos);
+    if (index < 0)
+        return NULL;
+    if (native && !rg_limits_allow_native(name, &infos[index]))
+        return NULL;
+    rg_doing_begin("opening device", name);
+    struct rg_work *work = rg_alloc(1, sizeof(*work), name);
+    struct rg_device *device = work ? create(backend, index, native) : NULL;
     if (!device) {
         free(work);
         return NULL;
@@ -143,11 +187,14 @@ struct rg_device *rg_device_open(const char *name)
     device->backend = backend;
     device->work = work;
     find_libraries(device);
+    if (!rg_rounding_settle(device) || (!native && !rg_blending_settle(device))) {
+        rg_device_close(device);
+        return NULL;
+    }
+    if (native)
+        tell_native(&device->info);
     memcpy(device->info.full, device->info.name, RG_DEVICE_NAME_SIZE);
-    if (rg_rounding_settle(device) && rg_blending_settle(device))
-        return device;
-    rg_device_close(device);
-    return NULL;
+    return device;
 }
 
 bool rg_device_close(struct rg_device *device)

@@ -35,7 +35,8 @@ void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *ba
 const struct rg_backend *rg_backend_of(const char *name);
 
 // Opens a device by name: "cpu", "cpu:reference", "gl", "gl:1", "vulkan:NVIDIA" (an index, or a
-// part of the device's name, case ignored). NULL, and one logged line, on failure: an input error
+// part of the device's name, case ignored). With ":native" at its end the device draws through the
+// driver's own pipeline (docs/native.md). NULL, and one logged line, on failure: an input error
 // for an unknown name, unsupported where the driver is absent, a driver error where it fails.
 struct rg_device *rg_device_open(const char *name);
 // Waits, logs an error for objects that still live on the device, and closes it. Returns false on a

@@ -133,6 +133,15 @@ bool rg_limits_allow_time(const struct rg_device_info *info)
            rg_unsupported("device '%s': its driver has no clock; use wall clock", info->name);
 }
 
+bool rg_limits_allow_native(const char *name, const struct rg_device_info *info)
+{
+    if (!info->limits.has_fixed)
+        return rg_unsupported("device '%s': has no native way, for %s draws by its own programs",
+                              name, info->name);
+    return !*info->limits.no_native ||
+           rg_unsupported("device '%s': %s", name, info->limits.no_native);
+}
+
 bool rg_limits_allow_fixed(const struct rg_device_info *info)
 {
     return info->limits.has_fixed ||

@@ -20,6 +20,8 @@ bool rg_limits_allow_kernel(const struct rg_device_info *info, const struct rg_k
 bool rg_limits_allow_draw(const struct rg_device_info *info, const struct rg_kernel *kernel,
                           const struct rg_draw *draw);
 bool rg_limits_allow_time(const struct rg_device_info *info);
+// Whether a listed device can be opened as the native device `name`.
+bool rg_limits_allow_native(const char *name, const struct rg_device_info *info);
 bool rg_limits_allow_fixed(const struct rg_device_info *info);
 
 #endif

@@ -9,7 +9,7 @@
 struct rg_pass *rg_pass_create(struct rg_device *device, const char *kernel)
 {
     struct rg_pass *pass = rg_grid_create(device, kernel);
-    if (!pass || !pass->kernel->draw || !device->backend->packed || rg_packer_create(pass))
+    if (!pass || !pass->kernel->draw || !rg_device_packs(device) || rg_packer_create(pass))
         return pass;
     rg_pass_destroy(pass);
     return NULL;

@@ -193,6 +193,24 @@ static void print_key(const json_t *passport, const struct rg_device_info *info)
     json_decref(device);
 }
 
+// Names the stages that a native device leaves to its driver: all programs, and what samples.
+static void print_native(void)
+{
+    const struct rg_kernel *const *all;
+    const int count = rg_kernel_all(&all);
+    int programs = 0, used = 0;
+    char samples[1024] = "", text[1200];
+    for (int i = 0; i < count; i++) {
+        programs += all[i]->draw != NULL;
+        if (rg_kernel_samples(all[i]))
+            used += snprintf(samples + used, sizeof(samples) - (size_t)used, "%s%s",
+                             used ? ", " : "", all[i]->name);
+    }
+    snprintf(text, sizeof(text), "draws the items of %d programs by its driver; samples in %s",
+             programs, samples);
+    print_field("native", text);
+}
+
 static void print_device(const struct rg_examination *e, const json_t *passport)
 {
     char text[700];
@@ -202,6 +220,8 @@ static void print_device(const struct rg_examination *e, const json_t *passport)
         print_field("api", text);
         print_field("device", e->info.device);
         print_field("driver", e->info.driver);
+        if (e->info.tier == RG_T2)
+            print_native();
         print_limits(&e->info.limits);
         print_key(passport, &e->info);
     }

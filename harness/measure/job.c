@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "core/device/device.h"
-#include "core/image/compare/compare.h"
 #include "harness/console/clock.h"
+#include "harness/devices/frames/frame.h"
 
 enum { MAX_WARM_UP_FRAMES = 20 };
 
@@ -94,8 +94,8 @@ static bool holds(struct rg_job *job, const struct rg_expected *expected, const 
     const struct rg_picture *dry = expected->dry.texels ? &expected->dry : NULL;
     const bool ok =
         rg_session_picture(job->session, texels, &picture) &&
-        rg_compare(&expected->picture, expected->device.name, &picture, job->device->info.name, dry,
-                   &(struct rg_compare_options){0}, &comparison);
+        rg_frame_compare(job->device, &job->subject, job->check_frames, &expected->device,
+                         &expected->picture, dry, &picture, &comparison);
     const struct rg_verdict *verdict = &comparison.tiers.of[tier];
     if (!ok)
         rg_record_end_by_error(job->record);

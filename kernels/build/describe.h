@@ -9,8 +9,10 @@
 #define OUT(slot, T, name)       RG_BUFFER(slot, T, name, RG_SLOT_OUT)
 #define INOUT(slot, T, name)     RG_BUFFER(slot, T, name, RG_SLOT_INOUT)
 #define ATOMIC(slot, T, name)    RG_BUFFER(slot, T, name, RG_SLOT_ATOMIC)
-#define IMAGE(slot, F, name)     {#name, slot, RG_SLOT_IMAGE, 0, RG_##F, NULL},
-#define OUT_IMAGE(slot, F, name) {#name, slot, RG_SLOT_OUT_IMAGE, 0, RG_##F, NULL},
+#define IMAGE(slot, F, name)     {#name, slot, RG_SLOT_IMAGE, 0, RG_##F, NULL, RG_TEXELS},
+#define OUT_IMAGE(slot, F, name) {#name, slot, RG_SLOT_OUT_IMAGE, 0, RG_##F, NULL, RG_TEXELS},
+#undef SAMPLED
+#define SAMPLED(slot, F, name, how) {#name, slot, RG_SLOT_IMAGE, 0, RG_##F, NULL, RG_SAMPLED_##how},
 
 // The kinds of a type's words (enum rg_word), after a comma; a type without a row here has NULL.
 // tests/structure/words.py compares them with the structs.
@@ -26,7 +28,7 @@
 #define RG_SECOND_(a, b, ...)     b
 #define RG_SECOND(...)            RG_SECOND_(__VA_ARGS__)
 #define RG_BUFFER(slot, T, name, kind)                                                             \
-    {#name, slot, kind, sizeof(T), RG_FORMAT_NONE, RG_SECOND(RG_WORDS_##T, NULL, )},
+    {#name, slot, kind, sizeof(T), RG_FORMAT_NONE, RG_SECOND(RG_WORDS_##T, NULL, ), RG_TEXELS},
 
 static const struct rg_slot_info slots[] = {RG_ALL_SLOTS};
 

@@ -13,7 +13,8 @@ import sys
 import zlib
 
 KINDS = ["glsl", "spv", "cl", "vert", "vert.spv", "frag", "frag.spv", "rounded.spv", "vert.rounded.spv", "frag.rounded.spv",
-         "frag.blended.spv", "frag.rounded_blended.spv"]
+         "frag.blended.spv", "frag.rounded_blended.spv", "native.glsl", "native.spv", "native.vert", "native.vert.spv", "native.geom",
+         "native.geom.spv", "native.frag", "native.frag.spv"]
 
 
 def pack(path):

@@ -9,7 +9,8 @@ and root a name, behind which a program that defines RG_ROUNDED finds kernels/di
 another the driver's own, and makes every float `precise`, which forbids a driver to contract or
 reorder: the two things that the dialect cannot say in C and OpenCL C alike. A text whose files are
 older than OUTPUT.d, which lists them, is not made; one that has not changed is not written again, so
-that the build does not make anew what depends on it. One process makes all texts, with a helper for
+that the build does not make anew what depends on it. Texts NAME.native.* are those of native devices
+(RG_NATIVE in kernels/dialect/lang.h); one of a GRID kernel without samplers is empty. One process makes all texts, with a helper for
 each processor. A kernel with a name that another language reserves is refused.
 """
 import multiprocessing
@@ -81,11 +82,12 @@ def needs_of(depfile):
         return file.read().replace("\\\n", " ").split(":", 1)[1].split()
 
 
-def preprocess(language, header, shell, depfile, compiler):
+def preprocess(language, is_native, header, shell, depfile, compiler):
     """The text behind the preprocessor, which also writes the files that it was made of."""
     command = compiler + [
         "-E", "-P", "-undef", "-nostdinc", "-x", "c", "-MD", "-MF", depfile,
         f"-DRG_{language}=1",
+        f"-DRG_NATIVE={int(is_native)}",
         f'-DRG_KERNEL_HEADER="{header}"',
         shell,
     ]
@@ -239,6 +241,29 @@ def add_struct_readers(text):
     return re.sub(r"\bRG_STRUCTS\(\s*\d+\s*,\s*(\w+)", with_reader, text)
 
 
+def add_varyings(text):
+    """Puts a record's words into flat varyings of four: GLSL lets no fragment read structs of structs."""
+    structs = dict(re.findall(r"\bstruct\s+(\w+)\s*\{([^}]*)\}", text))
+    to = {"float": "floatBitsToUint(%s)", "int": "uint(%s)", "uint": "%s"}
+    back = {"float": "uintBitsToFloat(%s)", "int": "int(%s)", "uint": "%s"}
+
+    def words(name):
+        return [(path, kind, f"rg_words[{i // 4}].{'xyzw'[i % 4]}") for i, (path, kind) in enumerate(words_of(name, structs))]
+
+    def varying(name, way):
+        return f"layout(location = 2) flat {way} uvec4 rg_words[{(len(words(name)) + 3) // 4}];\n"
+
+    def sends(match):
+        puts = "".join(f"    {at} = {to[kind] % ('v.' + path)};\n" for path, kind, at in words(match.group(1)))
+        return varying(match.group(1), "out") + f"void rg_send({match.group(1)} v)\n{{\n{puts}}}\n"
+
+    def receives(match):
+        gets = "".join(f"    v.{path} = {back[kind] % at};\n" for path, kind, at in words(match.group(1)))
+        return varying(match.group(1), "in") + f"{match.group(1)} rg_received()\n{{\n    {match.group(1)} v;\n{gets}    return v;\n}}\n"
+
+    return re.sub(r"\bRG_RECEIVES\((\w+)\)", receives, re.sub(r"\bRG_SENDS\((\w+)\)", sends, text))
+
+
 def write_if_changed(path, text):
     try:
         with open(path, encoding="utf-8") as file:
@@ -257,14 +282,19 @@ def flatten(job):
     if is_made(output, depfile):
         return needs_of(depfile), None
     started_ns = time.time_ns()
-    text = preprocess(language, header, shell, depfile + ".new", compiler)
+    is_native = ".native." in os.path.basename(output)
+    text = preprocess(language, is_native, header, shell, depfile + ".new", compiler)
     needs = needs_of(depfile + ".new")
     refusal = reserved.refusal(language, text)
     if refusal:
         return needs, f"{header}: {refusal}"
     if language == "GLSL":
         try:
-            text = VERSION + (FRAGMENT if shell.endswith(".frag") else "") + add_struct_readers(make_precise(quotients.rewrite(text)))
+            samples = re.search(r"\btexture(Lod|Grad)\(", text)
+            text = add_varyings(add_struct_readers(make_precise(quotients.rewrite(text))))
+            text = VERSION + (FRAGMENT if shell.endswith(".frag") and not is_native else "") + text
+            if is_native and shell.endswith("grid.glsl") and not samples:
+                text = ""
         except quotients.Refused as refused:
             return needs, f"{header}: {refused}"
     write_if_changed(output, text)

@@ -18,6 +18,11 @@
 #ifndef RG_OPENCL
 #define RG_OPENCL 0
 #endif
+// 1 in the GLSL of native devices, which leave filters, corners and depth to the driver
+// (docs/native.md).
+#ifndef RG_NATIVE
+#define RG_NATIVE 0
+#endif
 
 // RG_STRUCT(name) { int a; float b; }; is a struct of 4-byte scalars that crosses the host
 // boundary; RG_STRUCT_SIZE(name, words) checks its size. RG_FN starts every function that returns a

@@ -9,9 +9,10 @@
     IN(1, float, positions)                                                                        \
     IN(2, uint, normals)                                                                           \
     IN(3, uint, indices)                                                                           \
-    IMAGE(4, RG11B10F, environment) IN(5, float, blurred)
+    SAMPLED(4, RG11B10F, environment, CUBE) IN(5, float, blurred)
 #define RG_CORNERS 3
 #define RG_RECORD  mesh_record
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/image/cube_light.h"

@@ -2,7 +2,8 @@
 #include "kernels/flow/panes/view_params.h"
 
 #define RG_PARAMS flow_view_params
-#define RG_SLOTS  IMAGE(1, RG11B10F, environment)
+#define RG_SLOTS  SAMPLED(1, RG11B10F, environment, CUBE)
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/view_quad.h"
 
 #include "kernels/dialect/image/cube_light.h"

@@ -6,6 +6,7 @@
 #define RG_SLOTS   IN(1, float, positions) IN(2, uint, normals) IN(3, uint, indices)
 #define RG_CORNERS 3
 #define RG_RECORD  mesh_record
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/mesh/item.h"

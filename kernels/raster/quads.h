@@ -12,6 +12,7 @@ RG_STRUCT(raster_quad)
     float depth;
 };
 #define RG_RECORD raster_quad
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 RG_FN float raster_quad_word(rg_ctx rg, int i, int word)

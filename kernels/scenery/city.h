@@ -19,6 +19,7 @@ RG_STRUCT(scenery_city_record)
     uint surface;
 };
 #define RG_RECORD scenery_city_record
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 RG_FN rg_corner scenery_city_corner(rg_ctx rg, m4 to_clip, int first_word)

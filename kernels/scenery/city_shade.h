@@ -11,8 +11,8 @@
     IMAGE(1, RGBA8, numbers)                                                                       \
     IMAGE(2, D32F, depths)                                                                         \
     IN(3, uint, surfaces)                                                                          \
-    IMAGE(4, RGBA8, textures)                                                                      \
-    IN(5, scenery_light, lights) IMAGE(6, D32F, shadows) IN(7, uint, openness)
+    SAMPLED(4, RGBA8, textures, TILED)                                                             \
+    IN(5, scenery_light, lights) SAMPLED(6, D32F, shadows, SHADOW) IN(7, uint, openness)
 #define RG_LIGHTS 1
 #include "kernels/dialect/draw/view_quad.h"
 

@@ -1,6 +1,6 @@
 // Whether a light reaches a point, by its shadow maps. A program that includes this file has the
 // slot
-//   IMAGE(n, D32F, shadows)  all lights' maps: a layer for each, six for a point light
+//   SAMPLED(n, D32F, shadows, SHADOW)  all lights' maps: a layer for each, six for a point light
 // and includes this after dialect/draw/draw.h or dialect/slots/slots.h. If no light casts shadows,
 // any image of one texel will do.
 //
@@ -61,10 +61,25 @@ RG_FN int scenery_shadow_texel(float at, int size)
     return rg_to_int(rg_clamp(at, 0.0f, rg_to_float(size - 1)));
 }
 
+#if RG_NATIVE
+
+// The driver compares.
+RG_FN float scenery_shadow_tap(rg_ctx rg, scenery_shadow_place place, int x, int y)
+{
+    float over = 1.0f / rg_to_float(shadows_width(rg, 0));
+    vec4 at = vec4((rg_to_float(x) + 0.5f) * over, (rg_to_float(y) + 0.5f) * over,
+                   rg_to_float(place.layer), place.depth);
+    return textureGrad(shadows_sampler, at, vec2(0.0f), vec2(0.0f));
+}
+
+#else
+
 RG_FN float scenery_shadow_tap(rg_ctx rg, scenery_shadow_place place, int x, int y)
 {
     return place.depth <= shadows_texel(rg, x, y, place.layer, 0).r ? 1.0f : 0.0f;
 }
+
+#endif
 
 // 1 if a light reaches a point, 0 if something is before it. A light reaches every point outside
 // its map, and all points if it casts no shadows.

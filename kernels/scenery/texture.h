@@ -3,9 +3,30 @@
 // squares them alike. Alpha says how much of the light a lamp behind the surface gives at night.
 //
 // Filters in integers of 8 bits, two channels at a time: half the work of floats, and exact.
-// Programs include this file after their slots, which have IMAGE(n, RGBA8, textures).
+// Programs include this file after their slots, which have SAMPLED(n, RGBA8, textures, TILED).
 #ifndef RG_KERNELS_SCENERY_TEXTURE_H
 #define RG_KERNELS_SCENERY_TEXTURE_H
+
+// The nearest level, if `texels` is the square of a pixel's width in texels of level 0: log2 of the
+// width, rounded, from the exponent of twice its square.
+RG_FN int scenery_texture_level(float texels, int last_level)
+{
+    uint bits = rg_float_bits(rg_clamp(texels + texels, 1.0f, 1e9f)) - 0x3f800000u;
+    return rg_imin(rg_to_int(bits >> 24), last_level);
+}
+
+#if RG_NATIVE
+
+// The driver filters.
+RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
+                           int last_level)
+{
+    float level = rg_to_float(scenery_texture_level(texels, last_level));
+    vec4 t = textureLod(textures_sampler, vec3(u, v, rg_to_float(layer)), level);
+    return rg_rgba(t.x * t.x, t.y * t.y, t.z * t.z, t.w);
+}
+
+#else
 
 // Channels r and b in one word, g and a in another, each in 16 bits.
 RG_STRUCT(scenery_texel)
@@ -55,17 +76,14 @@ RG_FN scenery_texel scenery_texture_linear(rg_ctx rg, float u, float v, int size
     return scenery_texel_mix(above, below, down);
 }
 
-// `texels` is the square of a pixel's width in texels of level 0. Only the nearest level is read. A
-// mix of two would make the whole scene take half as long again, and the eye finds no edge between
-// levels in these textures.
+// Only the nearest level is read. A mix of two would make the whole scene take half as long again,
+// and the eye finds no edge between levels in these textures.
 RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
                            int last_level)
 {
     float across = u - rg_floor(u);
     float down = v - rg_floor(v);
-    // log2 of the width, rounded: from the exponent of twice its square.
-    uint bits = rg_float_bits(rg_clamp(texels + texels, 1.0f, 1e9f)) - 0x3f800000u;
-    int level = rg_imin(rg_to_int(bits >> 24), last_level);
+    int level = scenery_texture_level(texels, last_level);
     scenery_texel t =
         scenery_texture_linear(rg, across, down, rg_imax(texture_px >> level, 1), layer, level);
     float r = rg_to_float(t.rb & 0xffffu) * (1.0f / 255.0f);
@@ -73,5 +91,7 @@ RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels,
     float b = rg_to_float(t.rb >> 16) * (1.0f / 255.0f);
     return rg_rgba(r * r, g * g, b * b, rg_to_float(t.ga >> 16) * (1.0f / 255.0f));
 }
+
+#endif
 
 #endif

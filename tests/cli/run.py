@@ -34,6 +34,7 @@
            sides    a second driver in a folder runs, and keeps its code apart
            doctor   the report about this machine, and a timeline of frames
            fixed    fixed functions of drivers, and what turns parts of them off
+           native   devices that draw through the driver's own pipeline
            pages    the manual page and bash's completion
            kept     the tables that the repository keeps
            install  what meson installs
@@ -69,6 +70,7 @@ import limits
 import losses
 import misbehaving
 import named
+import native
 import pages
 import pictures
 import reports
@@ -114,6 +116,7 @@ SUITES = {
     "wrong": lambda runner: runner.check_all(wrong.CHECKS),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS + traces.CHECKS),
     "fixed": lambda runner: runner.check_all(fixed.CHECKS),
+    "native": lambda runner: runner.check_all(native.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),
     "kept": lambda runner: runner.check_all(kept.CHECKS),
     "install": lambda runner: runner.check_all(installed.CHECKS),

@@ -5,7 +5,7 @@
 #define RG_PARAMS test_scenery_lights_params
 #define RG_SLOTS                                                                                   \
     IN(1, v3, points)                                                                              \
-    IN(2, scenery_light, lights) IMAGE(3, D32F, shadows) OUT(4, test_streaks_lit, lit)
+    IN(2, scenery_light, lights) SAMPLED(3, D32F, shadows, SHADOW) OUT(4, test_streaks_lit, lit)
 #include "kernels/dialect/slots/slots.h"
 
 #include "kernels/scenery/shadow.h"

@@ -161,16 +161,21 @@ enum {
     OTHER_STAGES = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
 };
 
-void vk_barrier_before_draw(const struct vk_batch *batch)
+static VkPipelineStageFlags draw_stages(const struct vk_device *device)
 {
-    barrier(batch, DRAW_STAGES,
+    return DRAW_STAGES | (device->pub.native ? VK_PIPELINE_STAGE_GEOMETRY_SHADER_BIT : 0);
+}
+
+void vk_barrier_before_draw(const struct vk_device *device, const struct vk_batch *batch)
+{
+    barrier(batch, draw_stages(device),
             VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
                 VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT |
                 VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
                 VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT);
 }
 
-void vk_barrier_after_draw(const struct vk_batch *batch)
+void vk_barrier_after_draw(const struct vk_device *device, const struct vk_batch *batch)
 {
     const VkMemoryBarrier memory = {
         .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
@@ -179,8 +184,8 @@ void vk_barrier_after_draw(const struct vk_batch *batch)
         .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
                          VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
     };
-    vkCmdPipelineBarrier(batch->commands, DRAW_STAGES, OTHER_STAGES, 0, 1, &memory, 0, NULL, 0,
-                         NULL);
+    vkCmdPipelineBarrier(batch->commands, draw_stages(device), OTHER_STAGES, 0, 1, &memory, 0, NULL,
+                         0, NULL);
 }
 
 bool vk_submit(struct vk_device *device)

@@ -103,6 +103,14 @@ bool vk_has_extension(VkPhysicalDevice physical, const char *name)
     return is_there;
 }
 
+// Whether a geometry stage can draw items, which native devices do not pack.
+static bool draws_items(VkPhysicalDevice device)
+{
+    VkPhysicalDeviceFeatures able;
+    vkGetPhysicalDeviceFeatures(device, &able);
+    return able.geometryShader;
+}
+
 struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
                            const VkPhysicalDeviceLimits *l, uint64_t max_allocation_bytes,
                            VkResult *result)
@@ -130,6 +138,8 @@ struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *fami
         limits.formats[f] = format_limits(device, (enum rg_format)f, family->draws, result);
     limits.has_queries = family->draws && counts_exactly(device);
     limits.has_fixed = family->draws;
+    if (!draws_items(device))
+        snprintf(limits.no_native, sizeof(limits.no_native), "its driver lacks geometryShader");
     say_no_draws(device, l, family->draws, limits.no_draws, sizeof(limits.no_draws));
     return limits;
 }

@@ -6,6 +6,7 @@ struct draw_state {
     struct vk_target target;
     enum rg_blend blend;
     enum rg_depth_mode depth_mode;
+    enum rg_cull cull; // on native devices; else packing has culled
 };
 
 static struct draw_state draw_state_of(const struct vk_device *device, const struct rg_draw *draw)
@@ -15,6 +16,7 @@ static struct draw_state draw_state_of(const struct vk_device *device, const str
         .target = target,
         .blend = target.colour == RG_FORMAT_NONE ? RG_BLEND_OFF : draw->blend,
         .depth_mode = target.depth ? draw->depth_mode : RG_DEPTH_OFF,
+        .cull = device->pub.native ? draw->cull : RG_CULL_NONE,
     };
 }
 
@@ -53,24 +55,15 @@ static VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShader
     };
 }
 
-// Culling is off, because packing has culled, and there are no vertex attributes, because corners
-// come from the packed primitives.
+// There are no vertex attributes, because corners come from packed primitives or from items.
 static VkGraphicsPipelineCreateInfo plain_pipeline(void)
 {
     static const VkPipelineVertexInputStateCreateInfo no_input = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    static const VkPipelineInputAssemblyStateCreateInfo triangles = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
     static const VkPipelineViewportStateCreateInfo viewport = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
         .viewportCount = 1,
         .scissorCount = 1};
-    static const VkPipelineRasterizationStateCreateInfo fill = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-        .polygonMode = VK_POLYGON_MODE_FILL,
-        .cullMode = VK_CULL_MODE_NONE,
-        .lineWidth = 1.0f};
     static const VkPipelineMultisampleStateCreateInfo one_sample = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
         .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
@@ -82,22 +75,40 @@ static VkGraphicsPipelineCreateInfo plain_pipeline(void)
     return (VkGraphicsPipelineCreateInfo){
         .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
         .pVertexInputState = &no_input,
-        .pInputAssemblyState = &triangles,
         .pViewportState = &viewport,
-        .pRasterizationState = &fill,
         .pMultisampleState = &one_sample,
         .pDynamicState = &dynamic,
     };
+}
+
+// Culls as the viewer sees it, to whom row 0 is the top.
+static VkPipelineRasterizationStateCreateInfo fill_state(enum rg_cull cull)
+{
+    return (VkPipelineRasterizationStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .polygonMode = VK_POLYGON_MODE_FILL,
+        .cullMode = cull == RG_CULL_NONE   ? VK_CULL_MODE_NONE
+                    : cull == RG_CULL_BACK ? VK_CULL_MODE_BACK_BIT
+                                           : VK_CULL_MODE_FRONT_BIT,
+        .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
+        .lineWidth = 1.0f};
 }
 
 static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
                             const struct draw_state *state, VkPipeline *pipeline)
 {
     const char *name = pass->pub.kernel->name;
+    const bool native = device->pub.native;
     const VkPipelineShaderStageCreateInfo stages[] = {
         stage(VK_SHADER_STAGE_VERTEX_BIT, pass->drawing->vertex),
         stage(VK_SHADER_STAGE_FRAGMENT_BIT,
-              state->target.blends ? pass->drawing->blending : pass->drawing->fragment)};
+              state->target.blends ? pass->drawing->blending : pass->drawing->fragment),
+        stage(VK_SHADER_STAGE_GEOMETRY_BIT, pass->drawing->geometry)};
+    const VkPipelineInputAssemblyStateCreateInfo assembly = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology =
+            native ? VK_PRIMITIVE_TOPOLOGY_POINT_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    const VkPipelineRasterizationStateCreateInfo fill = fill_state(state->cull);
     const VkPipelineColorBlendAttachmentState attachment =
         blend_state(state->target.blends ? RG_BLEND_OFF : state->blend);
     const VkPipelineColorBlendStateCreateInfo blend = {
@@ -111,8 +122,10 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
     };
     const VkPipelineDepthStencilStateCreateInfo depth = depth_state(state->depth_mode);
     VkGraphicsPipelineCreateInfo info = plain_pipeline();
-    info.stageCount = 2;
+    info.stageCount = native ? 3 : 2;
     info.pStages = stages;
+    info.pInputAssemblyState = &assembly;
+    info.pRasterizationState = &fill;
     info.pColorBlendState = &blend;
     info.pDepthStencilState = &depth;
     info.layout = pass->layout;
@@ -131,7 +144,7 @@ VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,
 {
     const struct draw_state state = draw_state_of(device, draw);
     VkPipeline *kept =
-        &pass->drawing->pipelines[state.target.colour][state.blend][state.depth_mode];
+        &pass->drawing->pipelines[state.target.colour][state.blend][state.depth_mode][state.cull];
     if (!*kept)
         create_pipeline(device, pass, &state, kept);
     return *kept;

@@ -13,7 +13,8 @@ const struct rg_option rg_timeout_option[] = {
 const struct rg_option rg_devices_option[] = {
     {RG_OPTION_TEXT, "device", .argument = "D,...|all",
      .about = "devices to use; `raingauge list devices` prints their names. "
-              "gl@LP_NUM_THREADS=1;KEY=VALUE is one with an environment of its own",
+              "gl@LP_NUM_THREADS=1;KEY=VALUE is one with an environment of its own, "
+              "gl:native one that draws by its driver's own pipeline",
      .names = RG_NAMES_DEVICES},
     {RG_OPTION_END},
 };

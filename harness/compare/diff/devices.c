@@ -248,12 +248,35 @@ static void tell_failure(struct session *s, const struct shot *a, const struct s
     json_decref(accepts);
 }
 
+// Has T2 judged for a device whose scene differs from the other's, which `background` shows.
+static bool judge_native(const struct session *s, const struct shot *a, const struct shot *b,
+                         struct rg_comparison *c)
+{
+    const struct rg_diff_devices_request *r = s->asked;
+    const bool is_first = a->info->tier == RG_T2;
+    const struct shot *native = is_first ? a : b, *other = is_first ? b : a;
+    struct rg_comparison judged;
+    if (!rg_frame_scenes_differ(a->info, b->info) || rg_tiers_strictest(&c->tiers) < RG_T2)
+        return true;
+    if (!rg_frame_compare(native->device, &r->subject, r->frames, other->info, &other->picture,
+                          &s->background, &native->picture, &judged))
+        return false;
+    c->tiers.of[RG_T2] = judged.tiers.of[RG_T2];
+    c->tier = judged.tiers.of[RG_T2].holds ? rg_tier_name(RG_T2) : "none";
+    rg_comparison_destroy(&judged);
+    return true;
+}
+
 static int compare_pair(struct session *s, const struct shot *a, const struct shot *b)
 {
     struct rg_comparison c;
     if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name, &s->background,
                     &(struct rg_compare_options){.exposure = exposure_of(s)}, &c))
         return rg_exit_of_error();
+    if (!judge_native(s, a, b, &c)) {
+        rg_comparison_destroy(&c);
+        return rg_exit_of_error();
+    }
     const enum rg_outcome outcome = rg_comparison_outcome(&c, rg_tier_owed(a->info, b->info));
     s->compared += outcome != RG_NOTHING;
     json_t *pair = s->pairs ? pair_json(a, b, &c) : NULL;

@@ -171,12 +171,15 @@ static void check_state(struct rg_verify *v, struct row *row, const struct one_c
 
 // --- image ---
 
-static void check_tier(struct tally *tally, const struct one_case *c, enum rg_tier tier,
+static void check_tier(const struct rg_verify *v, struct row *row, const struct one_case *c,
                        const struct rg_picture *picture)
 {
+    const struct rg_subject subject = subject_of(v, c->settings);
+    const enum rg_tier tier = row->tier;
+    struct tally *tally = &row->tallies[IMAGE];
     struct rg_comparison comparison;
-    if (!rg_compare(&c->expected_picture, "cpu:reference", picture, c->name, &c->dry,
-                    &(struct rg_compare_options){0}, &comparison)) {
+    if (!rg_frame_compare(row->device, &subject, 0, &v->reference->info, &c->expected_picture,
+                          c->with_dry ? &c->dry : NULL, picture, &comparison)) {
         note_error(tally);
         return;
     }
@@ -196,8 +199,8 @@ static void check_t0(struct tally *tally, const struct one_case *c,
         note_error(tally);
 }
 
-static void check_image(struct row *row, const struct one_case *c, const struct rg_session *session,
-                        const struct rg_snapshot *now)
+static void check_image(const struct rg_verify *v, struct row *row, const struct one_case *c,
+                        const struct rg_session *session, const struct rg_snapshot *now)
 {
     struct tally *tally = &row->tallies[IMAGE];
     struct rg_picture picture = {0};
@@ -209,7 +212,7 @@ static void check_image(struct row *row, const struct one_case *c, const struct 
     else if (row->tier == RG_T0)
         check_t0(tally, c, &picture);
     else
-        check_tier(tally, c, row->tier, &picture);
+        check_tier(v, row, c, &picture);
     tally->unlike++;
     rg_picture_destroy(&picture);
 }
@@ -261,7 +264,7 @@ static void check_device(struct rg_verify *v, struct row *row, struct one_case *
         return;
     check_laws(v, row, c, session);
     check_state(v, row, c, &now);
-    check_image(row, c, session, &now);
+    check_image(v, row, c, session, &now);
     rg_snapshot_free(&now);
 }
 

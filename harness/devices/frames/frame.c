@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "core/base/log.h"
-#include "core/image/compare/compare.h"
 #include "core/image/files/io.h"
 #include "harness/console/clock.h"
 #include "harness/console/duration.h"
@@ -29,6 +28,45 @@ bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subjec
     const bool ok = settings && rg_frame_draw(device, &dry, frames, picture);
     free(settings);
     return ok;
+}
+
+// Compares the rain before the scene `dry`.
+static bool compare_rain(struct rg_device *device, const struct rg_subject *subject, int frames,
+                         const struct rg_device_info *other, const struct rg_picture *expected,
+                         const struct rg_picture *dry, const struct rg_picture *picture,
+                         struct rg_comparison *comparison)
+{
+    struct rg_picture changed = {0};
+    bool ok = rg_frame_draw_dry(device, subject, frames, &changed);
+    const int64_t values = ok ? rg_picture_values(&changed) : 0;
+    for (int64_t i = 0; i < values; i++) {
+        const float light = picture->texels[i] + (dry->texels[i] - changed.texels[i]);
+        changed.texels[i] = light > 0 ? light : 0;
+    }
+    ok = ok && rg_compare(expected, other->name, &changed, device->info.name, dry,
+                          &(struct rg_compare_options){0}, comparison);
+    rg_picture_destroy(&changed);
+    return ok;
+}
+
+bool rg_frame_scenes_differ(const struct rg_device_info *a, const struct rg_device_info *b)
+{
+    return (a->tier == RG_T2) != (b->tier == RG_T2);
+}
+
+bool rg_frame_compare(struct rg_device *device, const struct rg_subject *subject, int frames,
+                      const struct rg_device_info *other, const struct rg_picture *expected,
+                      const struct rg_picture *dry, const struct rg_picture *picture,
+                      struct rg_comparison *comparison)
+{
+    const bool differ = rg_frame_scenes_differ(&device->info, other);
+    if (!rg_compare(expected, other->name, picture, device->info.name, differ ? NULL : dry,
+                    &(struct rg_compare_options){0}, comparison))
+        return false;
+    if (!differ || !dry || !comparison->tiers.of[RG_T2].holds)
+        return true;
+    rg_comparison_destroy(comparison);
+    return compare_rain(device, subject, frames, other, expected, dry, picture, comparison);
 }
 
 static bool shows_rain(struct rg_device *device, const struct rg_subject *subject, int frames,

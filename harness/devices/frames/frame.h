@@ -2,6 +2,7 @@
 #ifndef RG_HARNESS_DEVICES_FRAMES_FRAME_H
 #define RG_HARNESS_DEVICES_FRAMES_FRAME_H
 
+#include "core/image/compare/compare.h"
 #include "harness/devices/frames/session.h"
 
 // Opens a subject on a device, simulates this many frames and reads the picture of the last, which
@@ -12,6 +13,18 @@ bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, i
 // The same without rain, by the technique's own `dry` settings: the background for the rain mask.
 bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
                        struct rg_picture *picture);
+
+// Whether one of two devices draws scenes in another way: it is native, and the other is not.
+bool rg_frame_scenes_differ(const struct rg_device_info *a, const struct rg_device_info *b);
+
+// Compares a picture that a device drew after this many frames with one that `other` drew, whose
+// scene is `dry` (NULL: none). If their scenes differ, the whole pictures must hold T2 first. Then
+// the rain is compared before `dry`: what the scenes differ by is taken from the picture. False,
+// and one logged line, on failure.
+bool rg_frame_compare(struct rg_device *device, const struct rg_subject *subject, int frames,
+                      const struct rg_device_info *other, const struct rg_picture *expected,
+                      const struct rg_picture *dry, const struct rg_picture *picture,
+                      struct rg_comparison *comparison);
 
 enum { RG_FRAME_DRY = 160 };
 // Writes a line saying that a subject shows no rain after this many frames, and which frame does,

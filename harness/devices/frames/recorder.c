@@ -183,7 +183,7 @@ void *rg_recorder_code(struct rg_device *device, const struct rg_kernel *kernel,
                        enum rg_code_kind kind, size_t *size)
 {
     struct rg_kernel_code code;
-    if (!rg_kernel_code(kernel, kind, rg_device_ways(device), &code))
+    if (!rg_kernel_code(kernel, kind, rg_device_ways(device, kernel), &code))
         return NULL;
     if (!code.size)
         return rg_unsupported_null("kernel '%s': this build has no code of it for drivers; build "

@@ -61,6 +61,7 @@ static const struct rg_field limits_fields[] = {
     RG_FIELD_FLAG(struct rg_limits, has_clock),
     RG_FIELD_FLAG(struct rg_limits, has_queries),
     RG_FIELD_FLAG(struct rg_limits, has_fixed),
+    RG_FIELD_TEXT(struct rg_limits, no_native),
     RG_FIELDS_END,
 };
 

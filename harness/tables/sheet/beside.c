@@ -164,10 +164,10 @@ static void fill_optional(const struct columns *at, char (*cells)[RG_SHEET_CELL]
     if (at->optional[ERROR] >= 0 && record->truth_error.outcome == RG_OK)
         snprintf(cells[at->optional[ERROR]], RG_SHEET_CELL, "%.3f",
                  record->truth_error.flip_mask_mean);
-    if (at->optional[PACKED] >= 0 && record->has_tally)
+    if (at->optional[PACKED] >= 0 && record->has_tally && record->tally.records >= 0)
         rg_digits_rate((double)record->tally.records / 1000, cells[at->optional[PACKED]],
                        RG_SHEET_CELL);
-    if (at->optional[SHADED] >= 0 && record->has_tally)
+    if (at->optional[SHADED] >= 0 && record->has_tally && record->tally.fragments >= 0)
         rg_digits_rate((double)record->tally.fragments / 1000, cells[at->optional[SHADED]],
                        RG_SHEET_CELL);
 }

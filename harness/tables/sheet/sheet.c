@@ -254,6 +254,13 @@ static void fill_ratio(const struct rg_record *record, char text[RG_SHEET_CELL])
         snprintf(text, RG_SHEET_CELL, "%.2f", fps / low);
 }
 
+// A count of work; "" if the device cannot take it.
+static void put_count(int64_t count, char cell[RG_SHEET_CELL])
+{
+    if (count >= 0)
+        snprintf(cell, RG_SHEET_CELL, "%" PRId64, count);
+}
+
 static void add_row(const struct rg_result *result, const struct rg_record *first,
                     const struct columns *at, struct rg_sheet *sheet, struct rg_place place)
 {
@@ -271,8 +278,8 @@ static void add_row(const struct rg_result *result, const struct rg_record *firs
     for (int i = 0; i < record->counted_count && at->counted[i] >= 0; i++)
         snprintf(cells[at->counted[i]], RG_SHEET_CELL, "%" PRId64, record->counted[i].value);
     for (int i = 0; i < TALLIED && at->tallied[i] >= 0 && record->has_tally; i++)
-        snprintf(cells[at->tallied[i]], RG_SHEET_CELL, "%" PRId64,
-                 *(const int64_t *)((const char *)&record->tally + tallied[i].offset));
+        put_count(*(const int64_t *)((const char *)&record->tally + tallied[i].offset),
+                  cells[at->tallied[i]]);
     // Only the printed work is compared with print; for "ours" nothing is printed.
     if (at->ratio >= 0 && rg_result_is_of_print(result, place.work))
         fill_ratio(record, cells[at->ratio]);

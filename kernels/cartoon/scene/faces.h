@@ -16,6 +16,7 @@ RG_STRUCT(cartoon_face)
     float material;
 };
 #define RG_RECORD cartoon_face
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/mesh/item.h"

@@ -13,6 +13,7 @@ RG_STRUCT(cartoon_numbered)
     uint number;
 };
 #define RG_RECORD cartoon_numbered
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/mesh/item.h"

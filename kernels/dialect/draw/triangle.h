@@ -108,6 +108,30 @@ RG_FN float rg_plane_at(rg_plane p, float dx, float dy)
     return p.x * dx + p.y * dy + p.at;
 }
 
+#if RG_NATIVE && defined(RG_STAGE_FRAGMENT)
+
+// The driver has interpolated all of them (shaders/native.frag).
+RG_FN float rg_planes_depth(rg_planes s, int px, int py)
+{
+    return gl_FragCoord.z;
+}
+
+RG_FN float rg_planes_w(rg_planes s, int px, int py)
+{
+    return 1.0f / rg_max(gl_FragCoord.w, RG_LEAST_W);
+}
+
+RG_FN rg_weights rg_planes_weights(rg_planes s, int px, int py)
+{
+    rg_weights k;
+    k.b = rg_at.x;
+    k.c = rg_at.y;
+    k.a = 1.0f - k.b - k.c;
+    return k;
+}
+
+#else
+
 RG_FN float rg_planes_depth(rg_planes s, int px, int py)
 {
     float dx = rg_to_float(px) + 0.5f - s.origin_x;
@@ -136,5 +160,7 @@ RG_FN rg_weights rg_planes_weights(rg_planes s, int px, int py)
     k.a = 1.0f - k.b - k.c;
     return k;
 }
+
+#endif
 
 #endif

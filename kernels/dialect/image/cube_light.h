@@ -1,4 +1,5 @@
-// The light from any direction, from the slot environment of the program that includes this file.
+// The light from any direction, from the slot of the program that includes this file:
+//   SAMPLED(n, RG11B10F, environment, CUBE)
 #ifndef RG_KERNELS_DIALECT_IMAGE_CUBE_LIGHT_H
 #define RG_KERNELS_DIALECT_IMAGE_CUBE_LIGHT_H
 
@@ -9,6 +10,23 @@
 // centres on the cube's edges (core/scene/environment/cube.h), so that light is the same on both
 // sides of an edge. A place on a face always lies between texels' centres, so that the bounds
 // checks of filter.h are left out. It pays, because half of all that is drawn is light from here.
+#if RG_NATIVE
+
+// The driver has the outermost texels' centres half a texel inside the edges, so the components
+// along a face shrink by that much, and no filter reaches beyond the face.
+RG_FN v3 light_from(rg_ctx rg, v3 d, int level, int size)
+{
+    float major = rg_max(rg_abs(d.x), rg_max(rg_abs(d.y), rg_abs(d.z)));
+    float inside = rg_to_float(size - 1) / rg_to_float(size);
+    vec3 to =
+        vec3(rg_abs(d.x) == major ? d.x : d.x * inside, rg_abs(d.y) == major ? d.y : d.y * inside,
+             rg_abs(d.z) == major ? d.z : d.z * inside);
+    vec4 t = textureLod(environment_sampler, to, rg_to_float(level));
+    return v3_make(t.x, t.y, t.z);
+}
+
+#else
+
 RG_FN v3 light_from(rg_ctx rg, v3 d, int level, int size)
 {
     cube_point c = cube_locate(d, size - 1);
@@ -24,5 +42,7 @@ RG_FN v3 light_from(rg_ctx rg, v3 d, int level, int size)
     rgba light = rgba_lerp(upper, lower, c.y - rg_to_float(y));
     return v3_make(light.r, light.g, light.b);
 }
+
+#endif
 
 #endif

@@ -14,14 +14,44 @@ RG_FN int rg_filter_texel(float at, int size)
     return rg_iclamp(rg_to_int(rg_floor(at)), 0, size - 1);
 }
 
-#define RG_FILTERS(name)                                                                           \
+#define RG_NEAREST(name)                                                                           \
     RG_FN rgba name##_nearest(rg_ctx rg, float u, float v, int layer, int level)                   \
     {                                                                                              \
         int width = name##_width(rg, level);                                                       \
         int height = name##_height(rg, level);                                                     \
         return name##_texel(rg, rg_filter_texel(u * rg_to_float(width), width),                    \
                             rg_filter_texel(v * rg_to_float(height), height), layer, level);       \
+    }
+
+#if RG_NATIVE
+
+// The driver's samplers, clamped at the edges (enum rg_sampler of backends/kernel.h). A linear
+// filter between levels reads one level alone if the level is whole.
+#define RG_FILTERED(name)                                                                          \
+    RG_NEAREST(name)                                                                               \
+    RG_FN rgba name##_trilinear(rg_ctx rg, float u, float v, int layer, float lod)                 \
+    {                                                                                              \
+        vec4 t = textureLod(name##_sampler, vec3(u, v, rg_to_float(layer)), lod);                  \
+        return rg_rgba(t.x, t.y, t.z, t.w);                                                        \
     }                                                                                              \
+    RG_FN rgba name##_linear(rg_ctx rg, float u, float v, int layer, int level)                    \
+    {                                                                                              \
+        return name##_trilinear(rg, u, v, layer, rg_to_float(level));                              \
+    }                                                                                              \
+    RG_FN rgba name##_between(rg_ctx rg, float px, float py, int layer, int level)                 \
+    {                                                                                              \
+        float u = px / rg_to_float(name##_width(rg, level));                                       \
+        float v = py / rg_to_float(name##_height(rg, level));                                      \
+        return name##_linear(rg, u, v, layer, level);                                              \
+    }
+#define RG_TILED(name) RG_NEAREST(name)
+#define RG_CUBE(name)
+#define RG_SHADOW(name)
+
+#else
+
+#define RG_FILTERED(name)                                                                          \
+    RG_NEAREST(name)                                                                               \
     RG_FN rgba name##_between(rg_ctx rg, float px, float py, int layer, int level)                 \
     {                                                                                              \
         int width = name##_width(rg, level);                                                       \
@@ -55,15 +85,26 @@ RG_FN int rg_filter_texel(float at, int size)
         return rgba_lerp(name##_linear(rg, u, v, layer, fine),                                     \
                          name##_linear(rg, u, v, layer, coarse), level - rg_to_float(fine));       \
     }
+#define RG_TILED(name)  RG_NEAREST(name)
+#define RG_CUBE(name)   RG_NEAREST(name)
+#define RG_SHADOW(name) RG_NEAREST(name)
+
+#endif
 
 #define IN(slot, T, name)
 #define OUT(slot, T, name)
 #define INOUT(slot, T, name)
 #define ATOMIC(slot, T, name)
-#define IMAGE(slot, F, name) RG_FILTERS(name)
+#define IMAGE(slot, F, name) RG_NEAREST(name)
 #define OUT_IMAGE(slot, F, name)
 
+#undef SAMPLED
+#define SAMPLED(slot, F, name, how) RG_##how(name)
+
 RG_ALL_SLOTS
+
+#undef SAMPLED
+#define SAMPLED(slot, F, name, how) IMAGE(slot, F, name)
 
 #undef IN
 #undef OUT

@@ -100,6 +100,9 @@ struct rg_ctx {
         uvec4 t = uvec4(texelFetch(name##_sampler, ivec3(x, y, layer), level) * 255.0f + 0.5f);    \
         return t.x | (t.y << 8) | (t.z << 16) | (t.w << 24);                                       \
     }                                                                                              \
+    RG_SIZES(name)
+
+#define RG_SIZES(name)                                                                             \
     int name##_width(rg_ctx rg, int level)                                                         \
     {                                                                                              \
         return rg_imax(textureSize(name##_sampler, 0).x >> level, 1);                              \
@@ -123,8 +126,24 @@ struct rg_ctx {
 
 #define OUT_IMAGE(slot, F, name) RG_OUT_IMAGE(slot, RG_LAYOUT_##F, F, name)
 
+#if RG_NATIVE
+// Cubes and shadows have samplers of their own, which fetch no texels.
+#define RG_AS_FILTERED(slot, F, name) IMAGE(slot, F, name)
+#define RG_AS_TILED(slot, F, name)    IMAGE(slot, F, name)
+#define RG_AS_CUBE(slot, F, name)                                                                  \
+    layout(binding = slot) uniform samplerCube name##_sampler;                                     \
+    RG_SIZES(name)
+#define RG_AS_SHADOW(slot, F, name)                                                                \
+    layout(binding = slot) uniform sampler2DArrayShadow name##_sampler;                            \
+    RG_SIZES(name)
+#undef SAMPLED
+#define SAMPLED(slot, F, name, how) RG_AS_##how(slot, F, name)
+#endif
+
 RG_ALL_SLOTS
 
+#undef SAMPLED
+#define SAMPLED(slot, F, name, how) IMAGE(slot, F, name)
 #undef IN
 #undef OUT
 #undef INOUT

@@ -12,11 +12,17 @@
 //   IMAGE(slot, F, name)     name_texel(rg, x, y, layer, level), name_width(rg, level),
 //                            name_height(rg, level), name_levels(rg); name_bytes(rg, x, y, layer,
 //                            level): a texel of RGBA8 as one word, r lowest; name_texels(rg, x0,
-//                            x1, y, layer, level): two of a row, where x1 is x0 or x0 + 1; and
-//                            filtered at (u, v), 0 to 1 across the image: name_nearest(rg, u, v,
-//                            layer, level), name_linear (four texels), name_trilinear(rg, u, v,
-//                            layer, lod), clamped at the edges; name_between(rg, x, y, layer,
-//                            level): linear, at a place in texels
+//                            x1, y, layer, level): two of a row, where x1 is x0 or x0 + 1;
+//                            name_nearest(rg, u, v, layer, level): the texel at (u, v), 0 to 1
+//                            across the image, clamped at the edges
+//   SAMPLED(slot, F, name, how)
+//                            the same, which the driver's sampler reads on native devices:
+//     FILTERED               name_linear(rg, u, v, layer, level) of four texels,
+//                            name_trilinear(rg, u, v, layer, lod), both clamped at the edges;
+//                            name_between(rg, x, y, layer, level): linear, at a place in texels
+//     TILED                  repeated (kernels/scenery/texture.h)
+//     CUBE                   six layers by direction (dialect/image/cube_light.h)
+//     SHADOW                 depths that are compared (kernels/scenery/shadow.h)
 //   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
 //
 // Slots count from 1, buffers and images together. `rg` is the kernel's context, which every helper
@@ -36,6 +42,9 @@
 #define RG_STAGE_SLOTS
 #endif
 #define RG_ALL_SLOTS RG_SLOTS RG_STAGE_SLOTS
+
+// An image like any other, where no sampler reads it.
+#define SAMPLED(slot, F, name, how) IMAGE(slot, F, name)
 
 // name_texels for formats and languages in which two texels together cost as much as singly.
 #define RG_TEXELS_SINGLY(name)                                                                     \

@@ -5,7 +5,9 @@
 #include "kernels/drops/view/pane_params.h"
 
 #define RG_PARAMS drops_pane_params
-#define RG_SLOTS  IN(1, float, height) IMAGE(2, RG11B10F, environment) IMAGE(3, RGBA16F, background)
+#define RG_SLOTS                                                                                   \
+    IN(1, float, height)                                                                           \
+    SAMPLED(2, RG11B10F, environment, CUBE) SAMPLED(3, RGBA16F, background, FILTERED)
 #include "kernels/dialect/draw/view_quad.h"
 
 #include "kernels/dialect/dielectric.h"

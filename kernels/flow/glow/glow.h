@@ -3,7 +3,8 @@
 #include "kernels/flow/glow/params.h"
 
 #define RG_PARAMS flow_glow_params
-#define RG_SLOTS  IMAGE(1, RGBA16F, lit) IMAGE(2, RGBA16F, glow) OUT_IMAGE(3, RGBA16F, target)
+#define RG_SLOTS                                                                                   \
+    IMAGE(1, RGBA16F, lit) SAMPLED(2, RGBA16F, glow, FILTERED) OUT_IMAGE(3, RGBA16F, target)
 #include "kernels/dialect/slots/slots.h"
 
 RG_GRID_KERNEL(flow_glow)

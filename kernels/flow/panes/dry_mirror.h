@@ -4,9 +4,10 @@
 #include "kernels/dialect/math.h"
 
 #define RG_PARAMS  flow_view_params
-#define RG_SLOTS   IMAGE(1, RG11B10F, environment) IN(2, flow_pane, panes)
+#define RG_SLOTS   SAMPLED(1, RG11B10F, environment, CUBE) IN(2, flow_pane, panes)
 #define RG_CORNERS 4
 #define RG_RECORD  flow_pane_record
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/image/cube_light.h"

@@ -7,9 +7,11 @@
 #define RG_PARAMS flow_view_params
 #define RG_SLOTS                                                                                   \
     IN(1, uint, normals)                                                                           \
-    IMAGE(2, RG11B10F, environment) IN(3, flow_pane, panes) IMAGE(4, RGBA16F, behind)
+    SAMPLED(2, RG11B10F, environment, CUBE)                                                        \
+    IN(3, flow_pane, panes) SAMPLED(4, RGBA16F, behind, FILTERED)
 #define RG_CORNERS 4
 #define RG_RECORD  flow_pane_record
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/image/cube_light.h"

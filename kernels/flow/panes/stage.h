@@ -8,6 +8,7 @@
     IN(1, uint, normals) IN(2, float, water) IN(3, flow_pane, panes) IN(4, float, blurred)
 #define RG_CORNERS 4
 #define RG_RECORD  flow_pane_record
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/flow/panes/item.h"

@@ -7,6 +7,7 @@
 #define RG_SLOTS   IMAGE(1, D32F, map)
 #define RG_CORNERS 4
 #define RG_RECORD  rg_planes
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 RG_FN rg_item scenery_plate_item(scenery_plate_params p)

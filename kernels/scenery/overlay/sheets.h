@@ -12,6 +12,7 @@ RG_STRUCT(scenery_sheet)
     rgba colour;
 };
 #define RG_RECORD scenery_sheet
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 RG_FN float scenery_sheet_word(rg_ctx rg, int i, int word)

@@ -5,7 +5,7 @@
 #include "kernels/shower/particle.h"
 
 #define RG_PARAMS  shower_view_params
-#define RG_SLOTS   IN(1, float, particles) IMAGE(2, R16F, drop)
+#define RG_SLOTS   IN(1, float, particles) SAMPLED(2, R16F, drop, FILTERED)
 #define RG_CORNERS 4
 
 // u runs across the quad, v from its upper end to its lower one: both are linear functions of the
@@ -18,6 +18,7 @@ RG_STRUCT(shower_quad)
     float alpha;
 };
 #define RG_RECORD shower_quad
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/shower/view/look.h"
@@ -69,10 +70,15 @@ RG_DRAW_RECORD(shower_quads)
 
 RG_DRAW_FRAGMENT(shower_quads)
 {
+#if RG_NATIVE && defined(RG_STAGE_FRAGMENT)
+    float u = rg_at.y; // from the first corner to the last
+    float v = 1.0f - rg_at.x;
+#else
     float x = rg_to_float(px) + 0.5f;
     float y = rg_to_float(py) + 0.5f;
     float u = r.u_x * x + r.u_y * y + r.u_at;
     float v = r.v_x * x + r.v_y * y + r.v_at;
+#endif
     float alpha = r.alpha * drop_linear(rg, u, v, 0, 0).r;
     return rg_fragment_make(rg_rgba(p.r * alpha, p.g * alpha, p.b * alpha, alpha), r.depth);
 }

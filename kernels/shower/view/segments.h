@@ -13,6 +13,7 @@ RG_STRUCT(shower_segment)
     float alpha;
 };
 #define RG_RECORD shower_segment
+#define RG_DEPTH_OF_CORNERS
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/shower/view/look.h"

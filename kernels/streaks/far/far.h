@@ -14,7 +14,7 @@
     IN(1, float, means)                                                                            \
     IMAGE(2, D32F, density)                                                                        \
     IMAGE(3, D32F, depths)                                                                         \
-    IN(4, scenery_light, lights) IMAGE(5, D32F, shadows)
+    IN(4, scenery_light, lights) SAMPLED(5, D32F, shadows, SHADOW)
 #define RG_LIGHTS
 
 RG_STRUCT(streaks_far_slab)

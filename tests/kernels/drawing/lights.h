@@ -5,7 +5,7 @@
 #define RG_PARAMS test_lights_params
 #define RG_SLOTS                                                                                   \
     IN(1, float, quads)                                                                            \
-    IN(2, test_light, lights) IMAGE(3, D32F, shadows) IMAGE(4, R16F, gobos)
+    IN(2, test_light, lights) IMAGE(3, D32F, shadows) SAMPLED(4, R16F, gobos, FILTERED)
 #define RG_CORNERS 4
 #define RG_LIGHTS  1
 

@@ -103,7 +103,7 @@ bool rg_truth_open(struct rg_truth *truth);
 // Whether a device's picture of a cell matches cpu:reference's by the tier that the device owes;
 // else it ends the agreement.
 bool rg_truth_holds(struct rg_truth *truth, const struct rg_gate_cell *cell,
-                    const struct rg_device *device, const struct rg_picture *picture,
+                    struct rg_device *device, const struct rg_picture *picture,
                     struct rg_agreement *agreement);
 // Closes it; false as for rg_device_close.
 bool rg_truth_close(struct rg_truth *truth);

@@ -38,9 +38,8 @@ static bool set_devices(struct rg_baseline *made, const struct rg_devices *devic
 }
 
 // A wrong picture must not become the measure of later ones.
-static void check(struct rg_truth *truth, const struct rg_gate_cell *cell,
-                  const struct rg_device *device, const struct rg_picture *picture,
-                  struct rg_baseline_row *row)
+static void check(struct rg_truth *truth, const struct rg_gate_cell *cell, struct rg_device *device,
+                  const struct rg_picture *picture, struct rg_baseline_row *row)
 {
     struct rg_agreement agreement = {.outcome = RG_OK};
     if (row->outcome != RG_OK || rg_truth_holds(truth, cell, device, picture, &agreement))

@@ -76,19 +76,18 @@ bool rg_truth_open(struct rg_truth *truth)
 }
 
 bool rg_truth_holds(struct rg_truth *truth, const struct rg_gate_cell *cell,
-                    const struct rg_device *device, const struct rg_picture *picture,
+                    struct rg_device *device, const struct rg_picture *picture,
                     struct rg_agreement *agreement)
 {
-    struct rg_drawn due = {truth_name, {0}};
-    const struct rg_drawn drawn = {device->info.name, *picture};
+    struct rg_drawn due = {truth_name, NULL, {0}};
+    const struct rg_drawn drawn = {device->info.name, device, *picture};
     if (!rg_alike_has_room(cell, agreement))
         return false;
     if (!rg_truth_open(truth) ||
         !rg_frame_draw(truth->device, &cell->subject, cell->frames, &due.picture))
         return rg_agreement_fails(agreement, truth_name);
-    const bool holds =
-        rg_alike_pictures(cell, truth->device, rg_tier_owed(&device->info, &truth->device->info),
-                          &due, &drawn, agreement);
+    due.device = truth->device;
+    const bool holds = rg_alike_pictures(cell, &due, &drawn, agreement);
     rg_picture_destroy(&due.picture);
     return holds;
 }

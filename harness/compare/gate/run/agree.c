@@ -88,10 +88,10 @@ static bool has_its_picture(struct rg_gate_case *c, const struct left *now, stru
 
 static bool have_alike_pictures(struct rg_gate_case *c, const struct left *a, const struct left *b)
 {
-    const struct rg_drawn drawn[RG_SIDES] = {{c->devices[RG_SIDE_A], a->picture},
-                                             {c->devices[RG_SIDE_B], b->picture}};
-    return rg_alike_pictures(c->cell, c->sides[RG_SIDE_A]->device, owed_by(c), &drawn[0], &drawn[1],
-                             &c->agreement);
+    const struct rg_drawn drawn[RG_SIDES] = {
+        {c->devices[RG_SIDE_A], c->sides[RG_SIDE_A]->device, a->picture},
+        {c->devices[RG_SIDE_B], c->sides[RG_SIDE_B]->device, b->picture}};
+    return rg_alike_pictures(c->cell, &drawn[0], &drawn[1], &c->agreement);
 }
 
 static bool have_alike_states(struct rg_gate_case *c, const struct rg_baseline_row *before,

@@ -63,20 +63,20 @@ bool rg_alike_has_room(const struct rg_gate_cell *cell, struct rg_agreement *agr
     return rg_agreement_fails(agreement, NULL);
 }
 
-bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device, enum rg_tier owed,
-                       const struct rg_drawn *a, const struct rg_drawn *b,
-                       struct rg_agreement *agreement)
+bool rg_alike_pictures(const struct rg_gate_cell *cell, const struct rg_drawn *a,
+                       const struct rg_drawn *b, struct rg_agreement *agreement)
 {
+    const enum rg_tier owed = rg_tier_owed(&a->device->info, &b->device->info);
     struct rg_picture dry = {0};
     struct rg_comparison c = {0};
-    if (!rg_frame_draw_dry(device, &cell->subject, cell->frames, &dry))
+    if (!rg_frame_draw_dry(a->device, &cell->subject, cell->frames, &dry))
         return rg_agreement_fails(agreement, a->name);
-    bool ok = rg_compare(&a->picture, a->name, &b->picture, b->name, &dry,
-                         &(struct rg_compare_options){0}, &c);
+    bool ok = rg_frame_compare(b->device, &cell->subject, cell->frames, &a->device->info,
+                               &a->picture, &dry, &b->picture, &c);
     if (!ok) {
         rg_agreement_fails(agreement, a->name);
     } else if (rg_comparison_outcome(&c, owed) == RG_NOTHING) {
-        ok = shows_nothing(cell, device, agreement);
+        ok = shows_nothing(cell, a->device, agreement);
     } else {
         agreement->pixels = (double)c.metrics.differing_pixels;
         agreement->difference = c.tiers.max_codes;

@@ -41,16 +41,16 @@ bool rg_agreement_fails(struct rg_agreement *agreement, const char *device);
 // A cell's picture and the device that drew it.
 struct rg_drawn {
     const char *name; // of the device; that of `a` outlives the agreement
+    struct rg_device *device;
     struct rg_picture picture;
 };
 // Whether memory suffices for both pictures, for one without rain, and to compare them.
 bool rg_alike_has_room(const struct rg_gate_cell *cell, struct rg_agreement *agreement);
-// Compares b with a by the tier that they owe each other. The picture without rain, which shows
-// where it rains, is drawn on `device`, the one of a. Returns whether they are equivalent, and has
+// Compares b with a by the tier that their devices owe each other. The picture without rain, which
+// shows where it rains, is drawn on the device of a. Returns whether they are equivalent, and has
 // ended the agreement if they are not.
-bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device, enum rg_tier owed,
-                       const struct rg_drawn *a, const struct rg_drawn *b,
-                       struct rg_agreement *agreement);
+bool rg_alike_pictures(const struct rg_gate_cell *cell, const struct rg_drawn *a,
+                       const struct rg_drawn *b, struct rg_agreement *agreement);
 
 struct rg_counters {
     int count;

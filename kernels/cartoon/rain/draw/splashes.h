@@ -6,7 +6,7 @@
 #define RG_PARAMS cartoon_rain_params
 #define RG_SLOTS                                                                                   \
     IN(1, uint, living)                                                                            \
-    IN(2, cartoon_spray, sprays) IMAGE(3, RGBA8, rain_textures) IN(4, float, boxes)
+    IN(2, cartoon_spray, sprays) SAMPLED(3, RGBA8, rain_textures, FILTERED) IN(4, float, boxes)
 #define RG_CORNERS 4
 #define RG_RECORD  cartoon_sprite
 #include "kernels/dialect/draw/draw.h"

@@ -1,0 +1,104 @@
+"""Native devices: names, agreement within T2, and what turns parts of a driver's pipeline off."""
+import csv
+import hashlib
+import json
+import os
+import tempfile
+
+APIS = ("gl", "vulkan")
+# Small scenes of techniques whose papers used the stages below.
+FLOW = ["flow", "--size", "96x96", "--frame", "4"]
+STREAKS = ["streaks", "--set", "city=small", "--set", "atlas=small", "--set", "shadow_map_px=256", "--size", "96x96", "--frame", "4"]
+SHOWER = ["shower", "--set", "city=small", "--set", "particles=3000", "--set", "shadow_map_px=256", "--size", "96x96", "--frame", "8"]
+DROPS = ["drops", "--set", "columns=96", "--set", "rows=64", "--set", "max_drops=100", "--size", "96x64", "--frame", "6"]
+RASTER = ["raster", "--size", "96x96", "--frame", "1"]
+# What turns a part of llvmpipe off, and the pictures that must tell. Under no_tex some kernels that compute never end, as buffers are
+# textures there.
+SWITCHES = {
+    "LP_PERF=no_linear": (FLOW, STREAKS),
+    "LP_PERF=no_mipmap": (STREAKS,),
+    "LP_PERF=no_mip_linear": (DROPS,),
+    "LP_PERF=no_tex": (FLOW,),
+    "LP_PERF=no_depth": (FLOW,),
+    "LP_PERF=no_blend": (FLOW, SHOWER),
+    "GALLIVM_PERF=no_aos_sampling": (SHOWER,),
+}
+
+
+def is_there(runner, api):
+    return api in [line.split()[0] for line in runner.run(["list", "devices"]).stdout.splitlines() if line.split()]
+
+
+def check_names(runner):
+    """`native` comes last in a name; devices that draw by their own programs have none."""
+    problems = []
+    for name in ("cpu:native", "cpu:reference:native", "opencl:native"):
+        api = name.split(":")[0]
+        if not is_there(runner, api):
+            continue
+        result = runner.run(["render", "raster", "--device", name, "-o", "/dev/null.png", "--size", "16x16"])
+        line = "device '%s': has no native way, for %s draws by its own programs" % (name, name.replace(":native", ""))
+        if result.returncode != 77 or line not in result.stderr:
+            problems.append("%s: exit status %d, %s" % (name, result.returncode, result.stderr))
+    for name, status in (("native", 2), ("gl:native:0", 2), ("cpu:native:reference", 2), ("gl:native@LP_NUM_THREADS=1", 0), ("gl:0:native", 0)):
+        if name.startswith("gl") and not is_there(runner, "gl"):
+            continue
+        result = runner.run(["render", "raster", "--device", name, "-o", "/dev/null.png", "--size", "16x16"])
+        if result.returncode != status:
+            problems.append("%s: exit status %d, %s" % (name, result.returncode, result.stderr))
+    if any(":native" in line for line in runner.run(["list", "devices"]).stdout.splitlines()):
+        problems.append("native devices are among the default ones")
+    return problems
+
+
+def check_agreement(runner):
+    """A native device owes T2, draws other bits than cpu, and Vulkan's validation stays silent."""
+    names = [api + ":native" for api in APIS if is_there(runner, api)]
+    problems = []
+    for scene in (RASTER, FLOW, SHOWER, DROPS) if names else ():
+        result = runner.run(["diff", *scene, "--json", "--device", ",".join(["cpu"] + names)], {"RG_VK_VALIDATION": "1"})
+        pairs = {pair["b"]: pair for pair in json.loads(result.stdout)["pairs"] if pair["a"] == "cpu"}
+        tiers = [pairs[name]["tier"] if name in pairs else "none" for name in names]
+        if result.returncode or result.stderr or not set(tiers) <= {"T1", "T2"}:
+            problems.append("%s: exit status %d, %s, %s" % (scene[0], result.returncode, tiers, result.stderr))
+    return problems
+
+
+def check_table(runner):
+    """Tables time a native device beside the exact one."""
+    if not is_there(runner, "gl"):
+        return []
+    result = runner.run(["table", "raster-1", "--rows", "1-1", "--quick", "--format", "csv", "--device", "gl,gl:native"])
+    rows = list(csv.DictReader(line for line in result.stdout.splitlines() if not line.startswith("#")))
+    ok = [row for row in rows if row["device"] == "gl:native" and float(row["fps"]) > 0]
+    return [] if ok and result.returncode == 0 else ["exit status %d, %s, %s" % (result.returncode, result.stdout, result.stderr)]
+
+
+def digest(runner, scene, device, path):
+    result = runner.run(["render", *scene, "--device", device, "-o", path], {"XDG_CACHE_HOME": os.path.dirname(path)})
+    if result.returncode:
+        return "exit status %d, %s" % (result.returncode, result.stderr)
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()
+
+
+def check_switches(runner):
+    """Each switch that turns a part of llvmpipe off changes a native picture."""
+    if not is_there(runner, "gl") or "llvmpipe" not in runner.run(["list", "devices"]).stdout:
+        return []
+    problems, plain = [], {}
+    with tempfile.TemporaryDirectory() as folder:
+        path, behind = os.path.join(folder, "picture.exr"), os.path.join(folder, "behind.png")
+        runner.run(["render", *FLOW, "--device", "cpu", "-o", behind])
+        for switch, scenes in SWITCHES.items():
+            for scene in scenes:
+                given = scene + ["--set", "background=" + behind] if scene is DROPS else scene
+                before = plain.setdefault(scene[0], digest(runner, given, "gl:native", path))
+                if before.startswith("exit"):
+                    problems.append("%s: %s" % (scene[0], before))
+                if digest(runner, given, "gl:native@" + switch, path) == before:
+                    problems.append("%s: %s does not notice" % (switch, scene[0]))
+    return problems
+
+
+CHECKS = [check_names, check_agreement, check_table, check_switches]
