@@ -104,9 +104,9 @@ struct rg_atlas_progress {
 // logged line, on failure. The caller destroys it.
 struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 
-// Traces an atlas without the cache, in parallel: the database's full one in a minute of one core,
-// the measured one in four, the small ones in eight seconds. Its bits depend neither on the number
-// of threads nor on the processor's vectors. `size` is one that is traced.
+// Traces an atlas without the cache, in parallel: a full one in a minute of one core, a small one
+// in eight seconds. Its bits depend neither on the number of threads nor on the processor's
+// vectors. `size` is one that is traced.
 struct rg_atlas *rg_atlas_make(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 void rg_atlas_destroy(struct rg_atlas *atlas);
 

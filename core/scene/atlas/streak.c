@@ -36,7 +36,8 @@ struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size)
 {
     const bool small = rg_atlas_is_small(size);
     if (size == RG_ATLAS_MEASURED)
-        return (struct rg_streak_detail){.moments = 192, .column = 8, .along = 176};
+        return (struct rg_streak_detail){RG_SWINGS_MEASURED, .moments = 2 * RG_DATABASE_POSES,
+                                         .column = 12, .along = 176};
     return (struct rg_streak_detail){.swings = size == RG_ATLAS_MEASURED_SMALL ? RG_SWINGS_MEASURED
                                                                                : RG_SWINGS_DATABASE,
                                      .moments = RG_DATABASE_POSES,
