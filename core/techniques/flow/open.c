@@ -115,9 +115,9 @@ static const struct rg_stage stages[FLOW_PASS_COUNT] = {
                           .named = {{"rough", "level"}, {"even", "wide"}}},
     [FLOW_PACE] = {"flow_pace", is_sliding, .params = AT(sliding), .over = "level"},
     [FLOW_SPREAD_OUT] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
-                         .named = {{"slow", "pace"}, {"cells", "mean"}, {"fast", "spread"}}},
+                         .named = {{"slow", "pace"}, {"cells", "mean"}, {"fast", "paces"}}},
     [FLOW_SPREAD_BACK] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
-                          .named = {{"slow", "spread"}, {"cells", "mean"}, {"fast", "pace"}}},
+                          .named = {{"slow", "paces"}, {"cells", "mean"}, {"fast", "pace"}}},
     [FLOW_WET_ROWS] = {"flow_wet_rows", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_WET] = {"flow_wet", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_CLOSE_ACROSS] = {"flow_across", is_sliding, .params = AT(sliding), .over = "close_rows",
@@ -214,7 +214,7 @@ static void add_sliding(struct flow *flow)
     rg_add_buf(i, "close", all, NULL);
     rg_add_buf(i, "wide", all, NULL);
     rg_add_buf(i, "pace", all, NULL);
-    rg_add_buf(i, "spread", all, NULL);
+    rg_add_buf(i, "paces", all, NULL);
     rg_add_buf(i, "mean", all, NULL);
     rg_add_buf(i, "ridge", all, NULL);
     rg_add_buf(i, "close_rows", rows, NULL);

@@ -79,7 +79,7 @@ static const struct rg_pose poses[] = {
     {.set = "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 direction=texel run_on=on "
             "move=paper"},
     {.set = "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 run_on=on "
-            "pane_rain_mm_h=300"},
+            "pane_rain_mm_h=300 glow=0.5 glow_threshold=0.3"},
     {.set = "resolution_px=96 panes=mirror pane_pitch_deg=-20 pane_roll_deg=180 spin_yaw_deg_s=90 "
             "move=paper glow=0.5 glow_threshold=0.3"},
     {.set = "resolution_px=96 texels_a_pixel=0.6 distance_mm=250 camera_mm_s=2000"},

@@ -20,7 +20,7 @@ static const struct rg_param rows[] = {
     {"texels_a_pixel", RG_PARAM_FLOAT, AT(texels_a_pixel), 0, 0, 16, "1", "lets the resolution follow the distance to the camera: texels a pixel, resolution_px at most; 0: fixed", NULL},
     {"seed", RG_PARAM_INT, AT(seed), 1, 0, 2147483647, "1", "of the drops and of the generated noise map", NULL},
     {"move", RG_PARAM_CHOICE, AT(move), FLOW_MOVE_SLIDING, 0, 1, "1", "how water moves: as drops that slide, in seconds and millimetres, or by the paper's equations, by frame and texel", "sliding paper"},
-    {"slide_above_mm3", RG_PARAM_FLOAT, AT(slide_above_mm3), 8, 0.001, 100000, "mm3", "water around a place above which it slides on an upright pane; less is held by the contact line", NULL},
+    {"slide_above_mm3", RG_PARAM_FLOAT, AT(slide_above_mm3), 5, 0.001, 100000, "mm3", "water around a place above which it slides on an upright pane; less is held by the contact line", NULL},
     {"slide_gain_mm_s", RG_PARAM_FLOAT, AT(slide_gain_mm_s), 30, 0, 10000, "mm/s", "speed of a sliding drop that as much water again adds", NULL},
     {"slide_most_mm_s", RG_PARAM_FLOAT, AT(slide_most_mm_s), 70, 0, 10000, "mm/s", "speed of the fastest drops; the slowest slide at an eighth of it", NULL},
     {"levelling_mm_s", RG_PARAM_FLOAT, AT(levelling_mm_s), 90, 0, 1000, "mm/s", "speed at which water levels, at a slope of its pressure of 1", NULL},

@@ -138,10 +138,10 @@ static void test_water_moves_as_in_the_model(void **state)
     compare("seed=3 drops=90", 64, 1);
     compare("seed=4 drops=70 pane_roll_deg=30 pane_pitch_deg=40 slide_above_mm3=5", 64, 1);
     compare("seed=5 drops=60 resolution_px=96 pane_mm=48 drop_radius_max_mm=3 levelling_mm_s=40 "
-            "pane_roll_deg=-120 "
-            "step_s=0.05",
+            "slide_above_mm3=8 pane_roll_deg=-120 step_s=0.05",
             32, 3);
-    compare("seed=7 drops=30 resolution_px=160 pane_mm=48 levelling_mm_s=150", 40, 1);
+    compare("seed=7 drops=30 resolution_px=160 pane_mm=48 levelling_mm_s=150 slide_above_mm3=8", 40,
+            1);
     compare("seed=6 drops=60 pane_roll_deg=180 bead_mm=0 cohesion=1.5 contact_slope=0.3", 64, 1);
 }
 

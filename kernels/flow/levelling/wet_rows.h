@@ -1,4 +1,5 @@
-// flow: how much of the glass around a texel is wet, along its row; wet.h goes on down columns.
+// flow: how much of the glass around a texel is wet, along its row; wet_columns.h goes on down
+// columns.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params

@@ -7,7 +7,7 @@
 #define RG_SLOTS  IN(1, float, water) IN(2, float, pull) INOUT(3, float, moved) IN(4, float, wet)
 #include "kernels/dialect/slots/slots.h"
 
-#include "kernels/flow/sliding/exchange.h"
+#include "kernels/flow/levelling/exchange.h"
 
 // The water that texel `here` takes from a neighbour (or, below 0, gives to it), in whole droplets.
 // The neighbour computes the same number.

@@ -6,7 +6,7 @@
 #define RG_SLOTS  IN(1, float, water) IN(2, float, pull) INOUT(3, float, moved)
 #include "kernels/dialect/slots/slots.h"
 
-#include "kernels/flow/sliding/exchange.h"
+#include "kernels/flow/levelling/exchange.h"
 
 // The least water from texel `i` on, up to the one p.reach steps away.
 RG_FN float least_between(rg_ctx rg, flow_slide_params p, int i, int step)

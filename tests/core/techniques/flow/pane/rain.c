@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/techniques/flow/convex.h"
+#include "core/techniques/flow/survey/convex.h"
 #include "core/techniques/flow/inputs/rain.h"
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/tools/expect.h"

@@ -1,5 +1,5 @@
 // The share of a shape's convex hull that the shape covers, in texels.
-#include "core/techniques/flow/convex.h"
+#include "core/techniques/flow/survey/convex.h"
 
 #include <stdint.h>
 #include <stdlib.h>

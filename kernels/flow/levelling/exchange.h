@@ -1,6 +1,6 @@
 // What two texels exchange as water levels, by the slots water and pull of the including kernel.
-#ifndef RG_KERNELS_FLOW_SLIDING_EXCHANGE_H
-#define RG_KERNELS_FLOW_SLIDING_EXCHANGE_H
+#ifndef RG_KERNELS_FLOW_LEVELLING_EXCHANGE_H
+#define RG_KERNELS_FLOW_LEVELLING_EXCHANGE_H
 
 // Up to the height p.bent pressure grows with the square of the height, which gives drops the
 // profile of a half ellipse; above, linearly.

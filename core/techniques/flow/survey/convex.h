@@ -1,6 +1,6 @@
 // How nearly a shape is convex: surface tension leaves a drop at rest no dents.
-#ifndef RG_CORE_TECHNIQUES_FLOW_CONVEX_H
-#define RG_CORE_TECHNIQUES_FLOW_CONVEX_H
+#ifndef RG_CORE_TECHNIQUES_FLOW_SURVEY_CONVEX_H
+#define RG_CORE_TECHNIQUES_FLOW_SURVEY_CONVEX_H
 
 // The number of a shape's texels over that of the texels whose middles lie in the convex hull of
 // its middles. Texels are indices in a map with rows of `row`; there is one at least. Below 0, with

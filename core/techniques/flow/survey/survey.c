@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "core/techniques/flow/convex.h"
+#include "core/techniques/flow/survey/convex.h"
 #include "core/techniques/flow/instance.h"
 
 // Upper bounds of the size classes: diameters of circles of a drop's area; the last class has none.
