@@ -22,8 +22,11 @@ enum { STREAM_SEEDED = 1, STREAM_RAIN = 2, STREAM_SIZES = 4, STREAMS_A_PANE = 16
 static double slope_of(const struct flow_settings *s)
 {
     const double rain_mm_h = pow(s->pane_rain_mm_h / (0.222 * WIND_M_S), 1 / 0.88);
-    const struct rg_spectrum spectrum = {RG_MARSHALL_PALMER, RG_GUNN_KINZER, rain_mm_h, LEAST_MM,
-                                         RG_LARGEST_DROP_MM};
+    const struct rg_spectrum spectrum = {.kind = RG_MARSHALL_PALMER,
+                                         .law = RG_GUNN_KINZER,
+                                         .rain_mm_h = rain_mm_h,
+                                         .least_mm = LEAST_MM,
+                                         .most_mm = RG_LARGEST_DROP_MM};
     return log(rg_spectrum_density(&spectrum, 1) / rg_spectrum_density(&spectrum, 2));
 }
 
