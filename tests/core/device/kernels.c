@@ -106,11 +106,15 @@ static void runs_keep_their_parameters(void **state)
     rg_buf_destroy(target);
 }
 
-// In a buffer that a kernel reads and writes, each item finds the word that it wrote last.
+// In a buffer that a kernel reads and writes, each item finds the word that it wrote last. What is
+// told of the kernel's slots says that it does both.
 static void items_find_their_own_words(void **state)
 {
     enum { WIDTH = 96, HEIGHT = 5, WORDS = WIDTH * HEIGHT };
+    const struct rg_kernel *kernel = rg_kernel_find("test_idle");
     uint32_t *words = noise_words(WORDS, 5);
+    assert_int_equal(kernel->slots[0].kind, RG_SLOT_IN);
+    assert_int_equal(kernel->slots[1].kind, RG_SLOT_INOUT);
     struct rg_buf *marks = filled_buf(*state, 1, WORDS, "marks");
     struct rg_buf *runs = make_buf(*state, words, WORDS, "runs");
     struct rg_pass *pass = rg_pass_create(*state, "test_idle");
