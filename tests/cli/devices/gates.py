@@ -301,15 +301,16 @@ def check_falling(runner):
     expected = "fail raster/*\n  outcome error\n  reason it stops\n  since 2026-01-01\n  until " + LATER + "\n"
     with Files(TORUS) as files:
         count, known = files.path("count"), files.path("known.txt", expected)
-        other = files.path("other.sh", "#!/bin/sh\necho >> %s\ntest $(wc -l < %s) -gt 5 && exit 1\nexec %s \"$@\"\n" % (count, count, runner.raingauge))
-        os.chmod(other, 0o700)
-        for more, status, ending, says in (([], 1, "error", "is no raingauge that this one can ask"),
-                                           (["--expectations", known], 1, "error", "is no raingauge that this one can ask")):
+        for device, falls, more, says in (("cpu", "exit 1", [], "is no raingauge that this one can ask"),
+                                          ("cpu", "exit 1", ["--expectations", known], "is no raingauge that this one can ask"),
+                                          ("vulkan", "export VK_DRIVER_FILES=/nonexistent", [], "no Vulkan driver")):
+            other = files.path("other.sh", "#!/bin/sh\necho >> %s\ntest $(wc -l < %s) -gt 5 && %s\nexec %s \"$@\"\n" % (count, count, falls, runner.raingauge))
+            os.chmod(other, 0o700)
             files.path("count", "")
-            result = runner.run(["gate", "cpu", "cpu@RG_PROGRAM=" + other, "--cells", files.cells, "--json"] + more)
+            result = runner.run(["gate", device, device + "@RG_PROGRAM=" + other, "--cells", files.cells, "--json"] + more)
             case = json.loads(result.stdout)["gated"][0]
-            if result.returncode != status or case["ending"] != ending or says not in case["message"]:
-                problems.append("%s: exit status %d, %s: %s" % (more, result.returncode, case["ending"], case["message"]))
+            if result.returncode != 1 or case["ending"] != "error" or says not in case["message"]:
+                problems.append("%s, %s: exit status %d, %s: %s" % (falls, more, result.returncode, case["ending"], case["message"]))
     return problems
 
 

@@ -291,6 +291,7 @@ WRITING = {
     "sweep": "sweep flow --axis seed=1,2..9 --size 64x64 --device cpu -o {}/sweep",
     "figures": "figures creus-4.1 -o {}/figures",
     "atlas": "atlas cartoon -o {}/atlas",
+    "baseline": "baseline --device cpu -o {}/baseline.json",
     "gate": "gate cpu cpu:reference --junit {0}/junit.xml --bmf {0}/bmf.json",
     "shrink": "shrink flow --device cpu,cpu:reference --frame 1000 -o {}/case.txt",
 }

@@ -282,6 +282,16 @@ def check_named(runner):
     return side_by_side(problems_named, ["diff", "table", "verify"])
 
 
+def check_opened(runner):
+    """a listed device whose driver crashes while it is opened counts as a crash, and every other is verified"""
+    with tempfile.TemporaryDirectory() as folder:
+        result = runner.run(COMMANDS["verify"].split() + ["--device", "all"], shim(runner, folder, "vulkan", "vkCreateDevice", "fault", 0))
+    report = json.loads(result.stdout)
+    fallen = [(check["device"], check["status"]) for check in report["checks"] if check["check"] == "device"]
+    well = result.returncode == 1 and fallen == [("vulkan", "crash")] and found_well("verify", report) == OTHERS - {"vulkan"}
+    return [] if well else ["exit status %d, %s, %s" % (result.returncode, fallen, result.stderr)]
+
+
 def check_environments(runner):
     """two settings and two drivers of one API run side by side, told apart by their names"""
     with tempfile.TemporaryDirectory() as folder:
@@ -312,4 +322,4 @@ def check_caches(runner):
 
 
 THOROUGH = [check_all_ways]
-CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_ignored_ends, check_closing, check_gone, check_named, check_environments, check_caches]
+CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_ignored_ends, check_closing, check_gone, check_named, check_opened, check_environments, check_caches]

@@ -231,6 +231,8 @@ def check_refused(runner, tree, drivers):
             ("gl=vulkan", 2, "is no API's"), ("a=cpu,a=gl", 2, "'a' is short for 'cpu' already"), ("a=cpu,a=cpu", 2, "stands there twice")]
     if VULKAN in drivers:
         rows.append(("vulkan@DRIVER=%s;VK_DRIVER_FILES=%s" % (tree.root, tree.icd), 2, "leave one of them out"))
+        well = tree.manifest("listed/well.json", drivers[VULKAN]["path"], api_version="1.1.0")
+        rows.append(("vulkan@VK_DRIVER_FILES=%s/absent.json:%s" % (tree.root, well), 1, "names '.*/absent.json', which cannot be read"))
         for name, change, status, said in (
                 ("foreign", lambda path: patch_at(path, 18, b"\xf3\x00"), 2, "is for another processor"),
                 ("needy", lambda path: patched(path, b"libLLVM-", b"libXXXX-"), 1, "libXXXX-.*unpack it into"),

@@ -265,8 +265,8 @@ def row_name(row):
 
 
 def reason_problems(wide):
-    """Reasons that do not name a row in full, or print a rate as a power of ten."""
-    problems = []
+    """Reasons that name no device, or not a row in full, or print a rate as a power of ten."""
+    problems = re.findall(r"(?m)^- .* on : .*$", wide)
     for table, reason in re.findall(r"(?m)^- ([a-z0-9.-]+), (.* fps.*)$", wide):
         rows = {row_name(cell["row"]) for cell in json.loads(read(KEPT, table + ".json"))["cells"]}
         if not any(name in reason for name in rows) or re.search(r"\de[+]\d", reason):

@@ -3,6 +3,7 @@
 #include "tests/core/device/suite.h"
 #include "tests/kernels/atomics_params.h"
 #include "tests/kernels/fault_params.h"
+#include "tests/kernels/idle_params.h"
 
 enum { POISON = 0x99999999 };
 
@@ -103,6 +104,33 @@ static void runs_keep_their_parameters(void **state)
     rg_pass_destroy(pass);
     rg_buf_destroy(source);
     rg_buf_destroy(target);
+}
+
+// In a buffer that a kernel reads and writes, each item finds the word that it wrote last. What is
+// told of the kernel's slots says that it does both.
+static void items_find_their_own_words(void **state)
+{
+    enum { WIDTH = 96, HEIGHT = 5, WORDS = WIDTH * HEIGHT };
+    const struct rg_kernel *kernel = rg_kernel_find("test_idle");
+    uint32_t *words = noise_words(WORDS, 5);
+    assert_int_equal(kernel->slots[0].kind, RG_SLOT_IN);
+    assert_int_equal(kernel->slots[1].kind, RG_SLOT_INOUT);
+    struct rg_buf *marks = filled_buf(*state, 1, WORDS, "marks");
+    struct rg_buf *runs = make_buf(*state, words, WORDS, "runs");
+    struct rg_pass *pass = rg_pass_create(*state, "test_idle");
+    assert_non_null(pass);
+    for (int r = 0; r < 2; r++)
+        assert_true(rg_pass_run(pass, &(struct rg_run){.params = &(test_idle_params){WIDTH},
+                                                       .slots = {[1].buf = marks, [2].buf = runs},
+                                                       .extent = {WIDTH, HEIGHT, 1}}));
+    uint32_t *got = read_words(runs, WORDS);
+    for (int i = 0; i < WORDS; i++)
+        assert_int_equal(got[i], words[i] + 2);
+    free(got);
+    free(words);
+    rg_pass_destroy(pass);
+    rg_buf_destroy(marks);
+    rg_buf_destroy(runs);
 }
 
 // Each run reads the previous run's writes, without a sync in between.
@@ -213,6 +241,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(grids_are_folded),
     cmocka_unit_test(folding_is_counted),
     cmocka_unit_test(runs_keep_their_parameters),
+    cmocka_unit_test(items_find_their_own_words),
     cmocka_unit_test(runs_follow_each_other),
     cmocka_unit_test(atomics_lose_nothing),
     cmocka_unit_test(reference_notices_an_index_out_of_range),

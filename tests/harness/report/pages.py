@@ -182,6 +182,16 @@ def check_markdown(raingauge, folder):
     return problems + ([] if re.search(r"^Of \d+ claims that papers make, \d+ holds?, ", text, re.M) and "camera 2" in text else [text[:500]])
 
 
+def check_verified(raingauge, folder):
+    """Markdown lists verify's checks that fail, the three worst first, and no others"""
+    statuses = ["ok", "fail", "unsupported", "error", "nothing", "timeout", "crash"]
+    checks = [{"technique": "flow", "check": "image", "device": f"of {status}", "status": status, "detail": ""} for status in statuses]
+    made.write(folder / "a.json", {"format": 1, "devices": [], "checks": checks})
+    found = re.findall(r"(?m)^\| (\w+) \| flow, image on of \w+ \|", brief(raingauge, folder, "md", "a.json"))
+    worst = ["crash", "timeout", "error"]
+    return [] if found == worst + worst + ["fail"] else [found]
+
+
 def check_many(raingauge, folder):
     """the page has the last thirty of a thousand gates, and says how many it leaves out"""
     for i in range(1000):
@@ -227,7 +237,7 @@ def main():
                     return [error]
         checked.__doc__ = check.__doc__
         return checked
-    return made.run([in_folder(check) for check in (check_tables, check_policy, check_hostile, check_kinds, check_older, check_refused, check_pictures, check_markdown, check_many, check_stands, check_badge)])
+    return made.run([in_folder(check) for check in (check_tables, check_policy, check_hostile, check_kinds, check_older, check_refused, check_pictures, check_markdown, check_verified, check_many, check_stands, check_badge)])
 
 
 if __name__ == "__main__":

@@ -80,5 +80,6 @@ ROWS = [
     Fault("shaders/fixed/texels.c", "if («state->flip && layer == 0 && level == 0»)", "false", "no bit of a texture is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault("shaders/fixed/vertices.c", "if («flip»)", "false", "no bit of a vertex is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault("harness/doctor/fixed.c", "rg_exit_of_all(«counts»)", "(int[RG_OUTCOME_COUNT]){[RG_OK] = 1}", "a crash of a draw passes", tests=("command line, fixed",)),
+    Fault("harness/doctor/fixed.c", "rg_fixed_goes_on(device, ended, rg_fixed_pairs() «- drawn»)", "- 0", "draws that were tried are told as not tried", tests=("command line, fixed",)),
     Fault("core/device/device.c", "rg_doing_begin(\"drawing feature\", «feature»);", "\"\"", "a crash does not name its feature", tests=("command line, fixed",)),
 ]

@@ -29,6 +29,7 @@ ROWS = [
     Fault(EVIDENCE, "    e->judgement.rows = «e->count»;", "e->judgement.rows_needed", "a claim is never judged by fewer rows"),
     Fault(EVIDENCE, "} else if («!can_miss(c, row)») {", "false", "a claim's first row may be missing"),
     Fault(JUDGE, "(first - knee) / («knee - last»);", "first - last", "a knee need not be one"),
+    Fault(JUDGE, "const int left = s->needed «- s->launches»;", "- 0", "launches that are there are said to be needed still"),
     Fault(COURSE, "before = «is_by_row(claim) ? -1 : before»;", "before", "cells that nobody compares are open together", tests=("launches",)),
     Fault(COURSE, "return «j.verdict == RG_CLAIM_ONE_LAUNCH» ||", "false", "a course never begins", tests=("launches",)),
     Fault(COURSE, "j.more && «!is_hopeless(&j)»", "true", "a course on a busy machine never ends", tests=("launches",)),
@@ -81,4 +82,5 @@ ROWS = [
     Fault("harness/tables/claims/json.c", "bound(«test->has_least», claim->least)", "true", "programs are told bounds that a test has not", tests=("command line, kept",)),
     Fault("harness/tables/claims/claims.c", "part = is_of_word ? 0 : *c == ',' || part == '/' ? part : «'-'»;", "0", "ids of claims run their words together", tests=("command line, kept",)),
     Fault("harness/tables/claims/text.c", "const char *length = «result->full ? \"full\" : \"quick\"»;", "\"quick\"", "claims of full tables are told as quick", tests=("command line, kept",)),
+    Fault(TEXT, "if («*devices»)\n            rg_sheet_note(sheet, \"%s, %s, %s on %s: %s.\"", "true", "a reason of several devices is told again for each of them", tests=("command line, kept",)),
 ]

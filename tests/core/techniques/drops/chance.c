@@ -114,7 +114,7 @@ static struct drops *open_many(const char *settings, double mg, double since_s)
     assert_non_null(even);
     assert_true(rg_buf_write(affinity, 0, even, (int64_t)affinity->size));
     free(even);
-    rig_put(d, all, MANY);
+    rig_put(d, all, MANY, 1);
     return d;
 }
 

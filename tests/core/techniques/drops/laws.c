@@ -33,7 +33,7 @@ static struct drops *open_with(const char *settings, const drops_drop *all, int 
         even[i] = 0.5f;
     assert_true(rg_buf_write(affinity, 0, even, (int64_t)affinity->size));
     free(even);
-    rig_put(d, all, count);
+    rig_put(d, all, count, 1);
     return d;
 }
 
@@ -227,28 +227,41 @@ static void water_comes_to_rest_and_vanishes(void **state)
 // --- merging ---
 
 // Drops whose waters meet become one: it has their mass and momentum, at the place of the lowest.
-static void waters_that_meet_merge(void **state)
+static void expect_merged(uint32_t first_id)
 {
-    (void)state;
     const drops_drop all[] = {drop(10, 50, 30), drop(15, 52.4, 31), drop(12, 54.5, 30.5),
                               drop(8, 80, 60)};
     struct drops *d = open_with(PANE "critical_mass_mg=100", all, 4);
+    rig_put(d, all, 4, first_id);
     rig_step(d, 2);
     int count;
     drops_drop *left = rig_drops(d, &count);
     assert_int_equal(count, 2);
-    assert_int_equal(left[0].id, 4);
-    assert_int_equal(left[1].id, 5);
+    assert_int_equal(left[0].id, first_id + 3);
+    assert_int_equal(left[1].id, first_id + 4);
     assert_int_equal(left[1].mass, 37 * (int)DROPS_QUANTA_MG);
     assert_equals(left[1].x, (float)52.4);
     assert_equals(left[1].y, 31);
     uint32_t *ids = rig_words(d, "ids");
     for (int k = 0; k < 3; k++)
         assert_int_equal(ids[drops_cell(d->params, (int)(all[k].x / 0.5f), (int)(all[k].y / 0.5f))],
-                         5);
+                         first_id + 4);
     free(ids);
     free(left);
     rig_close(d);
+}
+
+static void waters_that_meet_merge(void **state)
+{
+    (void)state;
+    expect_merged(1);
+}
+
+// After many drops, IDs are far beyond the bits of the set of hot ones, and share them.
+static void waters_of_late_drops_merge(void **state)
+{
+    (void)state;
+    expect_merged(1u << 28);
 }
 
 // The waters of two drops are equally high in cells halfway between: the older drop owns these.
@@ -301,6 +314,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(sleep_changes_no_bit),
         cmocka_unit_test(water_comes_to_rest_and_vanishes),
         cmocka_unit_test(waters_that_meet_merge),
+        cmocka_unit_test(waters_of_late_drops_merge),
         cmocka_unit_test(the_oldest_owns_what_is_as_high),
         cmocka_unit_test(momentum_is_kept),
     };

@@ -4,6 +4,7 @@ import collections
 Row = collections.namedtuple("Row", "about file old new tests")
 
 MODEL = ("model",)
+LAWS = ("laws",)
 CHANCE = ("chance",)
 PANE = ("view/pane", "view/oracle")
 MAPS = ("view/maps",)
@@ -211,6 +212,9 @@ ROWS = [Row(*row) for row in (
     ("the larger label wins", "sets/sets.h",
      "uint low = first_a < first_b ? first_a : first_b;\n        uint high = first_a < first_b ? first_b : first_a;",
      "uint high = first_a < first_b ? first_a : first_b;\n        uint low = first_a < first_b ? first_b : first_a;", MODEL),
+    ("the set of hot IDs has no end", "sets/hot.h",
+     "return (id >> 5) % rg_to_uint(DROPS_HOT_WORDS);",
+     "return id >> 5;", LAWS),
     ("waters of no drops become nobody's", "merging/recolour.h",
      ": drops_owner(ids_at(rg, rg_to_int(set)))",
      ": 0u", MODEL),

@@ -64,13 +64,13 @@ drops_drop *rig_drops(struct drops *d, int *count)
     return rig_words(d, "drops");
 }
 
-void rig_put(struct drops *d, const drops_drop *all, int count)
+void rig_put(struct drops *d, const drops_drop *all, int count, uint32_t first_id)
 {
     uint32_t tally[DROPS_TALLY] = {
-        [DROPS_COUNT] = (uint32_t)count, [DROPS_NEXT_ID] = (uint32_t)count + 1};
+        [DROPS_COUNT] = (uint32_t)count, [DROPS_NEXT_ID] = (uint32_t)count + first_id};
     for (int i = 0; i < count; i++) {
         drops_drop drop = all[i];
-        drop.id = (uint32_t)i + 1;
+        drop.id = (uint32_t)i + first_id;
         drop.is_new = DROPS_LANDED_NOW;
         tally[DROPS_SOURCED] += drop.mass;
         assert_true(rg_buf_write(d->drops->buf, i * (int64_t)sizeof(drop), &drop, sizeof(drop)));

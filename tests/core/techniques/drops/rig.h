@@ -18,7 +18,7 @@ void *rig_words(struct drops *d, const char *name);
 uint32_t rig_tally(struct drops *d, int word);
 // All drops; the caller frees them.
 drops_drop *rig_drops(struct drops *d, int *count);
-// Replaces the drops. Their IDs are 1, 2 and so on, and none counts as new.
-void rig_put(struct drops *d, const drops_drop *all, int count);
+// Replaces the drops. Their IDs are first_id, first_id + 1 and so on, and none counts as new.
+void rig_put(struct drops *d, const drops_drop *all, int count, uint32_t first_id);
 
 #endif

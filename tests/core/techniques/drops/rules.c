@@ -54,7 +54,7 @@ static void run_on(const char *rules, double cell_mm, double *measures)
              96 / cell_mm, 72 / cell_mm, cell_mm, rules);
     struct drops *d = rig_open(device, settings);
     const drops_drop both[] = {drop(21, 24.1, 10.1), drop(18, 72.1, 30.1)};
-    rig_put(d, both, 2);
+    rig_put(d, both, 2, 1);
     rig_step(d, 15);
     int count;
     drops_drop *all = rig_drops(d, &count);

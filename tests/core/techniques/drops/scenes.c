@@ -216,7 +216,7 @@ struct drops *scene_open(struct rg_device *device, const struct scene *s, const 
                                     .y = (float)a->y,
                                     .vx = (float)a->vx,
                                     .vy = (float)a->vy};
-    rig_put(d, all, count);
+    rig_put(d, all, count, 1);
     const uint32_t next = SCENE_NEXT_ID;
     assert_true(rg_buf_write(d->tally->buf, DROPS_NEXT_ID * 4, &next, sizeof(next)));
     return d;

@@ -47,5 +47,6 @@ ROWS = [
     Fault(COMMAND, "if (is_there && «!o->update») {", "false", "a baseline is written over without being asked to"),
     Fault(COMMAND, "«(!before->is_there || rg_baseline_read(&before->baseline, path))»;", "true", "what is no baseline is written over"),
     Fault(COMMAND, "if («!is_as_before(o->output, before)»)", "false", "what another wrote meanwhile is written over"),
+    Fault(COMMAND, "«rg_interrupted()» ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : rg_exit_of_error();", "false", "a baseline that is interrupted ends as bad input does", tests=("command line, losses",)),
     Fault("harness/commands/comparing/gate.c", "bool any = «o->pictures_only || o->gtest.list»;", "true", "a gate passes for want of times"),
 ]

@@ -28,5 +28,6 @@ ROWS = [
     Fault(BRIEF, "if («c == '@'»)", "false", "a text calls a user"),
     Fault(BRIEF, "«brief->size + (size_t)length > RG_PAGE_BRIEF - ROOM_FOR_END»", "false", "a merge request is told more than it takes"),
     Fault(BRIEF, "(is(record, \"kind\", \"gate\") && «i != last_gate»)", "false", "gates of earlier runs are told as found now"),
+    Fault(BRIEF, "for (int i = 0; i < «4»; i++) {\n        f.wanted = statuses[i];", "3", "a merge request is not told which checks fail"),
     Fault(STANDS, "if («holds || fails»)", "holds && fails", "figures of one launch go before verdicts"),
 ]

@@ -24,6 +24,7 @@ ROWS = [
     Fault("core/scene/mesh/read.c", "return «rg_memory_allows_piece(MEMORY_A_BYTE * st.st_size)» ||", "true", "meshes are read without room for them", tests=("mesh files",)),
     Fault(WIND, "if (!(fabs(knot.time_s) <= FARTHEST && «fabs(knot.turn_deg) <= FARTHEST»))", "true", "a wind may turn so far that its direction is no number", tests=MOTION),
     Fault(WIND, "const bool ok = c == EOF || «strchr(text, '#') != NULL»;", "true", "what a long line goes on with is not looked at", tests=MOTION),
+    Fault(WIND, "noise_at(seed, «CARTOON_GUST_WAY», periods)", "CARTOON_GUST", "a gust turns as strongly as it blows", tests=MOTION),
     Fault(VIEW, ".far_plane = (float)(distance_m * «20»),", "1", "cartoon's far plane cuts the scene", tests=OF_CARTOON),
     Fault(SPACE_OF_RAIN, "p->depth_at = (float)(far_m / («far_m - near_m»));", "far_m + near_m", "drops are compared with depths of another far plane", tests=OF_CARTOON),
     Fault(SPACE_OF_RAIN, "p->depth_by = (float)(-far_m * «near_m» /", "2 * near_m", "drops are compared with depths of another near plane", tests=OF_CARTOON),

@@ -500,13 +500,15 @@ static void a_long_wind_script_is_refused(void **state)
     unlink(path);
 }
 
-// Gusts stay within their share and change smoothly. A seed and a time give the same wind.
+// Gusts stay within their share and change smoothly. A seed and a time give the same wind, and a
+// gust's strength says nothing of its direction.
 static void wind_blows_by_chance(void **state)
 {
     (void)state;
     struct cartoon_rain_settings s = {
         .wind = CARTOON_WIND_RANDOM, .wind_m_s = 10, .gust = 0.5, .gust_s = 2};
-    double before[2], sum = 0, most_turn = 0;
+    const double widest = 20 * acos(-1) / 180;
+    double before[2], sum = 0, most_turn = 0, together = 0;
     cartoon_wind_at(&s, NULL, 7, 0, before);
     for (int i = 1; i <= 20000; i++) {
         double wind[2], again[2], other[2];
@@ -520,12 +522,14 @@ static void wind_blows_by_chance(void **state)
         assert_equals(wind[0], again[0]);
         assert_equals(wind[1], again[1]);
         assert_true(i % 200 == 0 || wind[0] != other[0]);
+        const double turn = atan2(-wind[1], wind[0]);
         sum += speed;
-        most_turn = fmax(most_turn, fabs(atan2(-wind[1], wind[0])));
+        together += (speed - 10) / 5 * turn / widest;
+        most_turn = fmax(most_turn, fabs(turn));
         memcpy(before, wind, sizeof(wind));
     }
     rig_expect("mean speed", sum / 20000, 10, 1.2);
-    const double widest = 20 * acos(-1) / 180;
+    rig_expect("strength times direction", together / 20000, 0, 0.1);
     assert_below(most_turn, widest + 1e-9);
     assert_above(most_turn, 0.7 * widest);
 }

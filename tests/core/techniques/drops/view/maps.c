@@ -116,7 +116,7 @@ static void drops_are_discs_of_their_size(void **state)
     const double radius_mm[3] = {cbrt(3 * 90 / (2 * M_PI)), cbrt(3 * 15 / (2 * M_PI)), 1.5 / 4};
     struct drops *d =
         rig_open_sized(device, "columns=250 rows=150 drops_s=0 view=particles", 500, 300);
-    rig_put(d, all, 3);
+    rig_put(d, all, 3, 1);
     struct rg_picture picture = view_draw(d);
     for (int k = 0; k < 3; k++) {
         const bool runs = k == 0;
