@@ -24,7 +24,7 @@ static struct drops *after_a_drop(const char *trail, int steps)
     snprintf(settings, sizeof(settings), PANE "%s", trail);
     struct drops *d = rig_open(device, settings);
     const drops_drop one = {.mass = (uint32_t)(40 * DROPS_QUANTA_MG), .x = 24.1f, .y = 6.1f};
-    rig_put(d, &one, 1);
+    rig_put(d, &one, 1, 1);
     rig_step(d, steps);
     return d;
 }
