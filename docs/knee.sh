@@ -12,8 +12,8 @@ draw() {
   file=$folder/$1.png
   shift
   sets=
-  for set in thin_streaks=points splash_materials=off splash_up=vertical splash_s=0.15 splash_width_mm=40 \
-    splash_gain=0.35 splash_opacity=0.35 splash_fade=0 far_layers=0 atlas=small city=small depth_map_px=2048 \
+  for set in spectrum=off swings=database thin_streaks=points splash_materials=off splash_up=vertical splash_s=0.15 \
+    splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 splash_light=matt splash_fade=0 far_layers=0 atlas=small city=small depth_map_px=2048 \
     cull=exact "$@"; do
     sets="$sets --set $set"
   done
