@@ -19,24 +19,31 @@ static void set_state(GLuint view, enum rg_sampler sampling)
     }
 }
 
-GLuint gl_image_view(struct rg_image *image, enum rg_sampler sampling)
+// A new view of all levels and layers; 0, with one logged line, on failure.
+static GLuint make_view(struct rg_image *image, enum rg_sampler sampling)
 {
-    struct gl_image *mine = (struct gl_image *)image;
-    GLuint *view = &mine->views[sampling];
-    if (*view)
-        return *view;
+    const struct gl_image *mine = (const struct gl_image *)image;
     const struct rg_image_desc *desc = &image->desc;
     const bool is_cube = sampling == RG_SAMPLED_CUBE;
-    glGenTextures(1, view);
-    glTextureView(*view, is_cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D_ARRAY, mine->id,
+    GLuint view = 0;
+    glGenTextures(1, &view);
+    glTextureView(view, is_cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D_ARRAY, mine->id,
                   gl_format(desc->format).internal, 0, (GLuint)desc->levels, 0,
                   is_cube ? 6 : (GLuint)desc->layers);
-    set_state(*view, sampling);
-    gl_label(GL_TEXTURE, *view, image->name);
+    set_state(view, sampling);
+    gl_label(GL_TEXTURE, view, image->name);
     if (gl_check((struct gl_device *)image->device, "glTextureView", "image", image->name))
-        return *view;
-    glDeleteTextures(1, view);
-    return *view = 0;
+        return view;
+    glDeleteTextures(1, &view);
+    return 0;
+}
+
+GLuint gl_image_view(struct rg_image *image, enum rg_sampler sampling)
+{
+    GLuint *view = &((struct gl_image *)image)->views[sampling];
+    if (!*view)
+        *view = make_view(image, sampling);
+    return *view;
 }
 
 void gl_image_views_destroy(struct gl_image *image)

@@ -132,9 +132,9 @@ static struct chance chance_of(int material, int item, int stream)
 // Adds a ball at a distance from the impact, an angle about it and a height.
 static void add_ball(struct rg_water *water, double away, double phi, double up, double radius_m)
 {
+    const double right = away * cos(phi), ahead = away * sin(phi);
     if (water->count < RG_WATER_BALLS && up >= 0 && radius_m > 1e-5)
-        water->balls[water->count++] =
-            (struct rg_water_ball){{away * cos(phi), up, away * sin(phi)}, radius_m};
+        water->balls[water->count++] = (struct rg_water_ball){{right, up, ahead}, radius_m};
 }
 
 // Adds the rim of the sheet, and the fingers that stand on it, thinner towards their beads.

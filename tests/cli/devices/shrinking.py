@@ -36,7 +36,7 @@ def check_blamed(runner):
         told = json.loads(runner.run(args + ["--json"] + SMALL.split()).stdout)["pairs"][0]["accepts"]
     found = re.findall(r"(?m)^  vulkan.*: frame (\d+), stage (\w+): (\w+)\[\d+\] is .*; other values$", result.stdout)
     cost = "  T2 would hold; of %d mutants it accepts %s\n" % (told["mutants"], ", ".join(told["accepted"]))
-    known = {"one drop fewer", "refraction 1 % weaker"} <= set(told["accepted"]) and told["mutants"] > len(told["accepted"])
+    known = {"1 % less rain", "refraction 1 % weaker"} <= set(told["accepted"]) and told["mutants"] > len(told["accepted"])
     good = result.returncode == 1 and found == [("1", STAGE, "normals")] and told["tier"] == "T2" and known and cost in result.stdout
     return [] if good else ["told %s" % told,
         "exit status %d, %s\n%s%s" % (result.returncode, found, result.stdout, result.stderr)]

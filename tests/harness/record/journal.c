@@ -37,7 +37,7 @@ static const struct rg_table table = {
     .hardware = "paper",
     .columns = {"row", "fps"},
     .key_count = 1,
-    .variants = {{"full", "", "fps"}, {"bare", "rain_drops_s=0", NULL}},
+    .variants = {{"full", "", "fps"}, {"bare", "pane_rain_mm_h=0", NULL}},
     .truth = "drops=20",
     .quick = "drops=25",
     .rows_at_once = 1,
@@ -465,8 +465,8 @@ static void test_quick_settings(void **state)
     char *quick = rg_table_assignments(&result, &table, bare);
     result.full = true;
     char *full = rg_table_assignments(&result, &table, bare);
-    assert_string_equal(quick, CHEAP " drops=40 rain_drops_s=0 drops=25");
-    assert_string_equal(full, CHEAP " drops=40 rain_drops_s=0");
+    assert_string_equal(quick, CHEAP " drops=40 pane_rain_mm_h=0 drops=25");
+    assert_string_equal(full, CHEAP " drops=40 pane_rain_mm_h=0");
     free(quick);
     free(full);
     result.full = false;

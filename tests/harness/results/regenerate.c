@@ -45,7 +45,7 @@ static const struct rg_table table = {
     .names = "scene",
     .columns = {"faces", "fps"},
     .variants = {{"full", "environment_px=16 environment=sky", "fps"},
-                 {"bare", "environment_px=16 rain_drops_s=0", "fps"}},
+                 {"bare", "environment_px=16 pane_rain_mm_h=0", "fps"}},
     .truth = "drops=20",
     .width = 64,
     .height = 64,

@@ -50,12 +50,13 @@ static const struct rg_water_ball *next_ball(const struct rg_water *w,
 {
     const struct rg_water_ball *nearest = NULL;
     double least = INFINITY;
-    for (const struct rg_water_ball *b = w->balls; b < w->balls + w->count; b++) {
+    for (int i = 0; i < w->count; i++) {
+        const struct rg_water_ball *b = &w->balls[i];
         double to[3];
         along(b->at, -1, start, to);
         const double middle = dot(to, way),
                      inner = middle * middle - dot(to, to) + b->radius_m * b->radius_m;
-        if (middle <= 0 || inner <= 0 || b == leaves)
+        if (middle <= 0 || inner <= 0 || (leaves && b == leaves))
             continue;
         const double far = middle - sqrt(inner);
         if (far > 0 && far < least) {

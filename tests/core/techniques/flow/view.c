@@ -20,7 +20,7 @@ static const char *device = "cpu:reference";
 
 enum { SIZE = 32, UNIT = 65536 };
 
-static const char *const still = "resolution_px=32 drops=0 rain_drops_s=0 ";
+static const char *const still = "resolution_px=32 drops=0 rain_drops_s=0 pane_rain_mm_h=0 ";
 
 static void open_still(struct rig *rig, const char *assignments, int width, int height)
 {

@@ -23,7 +23,7 @@ enum { FILM, PUDDLE, ROUGH, SMOOTH, MATERIALS };
 #define SMALL                                                                                      \
     "atlas=small city=small depth_map_px=1024 shadow_map_px=16 rain_width_m=160 rain_depth_m=160 " \
     "camera=free eye_y_m=35 target_y_m=20 local_height_m=70 culling_radius_m=75 drops_m2_s=12 "    \
-    "splash_gain=4 state=on "
+    "spectrum=off splash_gain=4 state=on "
 
 static struct streaks *open_rain(struct rg_device *device, const char *settings)
 {
@@ -317,7 +317,7 @@ static void blank(struct streaks *s, int material)
 
 #define NEAR                                                                                       \
     "drops=off cull=exact culling_radius_m=2 drops_m2_s=300 local_height_m=8 rain_width_m=180 "    \
-    "rain_depth_m=180 "
+    "rain_depth_m=180 splash_gain=30 splash_opacity=30 "
 #define STREET NEAR "eye_x_m=1 eye_y_m=3 eye_z_m=1 target_x_m=1 target_y_m=0 target_z_m=2 "
 #define ROOF   NEAR "eye_x_m=-56 eye_y_m=73 eye_z_m=16 target_x_m=-56 target_y_m=70 target_z_m=17 "
 
