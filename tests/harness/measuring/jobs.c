@@ -41,7 +41,7 @@ static void brighten(struct rg_picture *picture, const struct rg_picture *dry, i
     for (int i = 0; i < SIZE_PX * SIZE_PX && pixels > 0; i++) {
         float *texel = picture->texels + (size_t)i * 4;
         const double red = texel[0], encoded = 1.055 * pow(red, 1 / 2.4) - 0.055;
-        if (fabs(red - dry->texels[(size_t)i * 4]) < 0.1 || encoded < 0.1 || encoded > 0.9)
+        if (fabs(red - dry->texels[(size_t)i * 4]) < 0.02 || encoded < 0.1 || encoded > 0.9)
             continue;
         const double code = floor(encoded * 255 + 0.5) + 2;
         texel[0] = (float)pow((code / 255 + 0.055) / 1.055, 2.4);
