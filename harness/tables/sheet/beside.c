@@ -10,6 +10,7 @@
 
 // Optional columns; the last are dropped first when lines get too wide.
 enum { DRAWN, ERROR, PACKED, SHADED, OPTIONAL };
+enum { FEWEST_PACKED = 100 };
 
 // The index of each column; -1: not in this table.
 struct columns {
@@ -93,7 +94,10 @@ static bool has_optional(const struct rg_result *result, const struct rg_record 
     const double *due = rg_named_number(first->published, first->published_count, "particles");
     if (which == DRAWN)
         return drawn && due;
-    return which == ERROR ? *result->truth != 0 : first->has_tally;
+    if (which == ERROR)
+        return *result->truth != 0;
+    // A few items that fill the view tell nothing.
+    return first->has_tally && (which != PACKED || first->tally.records >= FEWEST_PACKED);
 }
 
 static bool is_reference(const struct rg_result *result, int device)
