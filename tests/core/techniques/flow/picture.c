@@ -337,7 +337,7 @@ static void test_an_empty_mask_fails(void **state)
 {
     (void)state;
     struct pair pair;
-    pair_open(&pair, "view=box panes=glass model=none drops=0 pane_rain_mm_h=0");
+    pair_open(&pair, "view=box panes=glass model=none drops=0 rain_drops_s=0 pane_rain_mm_h=0");
     const struct difference d = difference_of(&pair, TOLERANCE);
     assert_int_equal(d.lit, 0);
     assert_at_most(d.off, SHARE);
