@@ -45,7 +45,7 @@ int rg_numbered_places(const char *path)
 
 bool rg_numbered_path(const char *path, int number, char *numbered, size_t size)
 {
-    int digits, length;
+    int digits = 0, length = 0;
     const char *place = find_place(name_of(path), &digits, &length);
     const int written = snprintf(numbered, size, "%.*s%0*d%s", (int)(place - path), path, digits,
                                  number, place + length);
