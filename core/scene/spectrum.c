@@ -7,11 +7,21 @@
 // varies.
 enum { STEPS = 1 << 15 };
 
+double rg_drop_volume_mm3(double d)
+{
+    return M_PI / 6 * d * d * d;
+}
+
 // --- how many ---
+
+double rg_marshall_palmer_slope(double rain_mm_h)
+{
+    return 4.1 * pow(rain_mm_h, -0.21);
+}
 
 static double marshall_palmer(double rain_mm_h, double d)
 {
-    return 8000 * exp(-4.1 * pow(rain_mm_h, -0.21) * d);
+    return 8000 * exp(-rg_marshall_palmer_slope(rain_mm_h) * d);
 }
 
 // The density by diameter of the share of water, divided by a drop's volume.
@@ -20,7 +30,7 @@ static double best(double rain_mm_h, double d)
     const double a = 1.30 * pow(rain_mm_h, 0.232), n = 2.25;
     const double water = 67 * pow(rain_mm_h, 0.846);
     const double share = n / a * pow(d / a, n - 1) * exp(-pow(d / a, n));
-    return water * share / (M_PI / 6 * d * d * d);
+    return water * share / rg_drop_volume_mm3(d);
 }
 
 double rg_spectrum_density(const struct rg_spectrum *spectrum, double d)
@@ -62,11 +72,6 @@ static double middle_of(const struct rg_spectrum *spectrum, int i, double *width
     return from + *width / 2;
 }
 
-static double volume_mm3(double d)
-{
-    return M_PI / 6 * d * d * d;
-}
-
 // The drops there are over those of the law.
 static double amount_of(const struct rg_spectrum *spectrum)
 {
@@ -87,9 +92,9 @@ struct rg_rainfall rg_spectrum_rainfall(const struct rg_spectrum *spectrum)
         const double drops = amount * rg_spectrum_density(spectrum, d) * width;
         const double speed = rg_terminal_speed(spectrum->law, d);
         sum.drops_m3 += drops;
-        sum.water_mm3_m3 += drops * volume_mm3(d);
+        sum.water_mm3_m3 += drops * rg_drop_volume_mm3(d);
         sum.drops_m2_s += drops * speed;
-        sum.rain_mm_h += drops * volume_mm3(d) * speed * 3600 * 1e-6;
+        sum.rain_mm_h += drops * rg_drop_volume_mm3(d) * speed * 3600 * 1e-6;
         sum.section_mm2_m3 += drops * M_PI / 4 * d * d;
     }
     return sum;

@@ -30,6 +30,10 @@ struct rg_spectrum {
 #define RG_LARGEST_DROP_MM  6.0
 #define RG_SMALLEST_DROP_MM 0.1
 
+double rg_drop_volume_mm3(double diameter_mm); // of a sphere
+// How fast the number of Marshall and Palmer's drops falls with their diameter, in 1/mm.
+double rg_marshall_palmer_slope(double rain_mm_h);
+
 // The number of drops of a diameter, per cubic metre and millimetre, whatever the bounds; not
 // normalised.
 double rg_spectrum_density(const struct rg_spectrum *spectrum, double diameter_mm);

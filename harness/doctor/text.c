@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/base/text/add.h"
 #include "harness/doctor/doctor.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
@@ -198,13 +199,12 @@ static void print_native(void)
 {
     const struct rg_kernel *const *all;
     const int count = rg_kernel_all(&all);
-    int programs = 0, used = 0;
+    int programs = 0;
     char samples[1024] = "", text[1200];
     for (int i = 0; i < count; i++) {
         programs += all[i]->draw != NULL;
         if (rg_kernel_samples(all[i]))
-            used += snprintf(samples + used, sizeof(samples) - (size_t)used, "%s%s",
-                             used ? ", " : "", all[i]->name);
+            rg_text_add(samples, sizeof(samples), ", ", "%s", all[i]->name);
     }
     snprintf(text, sizeof(text), "draws the items of %d programs by its driver; samples in %s",
              programs, samples);

@@ -1,8 +1,8 @@
 // flow: the pace at which each cell's water slides, and its place across a drop. A drop rests until
 // gravity overcomes the contact line that holds it. The water around must then exceed a volume that
-// falls with the slope by Furmidge's condition, volume^(2/3) sin(slope) = constant. Above that,
-// speed grows with the water. The middle of a drop carries along the water around it, so that the
-// drop slides as a whole and sweeps up small ones.
+// falls with the slope by Furmidge's condition: volume^(2/3) times the slope's sine is constant.
+// Above that, speed grows with the water. The middle of a drop carries along the water around it,
+// so that the drop slides as a whole and sweeps up small ones.
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params

@@ -58,7 +58,7 @@ RG_STRUCT(flow_pane)
     int ax, ay;        // the direction down, in whole texels (figure 8)
     int bx, by;        // a second direction, if gravity lies between two of the eight
     float b_share;     // the share of the given water that goes that way, 0 to 1
-    float speed;       // cos(alpha) of equation 2: scales the given water
+    float speed;       // equation 2: scales the given water by the cosine of alpha
     float noise_shift; // of the noise map's window, in noise texels: no two panes move alike
     flow_neighbour top, bottom, left, right;
     // Tangent (right), binormal (down) and normal (outwards) in the world.

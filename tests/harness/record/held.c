@@ -125,10 +125,10 @@ static void test_places(void **state)
 {
     (void)state;
     char home[128], long_home[4096];
-    snprintf(home, sizeof(home), "%s/home", folder);
-    assert_int_equal(strncmp(place_with(NULL, home), "/home/.local/state/raingauge/", 29), 0);
+    snprintf(home, sizeof(home), "%s/theirs", folder);
+    assert_int_equal(strncmp(place_with(NULL, home), "/theirs/.local/state/raingauge/", 31), 0);
     assert_int_equal(strncmp(place_with(folder, home), "/raingauge/", 11), 0);
-    assert_int_equal(strncmp(place_with("relative", home), "/home/.local/state/", 19), 0);
+    assert_int_equal(strncmp(place_with("relative", home), "/theirs/.local/state/", 21), 0);
     assert_int_equal(lines, 0);
     assert_string_equal(place_with(NULL, "relative"), "");
     assert_int_equal(lines, 1);

@@ -96,6 +96,20 @@ void flow_view_model(const struct flow_settings *settings, int64_t frame, const 
 int flow_environment_levels(const struct flow_settings *settings);
 int flow_reflection_level(const struct flow_settings *settings);
 
+// Streams of random numbers: each of these on each pane.
+enum {
+    FLOW_STREAM_SEEDED = 1,
+    FLOW_STREAM_RAIN = 2,
+    FLOW_STREAM_SIZES = 4,
+    FLOW_STREAMS_A_PANE = 16
+};
+
+// The part of a number above the next lower whole one.
+double flow_fraction(double x);
+// The n-th number of a sequence that fills 0 to 1 evenly, however far it is taken: multiples of the
+// golden ratio.
+double flow_even(int64_t n);
+
 // A drop of move=paper by its number on a pane: one of the initial ones if `frame` is -1, else of
 // those that fall in that frame. inputs/rain.h has those of move=sliding.
 flow_splat_params flow_drop(const struct flow_settings *settings, int pane, int64_t frame,

@@ -12,47 +12,38 @@
 
 #define WIND_M_S 10.0
 #define LEAST_MM 0.5 // the least diameter; smaller drops are many and have little water
-#define GOLDEN   0.6180339887498949
-
-enum { STREAM_SEEDED = 1, STREAM_RAIN = 2, STREAM_SIZES = 4, STREAMS_A_PANE = 16 };
 
 // --- sizes ---
 
-// The exponent of the diameters' exponential distribution, in 1/mm.
+// How fast the number of drops falls with their diameter, in 1/mm.
 static double slope_of(const struct flow_settings *s)
 {
-    const double rain_mm_h = pow(s->pane_rain_mm_h / (0.222 * WIND_M_S), 1 / 0.88);
-    const struct rg_spectrum spectrum = {.kind = RG_MARSHALL_PALMER,
-                                         .law = RG_GUNN_KINZER,
-                                         .rain_mm_h = rain_mm_h,
-                                         .least_mm = LEAST_MM,
-                                         .most_mm = RG_LARGEST_DROP_MM};
-    return log(rg_spectrum_density(&spectrum, 1) / rg_spectrum_density(&spectrum, 2));
+    return rg_marshall_palmer_slope(pow(s->pane_rain_mm_h / (0.222 * WIND_M_S), 1 / 0.88));
 }
 
-static double sphere_mm3(double diameter_mm)
-{
-    return M_PI / 6 * pow(diameter_mm, 3);
-}
-
-// The integral of D^3 times the distribution, from D on.
+// The mean of D^3 of all drops larger than d.
 static double cubes_beyond(double slope, double d)
 {
-    const double x = slope * d;
-    return exp(-x) * (x * x * x + 3 * x * x + 6 * x + 6) / pow(slope, 3);
+    return d * d * d + 3 * d * d / slope + 6 * d / (slope * slope) + 6 / (slope * slope * slope);
+}
+
+// The share of drops larger than the least that are larger than the largest, and left out.
+static double too_large(double slope)
+{
+    return exp(-slope * (RG_LARGEST_DROP_MM - LEAST_MM));
 }
 
 static double mean_volume_mm3(double slope)
 {
-    const double cubes = cubes_beyond(slope, LEAST_MM) - cubes_beyond(slope, RG_LARGEST_DROP_MM);
-    return M_PI / 6 * cubes / (exp(-slope * LEAST_MM) - exp(-slope * RG_LARGEST_DROP_MM));
+    const double cubes =
+        cubes_beyond(slope, LEAST_MM) - too_large(slope) * cubes_beyond(slope, RG_LARGEST_DROP_MM);
+    return M_PI / 6 * cubes / (1 - too_large(slope));
 }
 
 // The diameter below which this share of drops is.
 static double diameter_of(double slope, double share)
 {
-    const double from = exp(-slope * LEAST_MM), to = exp(-slope * RG_LARGEST_DROP_MM);
-    return -log(from + share * (to - from)) / slope;
+    return LEAST_MM - log(1 - share * (1 - too_large(slope))) / slope;
 }
 
 // --- rates ---
@@ -95,11 +86,6 @@ static double volume_a_cube(const struct flow_settings *s)
     return M_PI / 3 * (2 - 3 * c + c * c * c) / pow(sin(angle), 3);
 }
 
-static double fraction(double x)
-{
-    return x - floor(x);
-}
-
 static struct flow_drop drop_at(const struct flow_settings *s, int pane, rg_uint4 w)
 {
     return (struct flow_drop){.pane = pane,
@@ -109,7 +95,7 @@ static struct flow_drop drop_at(const struct flow_settings *s, int pane, rg_uint
 
 struct flow_drop flow_initial_drop(const struct flow_settings *s, int pane, int number)
 {
-    const uint stream = STREAM_SEEDED + STREAMS_A_PANE * (uint)pane;
+    const uint stream = FLOW_STREAM_SEEDED + FLOW_STREAMS_A_PANE * (uint)pane;
     const rg_uint4 w = rg_random((uint)s->seed, (uint)number, 0, stream);
     struct flow_drop drop = drop_at(s, pane, w);
     const double t = (double)rg_uniform(w.z) * (double)rg_uniform(w.w);
@@ -122,19 +108,19 @@ struct flow_drop flow_initial_drop(const struct flow_settings *s, int pane, int 
 // shares, and its rate.
 struct flow_drop flow_falling_drop(const struct flow_settings *s, int pane, int64_t number)
 {
-    const uint streams = STREAMS_A_PANE * (uint)pane;
-    const rg_uint4 w = rg_random((uint)s->seed, (uint)number, 0, STREAM_RAIN + streams);
-    const rg_uint4 first = rg_random((uint)s->seed, 0, 0, STREAM_SIZES + streams);
+    const uint streams = FLOW_STREAMS_A_PANE * (uint)pane;
+    const rg_uint4 w = rg_random((uint)s->seed, (uint)number, 0, FLOW_STREAM_RAIN + streams);
+    const rg_uint4 first = rg_random((uint)s->seed, 0, 0, FLOW_STREAM_SIZES + streams);
     struct flow_drop drop = drop_at(s, pane, w);
-    const double share = fraction((double)rg_uniform(first.x) + (double)number * GOLDEN);
-    drop.volume_mm3 = sphere_mm3(diameter_of(slope_of(s), share));
+    const double share = flow_fraction((double)rg_uniform(first.x) + flow_even(number));
+    drop.volume_mm3 = rg_drop_volume_mm3(diameter_of(slope_of(s), share));
     drop.radius_mm = cbrt(drop.volume_mm3 / volume_a_cube(s));
     return drop;
 }
 
 double flow_largest_radius_mm(const struct flow_settings *s)
 {
-    const double rain_mm = cbrt(sphere_mm3(RG_LARGEST_DROP_MM) / volume_a_cube(s));
+    const double rain_mm = cbrt(rg_drop_volume_mm3(RG_LARGEST_DROP_MM) / volume_a_cube(s));
     return fmax(fmax(s->drop_radius_min_mm, s->drop_radius_max_mm), rain_mm);
 }
 

@@ -123,9 +123,14 @@ void flow_panes_at(const struct flow_settings *s, int noise_size, int64_t frame,
     }
 }
 
-static double fraction(double x)
+double flow_fraction(double x)
 {
     return x - floor(x);
+}
+
+double flow_even(int64_t n)
+{
+    return flow_fraction((double)n * 0.6180339887498949);
 }
 
 // The amount of water above which a texel reaches the one `texels` below: M for two, and M - L more
@@ -150,8 +155,8 @@ flow_params flow_params_at(const struct flow_settings *s, int noise_size, int64_
         .remainder_scale = (float)((FLOW_REMAINDER_ENTRIES - 1) / s->remainder_max_height),
         .noise_size = noise_size,
         .noise_step = (float)(noise_size * s->noise_window / s->resolution_px),
-        .noise_x = (float)(noise_size * fraction((double)frame * s->noise_scroll_x)),
-        .noise_y = (float)(noise_size * fraction((double)frame * s->noise_scroll_y)),
+        .noise_x = (float)(noise_size * flow_fraction((double)frame * s->noise_scroll_x)),
+        .noise_y = (float)(noise_size * flow_fraction((double)frame * s->noise_scroll_y)),
         .sweep = (float)s->sweep,
     };
 }
@@ -166,9 +171,6 @@ flow_normals_params flow_normals_params_of(const struct flow_settings *s)
     };
 }
 
-// Random streams of the paper's drops. The item is a drop's number and the step its frame.
-enum { STREAM_SEEDED = 1, STREAM_RAIN = 2, STREAMS_A_PANE = 16 };
-
 // The epsilon lets a number that is whole except for rounding count as whole, whatever step_s is.
 int64_t flow_fallen_before(const struct flow_settings *s, int64_t frame)
 {
@@ -178,9 +180,9 @@ int64_t flow_fallen_before(const struct flow_settings *s, int64_t frame)
 
 flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t frame, int number)
 {
-    const uint stream = frame < 0 ? STREAM_SEEDED : STREAM_RAIN;
+    const uint stream = frame < 0 ? FLOW_STREAM_SEEDED : FLOW_STREAM_RAIN;
     rg_uint4 w = rg_random((uint)s->seed, (uint)number, frame < 0 ? 0u : (uint)frame,
-                           stream + STREAMS_A_PANE * (uint)pane);
+                           stream + FLOW_STREAMS_A_PANE * (uint)pane);
     const double px_per_mm = s->resolution_px / s->pane_mm;
     // Small drops are frequent and large ones rare: the radius is distributed as a square.
     const double t = (double)rg_uniform(w.z) * (double)rg_uniform(w.z);

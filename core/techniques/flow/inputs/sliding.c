@@ -27,7 +27,6 @@
 #define FILL     0.5
 #define STEEPER  5.0
 #define HOLDS_MM 40.0
-#define GOLDEN   0.6180339887498949
 
 static double texel_mm(const struct flow_settings *s)
 {
@@ -121,17 +120,6 @@ int flow_relax_reach(const struct flow_settings *s, int run)
     return reaches[first_reach(s) + run % (REACHES - first_reach(s))];
 }
 
-static double fraction(double x)
-{
-    return x - floor(x);
-}
-
-// A low-discrepancy sequence in 0 to 1, for rounding such that runs add up to the whole.
-static double phase_of(int64_t run)
-{
-    return fraction((double)run * GOLDEN);
-}
-
 flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t run)
 {
     const int k = texels_a_cell(s);
@@ -157,7 +145,7 @@ flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t ru
         .advance = (float)(s->contact_slope * texel_mm(s) * to_height),
         .cohesion = (float)s->cohesion,
         .dried2 = (float)(2 * s->drying_mm2_s * run_s(s) * to_height * to_height),
-        .part = (float)phase_of(run),
+        .part = (float)flow_even(run), // so that runs, rounded, add up to the whole
         .holds = (float)(HOLDS_MM * to_height),
         .joined = (float)(JOINED_MM * to_height),
         .wet_per_height = (float)(s->relief / FILM_MM),
@@ -173,7 +161,7 @@ flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t ru
 // Rounds to whole texels, so that the distances of all runs add up to the exact one.
 static int32_t whole(double texels, int64_t run)
 {
-    return fabs(texels) < 1e-9 ? 0 : (int32_t)floor(texels + phase_of(run));
+    return fabs(texels) < 1e-9 ? 0 : (int32_t)floor(texels + flow_even(run));
 }
 
 void flow_ways_at(const struct flow_settings *s, int64_t frame, int64_t run, int32_t *ways)

@@ -134,9 +134,9 @@ static void add_drop(void *user, uint32_t number, int64_t times)
     const struct streaks *s = sum->s;
     const int i = streaks_size_class(number, s->sizes.count);
     const float *words = s->sizes.words + (size_t)i * STREAKS_SIZE_WORDS;
-    const double radius_m = (double)words[0] * s->settings.drop_radius_mm / 1000;
-    sum->rain_m3_s += (double)times * (double)words[3] * s->sizes.speeds_m_s[i] * 4 / 3 * M_PI *
-                      radius_m * radius_m * radius_m;
+    const double diameter_mm = 2 * (double)words[0] * s->settings.drop_radius_mm;
+    sum->rain_m3_s += (double)times * (double)words[3] * s->sizes.speeds_m_s[i] *
+                      rg_drop_volume_mm3(diameter_mm) * 1e-9;
 }
 
 // The rain rate of the particles where the density map is white.
@@ -155,7 +155,7 @@ static void tell_one(struct streaks *s)
     const struct streaks_settings *set = &s->settings;
     const double radius_mm = set->drop_radius_mm;
     const double section_mm2_m3 = s->sizes.drops_m3 * M_PI * radius_mm * radius_mm;
-    const double water_mm3_m2_s = set->drops_m2_s * 4 / 3 * M_PI * pow(radius_mm, 3);
+    const double water_mm3_m2_s = set->drops_m2_s * rg_drop_volume_mm3(2 * radius_mm);
     rg_tell(&s->base, "rain_rate_mm_h", water_mm3_m2_s * 3600 * 1e-6);
     rg_tell(&s->base, "extinction_per_km", rg_extinction_per_km(section_mm2_m3));
 }
