@@ -46,8 +46,23 @@ RG_FN uint rg_draw_pixel(const rg_shading *s, rg_fragment fragment, int px, int 
 
 // The sums of lights for the pixels of a block's row.
 typedef struct rg_lit_row {
-    float r[RG_TILE_PX], g[RG_TILE_PX], b[RG_TILE_PX], a[RG_TILE_PX];
+#define RG_ROW(part) float part[RG_TILE_PX];
+    RG_LIGHT_PARTS(RG_ROW)
 } rg_lit_row;
+
+RG_FN void rg_put_light(rg_lit_row *lit, int x, rg_lit l)
+{
+#define RG_PUT_PART(part) lit->part[x] = l.part;
+    RG_LIGHT_PARTS(RG_PUT_PART)
+}
+
+RG_FN rg_lit rg_light_of(const rg_lit_row *lit, int x)
+{
+    rg_lit l;
+#define RG_GET_PART(part) l.part = lit->part[x];
+    RG_LIGHT_PARTS(RG_GET_PART)
+    return l;
+}
 
 // Whether a covered pixel will be seen, as far as can be told without its colour.
 RG_FN int rg_will_be_seen(const rg_shading *s, RG_RECORD record, int px, int py)
@@ -55,7 +70,7 @@ RG_FN int rg_will_be_seen(const rg_shading *s, RG_RECORD record, int px, int py)
     if (s->p.draw.depth_mode == 0)
         return 1;
     rg_fragment f = rg_settled(rg_program_fragment(s->rg, s->p.program, record, px, py,
-                                                   rg_rgba(0.0f, 0.0f, 0.0f, 0.0f)));
+                                                   rg_no_light()));
     return f.kept != 0 && f.depth < as_float(s->depth[py * s->p.draw.width + px]) ? 1 : 0;
 }
 
@@ -70,7 +85,7 @@ RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triang
 #pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
     for (int x = 0; x < count; x++) {
         px[x] = -1;
-        lit->r[x] = lit->g[x] = lit->b[x] = lit->a[x] = 0.0f;
+        rg_put_light(lit, x, rg_no_light());
         if ((rg_block_inside(ta, x, y) & rg_block_inside(tb, x, y)) >= 0)
             px[x] = rg_will_be_seen(s, record, x0 + x, py) ? x0 + x : -1;
     }
@@ -88,17 +103,14 @@ RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triang
 #endif
 #pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
         for (int x = 0; x < count; x++) {
-            rgba c = rg_program_light(s->rg, s->p.program, record, px[x] < 0 ? seen : px[x], py,
-                                      light RG_BY);
-            lit->r[x] += c.r;
-            lit->g[x] += c.g;
-            lit->b[x] += c.b;
-            lit->a[x] += c.a;
+            rg_lit l = rg_program_light(s->rg, s->p.program, record, px[x] < 0 ? seen : px[x], py,
+                                          light RG_BY);
+            rg_put_light(lit, x, rg_light_sum(rg_light_of(lit, x), l));
         }
     }
 }
 
-#define RG_LIT , rg_rgba(lit.r[x], lit.g[x], lit.b[x], lit.a[x])
+#define RG_LIT , rg_light_of(&lit, x)
 #else
 #define RG_LIT
 #endif

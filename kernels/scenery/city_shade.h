@@ -14,6 +14,7 @@
     SAMPLED(4, RGBA8, textures, TILED)                                                             \
     IN(5, scenery_light, lights) SAMPLED(6, D32F, shadows, SHADOW) IN(7, uint, openness)
 #define RG_LIGHTS 1
+#define RG_GLOSS  1
 #include "kernels/dialect/draw/view_quad.h"
 
 #include "kernels/scenery/openness.h"
@@ -138,35 +139,26 @@ RG_FN float scenery_gleam(int kind, v3 n, v3 ray, v3 to_light, float facing)
     return 0.5f * reflected * rough * facing / (narrow * narrow * rg_max(apart, 1e-6f));
 }
 
-// The share of a wet surface's own light that water leaves, which lies in its pores.
-RG_FN float scenery_darkened(float wet)
-{
-    return 1.0f - 0.45f * wet;
-}
-
-// A share of light that is mirrored, over the colour by which all light is multiplied later.
-RG_FN float scenery_untinted(float mirrored, float colour)
-{
-    return mirrored / rg_max(colour, 0.01f);
-}
-
 RG_DRAW_LIGHT(streaks_city_shade)
 {
     scenery_light l = lights_at(rg, light);
     scenery_seen s = scenery_seen_at(rg, p, px, py);
     uint normal = scenery_word(rg, s, SCENERY_NORMAL);
-    uint look = scenery_word(rg, s, SCENERY_LOOK);
     v3 n = mesh_normal_unpack(normal);
     float wet = p.wet * scenery_wetness(normal);
     scenery_reach reach = scenery_light_reach(l, s.at);
     float facing = rg_max(v3_dot(n, reach.to_light), 0.0f);
     float share = reach.share * scenery_unshadowed_soft(rg, l, scenery_off_surface(l, s.at, n));
-    float mirrored =
-        wet * scenery_gleam(l.kind, n, s.ray, reach.to_light, facing) / scenery_darkened(wet);
-    rgba t = scenery_painted(rg, p, s, n, look, rg_abs(v3_dot(n, s.ray)));
-    return rg_rgba(l.r * share * (facing + scenery_untinted(mirrored, t.r)),
-                   l.g * share * (facing + scenery_untinted(mirrored, t.g)),
-                   l.b * share * (facing + scenery_untinted(mirrored, t.b)), 0.0f);
+    float matt = share * facing;
+    float gloss = share * wet * scenery_gleam(l.kind, n, s.ray, reach.to_light, facing);
+    rg_lit falls;
+    falls.r = l.r * matt;
+    falls.g = l.g * matt;
+    falls.b = l.b * matt;
+    falls.gloss_r = l.r * gloss;
+    falls.gloss_g = l.g * gloss;
+    falls.gloss_b = l.b * gloss;
+    return falls;
 }
 
 // --- what a pixel shows ---
@@ -194,15 +186,17 @@ RG_DRAW_FRAGMENT(streaks_city_shade)
     float glow = p.glow * t.a + rg_to_float((look >> SCENERY_GLOW_BIT) & 7u) * (1.0f / 7.0f);
     float mirrored = scenery_mirrored(wet, facing) * open;
     // A surface lit by a lamp behind it shows little of the light that falls on its front.
-    float own = scenery_darkened(wet) * (1.0f - 0.7f * t.a);
+    float front = 1.0f - 0.7f * t.a;
+    // Water in its pores darkens it.
+    float own = (1.0f - 0.45f * wet) * front;
     float shown = 1.0f - rg_exp(-s.distance * p.sky.haze_per_m);
     v3 seen =
         v3_make(t.r * (own * (above * p.sky.zenith_r + beside * p.sky.horizon_r + lit.r) + glow) +
-                    mirrored * p.sky.horizon_r,
+                    mirrored * p.sky.horizon_r + front * lit.gloss_r,
                 t.g * (own * (above * p.sky.zenith_g + beside * p.sky.horizon_g + lit.g) + glow) +
-                    mirrored * p.sky.horizon_g,
+                    mirrored * p.sky.horizon_g + front * lit.gloss_g,
                 t.b * (own * (above * p.sky.zenith_b + beside * p.sky.horizon_b + lit.b) + glow) +
-                    mirrored * p.sky.horizon_b);
+                    mirrored * p.sky.horizon_b + front * lit.gloss_b);
     seen = v3_make(seen.x + (p.sky.horizon_r - seen.x) * shown,
                    seen.y + (p.sky.horizon_g - seen.y) * shown,
                    seen.z + (p.sky.horizon_b - seen.z) * shown);

@@ -221,26 +221,33 @@ static inline __attribute__((always_inline)) void settle_depths(struct cpu_fragm
 // The loop over lights is outside that over fragments, which compilers then vectorise. These arrays
 // alias no slot, so that a light's words stay in registers.
 struct lit {
-    float r[CPU_FRAGMENTS], g[CPU_FRAGMENTS], b[CPU_FRAGMENTS], a[CPU_FRAGMENTS];
+#define RG_COLUMN(part) float part[CPU_FRAGMENTS];
+    RG_LIGHT_PARTS(RG_COLUMN)
 };
+
+static inline __attribute__((always_inline)) void put_light(struct lit *lit, int i, rg_lit l)
+{
+#define RG_PUT_PART(part) lit->part[i] = l.part;
+    RG_LIGHT_PARTS(RG_PUT_PART)
+}
+
+static inline __attribute__((always_inline)) rg_lit light_of(const struct lit *lit, int i)
+{
+    rg_lit l;
+#define RG_GET_PART(part) l.part = lit->part[i];
+    RG_LIGHT_PARTS(RG_GET_PART)
+    return l;
+}
 
 static inline __attribute__((always_inline)) void clear_light(struct lit *lit, int padded)
 {
     for (int i = 0; i < padded; i++)
-        lit->r[i] = lit->g[i] = lit->b[i] = lit->a[i] = 0.0f;
+        put_light(lit, i, rg_no_light());
 }
 
-static inline __attribute__((always_inline)) void add_light(struct lit *lit, int i, rgba c)
+static inline __attribute__((always_inline)) void add_light(struct lit *lit, int i, rg_lit l)
 {
-    lit->r[i] += c.r;
-    lit->g[i] += c.g;
-    lit->b[i] += c.b;
-    lit->a[i] += c.a;
-}
-
-static inline __attribute__((always_inline)) rgba light_of(const struct lit *lit, int i)
-{
-    return rg_rgba(lit->r[i], lit->g[i], lit->b[i], lit->a[i]);
+    put_light(lit, i, rg_light_sum(light_of(lit, i), l));
 }
 
 #define RG_LIT(lit, i) , light_of(lit, i)
@@ -306,11 +313,6 @@ static_assert(RG_ALL_WORDS <= CPU_MOST_WORDS, "each word of a record has a colum
 
 #if defined(RG_LIGHTS)
 
-static inline __attribute__((always_inline)) rgba added_to_none(rgba c)
-{
-    return rg_rgba(0.0f + c.r, 0.0f + c.g, 0.0f + c.b, 0.0f + c.a);
-}
-
 // A single light is added in the loop that makes colours, so that common terms are computed once.
 static inline __attribute__((always_inline)) void
 shade_lit_list(rg_ctx rg, RG_PARAMS p, struct cpu_records records RG_UNUSED,
@@ -322,8 +324,9 @@ shade_lit_list(rg_ctx rg, RG_PARAMS p, struct cpu_records records RG_UNUSED,
     for (int i = 0; i < padded; i++) {
         const int x = list->at[i] & 0xffff, y = list->at[i] >> 16;
         const RG_RECORD r = RG_LISTED(records, list, i);
-        const rgba c = rg_program_light(rg, p, r, x, y, 0 RG_BY_FIRST(by, list, i));
-        put_fragment(fragments, i, rg_program_fragment(rg, p, r, x, y, added_to_none(c)));
+        const rg_lit l = rg_program_light(rg, p, r, x, y, 0 RG_BY_FIRST(by, list, i));
+        put_fragment(fragments, i,
+                     rg_program_fragment(rg, p, r, x, y, rg_light_sum(rg_no_light(), l)));
     }
     settle_depths(fragments, padded);
 }
@@ -439,7 +442,7 @@ static void list_depth(const struct cpu_call *call, struct cpu_records records,
 {
     const rg_ctx rg = bind_context(call);
     const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
-    const rgba dark = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
+    const rg_lit dark = rg_no_light();
     const int padded = cpu_padded(list->count);
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
@@ -457,7 +460,7 @@ static void row_depth(const struct cpu_call *call, struct cpu_records records, i
     const rg_ctx rg = bind_context(call);
     const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
     const RG_RECORD r = ((const RG_RECORD *)records.of_items)[prim];
-    const rgba dark = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
+    const rg_lit dark = rg_no_light();
     const int last = count - 1, padded = cpu_padded(count);
 #pragma omp simd
     for (int i = 0; i < padded; i++)

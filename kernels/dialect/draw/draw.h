@@ -16,8 +16,11 @@
 // A program that defines RG_LIGHTS has lights, as many as its parameters' `int lights` says, and a
 // fourth function:
 //
-//   RG_DRAW_LIGHT(name)     { ... }  returns the rgba that light number `light` adds at pixel
+//   RG_DRAW_LIGHT(name)     { ... }  returns the rg_lit that light number `light` adds at pixel
 //                                    (px, py), from r.
+//
+// An rg_lit is an rgba. In a program that also defines RG_GLOSS it is an rg_glossy: what falls on
+// a surface, and beside it what the surface mirrors without tinting it.
 //
 // A program that also defines RG_LIGHT_RECORD (a struct of 4-byte scalars) has a record for each
 // item and light, and a fifth function:
@@ -28,9 +31,9 @@
 //
 // Devices compute this record once for each item and light, or once for each pixel and light.
 //
-// The RG_DRAW_FRAGMENT of a program with lights also gets `rgba lit`: the sum of zero and lights 0
-// to p.lights - 1, in order. Only the colour may depend on `lit`: devices ask for depth and `kept`
-// before they run the lights, so that they need not light hidden pixels.
+// The RG_DRAW_FRAGMENT of a program with lights also gets `rg_lit lit`: the sum of zero and
+// lights 0 to p.lights - 1, in order. Only the colour may depend on `lit`: devices ask for depth
+// and `kept` before they run the lights, so that they need not light hidden pixels.
 //
 // A program with many items out of sight can say which these are. It defines RG_GROUP_ITEMS, a
 // power of 2 up to 64, and RG_GROUP, a struct of 4-byte scalars that so many items in a row share,
@@ -147,11 +150,41 @@ RG_FN rg_fragment rg_fragment_make(rgba colour, float depth)
 #define RG_RECORD_LIGHT(rg, p, r, light)
 #endif
 #if defined(RG_LIGHTS)
+#if defined(RG_GLOSS)
+RG_STRUCT(rg_glossy)
+{
+    float r, g, b;
+    float gloss_r, gloss_g, gloss_b;
+};
+#define rg_lit             rg_glossy
+#define RG_LIGHT_PARTS(DO) DO(r) DO(g) DO(b) DO(gloss_r) DO(gloss_g) DO(gloss_b)
+#else
+#define rg_lit             rgba
+#define RG_LIGHT_PARTS(DO) DO(r) DO(g) DO(b) DO(a)
+#endif
 #define RG_DRAW_LIGHT(name)                                                                        \
-    RG_FN rgba rg_program_light(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED, RG_RECORD r RG_UNUSED, \
-                                int px RG_UNUSED, int py RG_UNUSED,                                \
-                                int light RG_UNUSED RG_LIGHT_BY)
-#define RG_FRAGMENT_LIT , rgba lit RG_UNUSED
+    RG_FN rg_lit rg_program_light(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED,                      \
+                                  RG_RECORD r RG_UNUSED, int px RG_UNUSED, int py RG_UNUSED,       \
+                                  int light RG_UNUSED RG_LIGHT_BY)
+#define RG_FRAGMENT_LIT , rg_lit lit RG_UNUSED
+
+RG_FN rg_lit rg_no_light(void)
+{
+    rg_lit none;
+#define RG_DARK(part) none.part = 0.0f;
+    RG_LIGHT_PARTS(RG_DARK)
+#undef RG_DARK
+    return none;
+}
+
+RG_FN rg_lit rg_light_sum(rg_lit a, rg_lit b)
+{
+    rg_lit sum;
+#define RG_SUM(part) sum.part = a.part + b.part;
+    RG_LIGHT_PARTS(RG_SUM)
+#undef RG_SUM
+    return sum;
+}
 #else
 #define RG_FRAGMENT_LIT
 #endif

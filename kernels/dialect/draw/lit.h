@@ -4,14 +4,9 @@
 
 #if defined(RG_LIGHTS)
 
-RG_FN rgba rg_light_sum(rgba a, rgba b)
+RG_FN rg_lit rg_program_lit(rg_ctx rg, RG_PARAMS p, RG_RECORD r, int px, int py)
 {
-    return rg_rgba(a.r + b.r, a.g + b.g, a.b + b.b, a.a + b.a);
-}
-
-RG_FN rgba rg_program_lit(rg_ctx rg, RG_PARAMS p, RG_RECORD r, int px, int py)
-{
-    rgba lit = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
+    rg_lit lit = rg_no_light();
     for (int light = 0; light < p.lights; light++)
         lit = rg_light_sum(
             lit, rg_program_light(rg, p, r, px, py, light RG_RECORD_LIGHT(rg, p, r, light)));

@@ -281,8 +281,7 @@ struct scene_pixel scene_see(const struct scene *scene, const double from[3], co
         const double falls = scene->ambient * open * scene->zenith[c] +
                              scene->bounced * (1 - open) * scene->horizon[c] + lamps[c];
         const double shown = painted[c] * (own * falls + scene->glow * painted[3] + s.glow) +
-                             mirrored * scene->horizon[c] +
-                             glints[c] * (1 - 0.7 * painted[3]) * fmin(painted[c] / 0.01, 1);
+                             mirrored * scene->horizon[c] + glints[c] * (1 - 0.7 * painted[3]);
         pixel.light[c] = shown + haze * (scene->horizon[c] - shown);
         pixel.slack[c] = (own * falls + scene->glow * painted[3] + s.glow) * (1 - haze) * 2 *
                          sqrt(painted[c] * s.tint[c]) * 1.5 / 255;
