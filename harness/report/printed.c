@@ -36,12 +36,11 @@ json_t *rg_page_printed(const char *id)
     const struct rg_table *table = rg_table_find(id);
     if (!table)
         return NULL;
-    const struct rg_technique *technique = rg_technique_find(table->technique);
     json_t *rows = json_array();
     for (int row = 0; row < table->row_count; row++)
         json_array_append_new(rows, row_json(table, row));
     return json_pack("{ss ss ss sb ss? si so so so}", "about", table->about, "technique",
-                     table->technique, "paper", technique ? technique->paper : "", "is_published",
+                     table->technique, "paper", rg_table_paper(table), "is_published",
                      rg_table_is_published(table), "names", table->names, "keys", table->key_count,
                      "columns", columns_json(table), "rows", rows, "variants",
                      variants_json(table));

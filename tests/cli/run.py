@@ -71,6 +71,7 @@ import losses
 import misbehaving
 import named
 import native
+import own
 import pages
 import pictures
 import reports
@@ -90,7 +91,7 @@ SUITES = {
     "renders": lambda runner: cases.run(runner, cases.RENDERS),
     "tables": lambda runner: cases.run(runner, cases.TABLES),
     "drivers": lambda runner: cases.run(runner, cases.WITH_DRIVERS),
-    "results": lambda runner: runner.check_all(tables.CHECKS + pictures.CHECKS + besides.CHECKS + atlases.CHECKS + limits.CHECKS),
+    "results": lambda runner: runner.check_all(tables.CHECKS + own.CHECKS + pictures.CHECKS + besides.CHECKS + atlases.CHECKS + limits.CHECKS),
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(stored.CHECKS),
     "farm": lambda runner: runner.check_all(farm.CHECKS),

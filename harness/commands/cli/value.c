@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/text/pair.h"
 #include "harness/devices/names.h"
 #include "harness/commands/cli/option.h"
 
@@ -74,27 +75,9 @@ static bool set_bytes(const struct rg_option *row, int64_t *bytes, const char *t
 
 // --- pairs of numbers ---
 
-// Parses a whole number at *text and advances *text. A number out of range becomes the nearest int.
-static bool take_int(const char **text, int *number)
-{
-    char *end;
-    long value = strtol(*text, &end, 10);
-    if (end == *text)
-        return false;
-    *number = value > INT_MAX ? INT_MAX : value < INT_MIN ? INT_MIN : (int)value;
-    *text = end;
-    return true;
-}
-
-// Parses exactly two numbers with a sign between them.
-static bool take_pair(const char *text, char sign, int *first, int *second)
-{
-    return take_int(&text, first) && *text++ == sign && take_int(&text, second) && !*text;
-}
-
 static bool set_size(const struct rg_option *row, struct rg_size *size, const char *text)
 {
-    if (!take_pair(text, 'x', &size->width, &size->height))
+    if (!rg_pair_read(text, 'x', &size->width, &size->height))
         return rg_error("--%s %s: write it as WIDTHxHEIGHT, as in 1280x720", row->name, text);
     if (size->width < 1 || size->height < 1 || size->width > MAX_SIZE_PX ||
         size->height > MAX_SIZE_PX)
@@ -102,15 +85,10 @@ static bool set_size(const struct rg_option *row, struct rg_size *size, const ch
     return true;
 }
 
-// Parses two numbers, or one that stands for both.
 static bool set_range(const struct rg_option *row, struct rg_range *range, const char *text)
 {
-    const char *rest = text;
-    if (!take_pair(text, '-', &range->first, &range->last)) {
-        if (!take_int(&rest, &range->first) || *rest)
-            return rg_error("--%s %s: write it as FIRST-LAST, as in 2-4", row->name, text);
-        range->last = range->first;
-    }
+    if (!rg_range_read(text, &range->first, &range->last))
+        return rg_error("--%s %s: write it as FIRST-LAST, as in 2-4", row->name, text);
     if (range->first < row->least || range->last < range->first)
         return rg_error("--%s %s: %s count from %.10g, the first not after the last", row->name,
                         text, row->name, row->least);

@@ -4,6 +4,7 @@
 
 #include "core/base/log.h"
 #include "core/base/text/words.h"
+#include "harness/tables/own/file.h"
 #include "harness/tables/papers/papers.h"
 
 bool rg_table_refuse(const char *id)
@@ -14,6 +15,20 @@ bool rg_table_refuse(const char *id)
     return rg_error("table '%s': unknown; the nearest is '%s', and `raingauge list tables` prints "
                     "them",
                     id, nearest.name);
+}
+
+bool rg_tables_read(const struct rg_words *names, struct rg_words *ids)
+{
+    *ids = *names;
+    for (int i = 0; i < ids->count; i++) {
+        if (!rg_own_is_file(names->items[i]))
+            continue;
+        const struct rg_table *own = rg_own_read(names->items[i]);
+        if (!own)
+            return false;
+        ids->items[i] = own->id;
+    }
+    return true;
 }
 
 bool rg_tables_choose(const struct rg_words *ids, const struct rg_table *chosen[RG_MAX_WORDS],

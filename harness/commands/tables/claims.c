@@ -3,6 +3,7 @@
 #include "core/base/memory.h"
 #include "harness/commands/cli/command.h"
 #include "harness/commands/cli/shared.h"
+#include "harness/commands/tables/chosen.h"
 #include "harness/commands/tables/inputs.h"
 #include "harness/commands/tables/verdicts.h"
 #include "harness/console/duration.h"
@@ -31,7 +32,8 @@ struct claims_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
     {RG_OPTION_OPERAND, .argument = "ID",
-     .about = "a table whose claims to decide; with --budget, --quick or --full all that have "
+     .about = "a table whose claims to decide, or a file with one of your own; with --budget, "
+              "--quick or --full all that have "
               "claims if none is named",
      .names = RG_NAMES_TABLE, .first = 1},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
@@ -154,7 +156,10 @@ static int claims(const void *values, const struct rg_words *arguments)
     struct rg_claim_outcomes outcomes = {0};
     o.outcomes = &outcomes;
     rg_memory_allow(o.memory_bytes);
-    const int exit = o.from ? judge(&o, arguments) : measure(&o, arguments);
+    struct rg_words ids;
+    const int exit = !rg_tables_read(arguments, &ids) ? rg_exit_of_error()
+                     : o.from                         ? judge(&o, &ids)
+                                                      : measure(&o, &ids);
     rg_claims_free(&outcomes);
     return exit;
 }

@@ -17,8 +17,8 @@
 #include "harness/record/output.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/regenerate.h"
-#include "harness/tables/sweep/grid.h"
-#include "harness/tables/sweep/plan.h"
+#include "harness/tables/own/grid.h"
+#include "harness/tables/own/plan.h"
 
 struct sweep_options {
     struct rg_words axes, sets;
@@ -86,7 +86,7 @@ static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char *
         if (strncmp(text, DEVICE_AXIS, strlen(DEVICE_AXIS)) != 0) {
             if (grid->axis_count == RG_GRID_AXES)
                 return rg_error("--axis: more than %d axes", RG_GRID_AXES);
-            if (!rg_axis_read(text, &grid->axes[grid->axis_count++]))
+            if (!rg_axis_read("--axis", text, &grid->axes[grid->axis_count++]))
                 return false;
             continue;
         }

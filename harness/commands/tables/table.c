@@ -55,8 +55,10 @@ static const char *const works[] = {"paper", "reading", "ours", "queries", NULL}
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
     {RG_OPTION_OPERAND, .argument = "ID",
-     .about = "tables to measure; `raingauge list tables` prints the names. With --budget, "
-              "--quick, --full, --from or --compile all are meant if none is named",
+     .about = "tables to measure; `raingauge list tables` prints the names. A name with a slash, "
+              "or that ends in .table, is a file with a table of your own (docs/tables.md). With "
+              "--budget, --quick, --full, --from or --compile all papers' are meant if none is "
+              "named",
      .names = RG_NAMES_TABLE, .first = 1},
     {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
      .offset = AT(rows), .least = 1, .most = INT_MAX},
@@ -413,8 +415,10 @@ static int table(const void *values, const struct rg_words *arguments)
     o.kept_results = &kept;
     if (!rg_sets_join(&o.sets, &o.set))
         return rg_exit_of_error();
-    const bool is_read = !o.kept || (needs_claims(&o) && rg_stored_read(&kept, o.kept));
-    const int exit = is_read ? print_tables(&o, arguments) : rg_exit_of_error();
+    struct rg_words ids;
+    const bool is_read = rg_tables_read(arguments, &ids) &&
+                         (!o.kept || (needs_claims(&o) && rg_stored_read(&kept, o.kept)));
+    const int exit = is_read ? print_tables(&o, &ids) : rg_exit_of_error();
     rg_stored_free(&kept);
     free(o.set);
     rg_claims_free(&outcomes);

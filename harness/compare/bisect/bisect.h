@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/compare/bisect/verdict.h"
-#include "harness/compare/text/lines.h"
+#include "core/base/files/lines.h"
 
 // --- candidates, in order ---
 

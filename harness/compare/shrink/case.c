@@ -8,7 +8,7 @@
 #include "core/base/log.h"
 #include "core/base/text/place.h"
 #include "core/base/text/words.h"
-#include "harness/compare/text/lines.h"
+#include "core/base/files/lines.h"
 #include "harness/compare/shrink/files.h"
 #include "harness/record/output.h"
 

@@ -30,6 +30,20 @@ enum rg_claim_test {
                        // as from `knee` to `last`
 };
 
+// The tests' names, and which of a claim's members each needs beside rows and a variant.
+enum {
+    RG_CLAIM_LEAST = 1,
+    RG_CLAIM_MOST = 2,
+    RG_CLAIM_KNEE = 4,
+    RG_CLAIM_OTHER = 8,
+};
+struct rg_claim_form {
+    const char *name; // "falls"
+    int needs;
+};
+enum { RG_CLAIM_TESTS = RG_CLAIM_FLATTENS + 1 };
+extern const struct rg_claim_form rg_claim_forms[RG_CLAIM_TESTS]; // by rg_claim_test
+
 // RG_CLAIM_FALL is the least whole value of FALLS, since enough launches find any fall.
 // RG_CLAIM_REVERSAL is the largest rise between neighbouring rows. Creus's words allow a tenth: he
 // calls a table a decrease in which one row is 1.09 times as fast as the one before it (table 5.3,
@@ -66,8 +80,8 @@ enum { RG_CLAIM_ID = 192 };
 // "stuppacher-1/complex-models-25-slower-at-least". It is unique.
 void rg_claim_id(const struct rg_claim *claim, char id[RG_CLAIM_ID]);
 
-// All claims, by table; the last has no table.
-extern const struct rg_claim rg_claims[];
+// All claims, by table, of papers and of files that were read; the last has no table.
+extern const struct rg_claim *rg_claims;
 
 enum rg_claim_verdict {
     RG_CLAIM_REPRODUCED,

@@ -19,7 +19,7 @@
 #define REAL_TIME 15
 
 // clang-format off
-const struct rg_claim rg_claims[] = {
+static const struct rg_claim of_papers[] = {
     // Chin, "Animating Raindrops on a Surface" (2016)
     {SAID("chin-timing", "full", "5", "The simulation runs well at 30fps"),
      .test = RG_CLAIM_RATE, .first = 1, .last = 1, .least = 30},
@@ -143,6 +143,24 @@ const struct rg_claim rg_claims[] = {
     {.table = NULL},
 };
 // clang-format on
+
+const struct rg_claim *rg_claims = of_papers;
+
+const struct rg_claim_form rg_claim_forms[RG_CLAIM_TESTS] = {
+    [RG_CLAIM_FALLS] = {"falls", 0},
+    [RG_CLAIM_ORDER] = {"order", 0},
+    [RG_CLAIM_RATIO] = {"ratio", RG_CLAIM_LEAST},
+    [RG_CLAIM_TIMES] = {"times", RG_CLAIM_LEAST | RG_CLAIM_MOST},
+    [RG_CLAIM_ALIKE] = {"alike", RG_CLAIM_MOST},
+    [RG_CLAIM_APART] = {"apart", RG_CLAIM_LEAST},
+    [RG_CLAIM_EXPONENT] = {"exponent", RG_CLAIM_LEAST | RG_CLAIM_MOST},
+    [RG_CLAIM_FASTER] = {"faster", RG_CLAIM_OTHER | RG_CLAIM_LEAST},
+    [RG_CLAIM_RATE] = {"rate", RG_CLAIM_LEAST},
+    [RG_CLAIM_OPTIMUM] = {"optimum", RG_CLAIM_KNEE},
+    [RG_CLAIM_SLOWEST] = {"slowest", RG_CLAIM_KNEE},
+    [RG_CLAIM_CROSSES] = {"crosses", RG_CLAIM_OTHER | RG_CLAIM_KNEE},
+    [RG_CLAIM_FLATTENS] = {"flattens", RG_CLAIM_KNEE | RG_CLAIM_LEAST},
+};
 
 bool rg_claim_is_of_each_row(const struct rg_claim *claim)
 {

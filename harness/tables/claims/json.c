@@ -5,28 +5,6 @@
 
 static const char *const sources[] = {[RG_CLAIM_SAID] = "said", [RG_CLAIM_PRINTED] = "printed"};
 
-// Tests by name, with their bounds (docs/claims.md).
-static const struct test {
-    const char *name;
-    bool has_least, has_most;
-} tests[] = {
-    [RG_CLAIM_FALLS] = {"falls", false, false},      [RG_CLAIM_ORDER] = {"order", false, false},
-    [RG_CLAIM_RATIO] = {"ratio", true, false},       [RG_CLAIM_TIMES] = {"times", true, true},
-    [RG_CLAIM_ALIKE] = {"alike", false, true},       [RG_CLAIM_APART] = {"apart", true, false},
-    [RG_CLAIM_EXPONENT] = {"exponent", true, true},  [RG_CLAIM_FASTER] = {"faster", true, false},
-    [RG_CLAIM_RATE] = {"rate", true, false},         [RG_CLAIM_OPTIMUM] = {"optimum", false, false},
-    [RG_CLAIM_SLOWEST] = {"slowest", false, false},  [RG_CLAIM_CROSSES] = {"crosses", false, false},
-    [RG_CLAIM_FLATTENS] = {"flattens", true, false},
-};
-
-// The paper's key, from its table's id.
-static const char *paper_of(const struct rg_claim *claim)
-{
-    const struct rg_table *table = rg_table_find(claim->table);
-    const struct rg_technique *technique = table ? rg_technique_find(table->technique) : NULL;
-    return technique ? technique->paper : "";
-}
-
 static json_t *bound(bool has, double value)
 {
     return has ? rg_number_json(value) : json_null();
@@ -41,16 +19,17 @@ static json_t *knee_json(const struct rg_claim *claim)
 // A claim and its test, without a verdict.
 static json_t *claim_json(const struct rg_claim *claim)
 {
-    const struct test *test = &tests[claim->test];
+    const struct rg_claim_form *test = &rg_claim_forms[claim->test];
+    const struct rg_table *table = rg_table_find(claim->table);
     char id[RG_CLAIM_ID];
     rg_claim_id(claim, id);
     return json_pack("{ss ss ss ss ss ss ss? ss ss ss? s[ii] so so so sb}", "id", id, "table",
-                     claim->table, "paper", paper_of(claim), "section", claim->where, "source",
-                     sources[claim->source], "words", claim->words, "part", claim->part, "test",
-                     test->name, "variant", claim->variant, "other_variant", claim->other, "rows",
-                     claim->first, claim->last, "knee_rows", knee_json(claim), "least",
-                     bound(test->has_least, claim->least), "most",
-                     bound(test->has_most, claim->most), "is_ours", claim->is_ours);
+                     claim->table, "paper", table ? rg_table_paper(table) : "", "section",
+                     claim->where, "source", sources[claim->source], "words", claim->words, "part",
+                     claim->part, "test", test->name, "variant", claim->variant, "other_variant",
+                     claim->other, "rows", claim->first, claim->last, "knee_rows", knee_json(claim),
+                     "least", bound(test->needs & RG_CLAIM_LEAST, claim->least), "most",
+                     bound(test->needs & RG_CLAIM_MOST, claim->most), "is_ours", claim->is_ours);
 }
 
 static json_t *text_or_null(const char *text)

@@ -8,7 +8,8 @@
 #define ENTRY(id)   &rg_table_##id,
 
 RG_TABLES(DECLARE)
-const struct rg_table *const rg_tables[] = {RG_TABLES(ENTRY) NULL};
+static const struct rg_table *const of_papers[] = {RG_TABLES(ENTRY) NULL};
+const struct rg_table *const *rg_tables = of_papers;
 
 const struct rg_table *rg_table_find(const char *id)
 {

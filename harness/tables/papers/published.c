@@ -20,6 +20,12 @@ char *rg_table_quick(const struct rg_table *table, int divisor)
     return text;
 }
 
+const char *rg_table_paper(const struct rg_table *table)
+{
+    const struct rg_technique *technique = rg_technique_find(table->technique);
+    return technique && !table->is_own ? technique->paper : "";
+}
+
 bool rg_table_is_published(const struct rg_table *table)
 {
     return table->hardware != NULL;

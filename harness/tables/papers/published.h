@@ -83,11 +83,14 @@ struct rg_table {
     int row_count;     // at most RG_TABLE_ROWS
     const struct rg_table_row *rows;
     const char *note; // one-line note that readers of the table need
+    bool is_own;      // from a user's file, and of no paper
 };
 
 // Quick mode's assignments for a size divisor of 4, 2 or 1; the caller frees them. NULL, and one
 // logged line, when memory runs out.
 char *rg_table_quick(const struct rg_table *table, int divisor);
+// The key of the paper that it is of; "" for none.
+const char *rg_table_paper(const struct rg_table *table);
 bool rg_table_is_published(const struct rg_table *table);
 // The number in a row's column; NAN if the table has no such column.
 double rg_table_value(const struct rg_table *table, int row, const char *column);

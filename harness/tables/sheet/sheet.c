@@ -250,7 +250,7 @@ static void fill_ratio(const struct rg_record *record, char text[RG_SHEET_CELL])
     const double fps = rg_record_fps(record);
     if (low < high)
         snprintf(text, RG_SHEET_CELL, "%.2f to %.2f", fps / high, fps / low);
-    else
+    else if (!isnan(low)) // one variant may be printed, and another not
         snprintf(text, RG_SHEET_CELL, "%.2f", fps / low);
 }
 

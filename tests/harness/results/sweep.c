@@ -9,14 +9,14 @@
 #include <string.h>
 
 #include "core/techniques/technique.h"
-#include "harness/tables/sweep/grid.h"
+#include "harness/tables/own/grid.h"
 #include "tests/tools/expect.h"
 
 static void expect_axis(const char *text, const char *name, const char *const *values)
 {
     struct rg_axis axis;
     int count = 0;
-    assert_true(rg_axis_read(text, &axis));
+    assert_true(rg_axis_read("--axis", text, &axis));
     assert_string_equal(axis.name, name);
     for (; values[count]; count++)
         assert_string_equal(axis.values[count], values[count]);
@@ -45,7 +45,7 @@ static void other_axes_are_refused(void **state)
         "a=1,2..0", "a=x,2..3", "a=1,2..y", "a=1 2", "a=1,2..65", "a=1,2..1e9"};
     struct rg_axis axis;
     for (size_t i = 0; i < sizeof(wrong) / sizeof(wrong[0]); i++)
-        if (rg_axis_read(wrong[i], &axis))
+        if (rg_axis_read("--axis", wrong[i], &axis))
             fail_msg("'%s' is taken", wrong[i]);
 }
 
@@ -54,7 +54,7 @@ static struct rg_grid *grid_of(const char *const *axes)
     struct rg_grid *grid = calloc(1, sizeof(*grid));
     assert_non_null(grid);
     for (; axes[grid->axis_count]; grid->axis_count++)
-        assert_true(rg_axis_read(axes[grid->axis_count], &grid->axes[grid->axis_count]));
+        assert_true(rg_axis_read("--axis", axes[grid->axis_count], &grid->axes[grid->axis_count]));
     return grid;
 }
 

@@ -5,7 +5,7 @@ TESTS = ("parameters", "command line, parsing", "options of all commands", "comm
          "command line, renders", "command line, pages", "streaks, sizes")
 
 PARAMS, VALUE, PARSE, OPTION = ("core/techniques/params.c", "harness/commands/cli/value.c", "harness/commands/cli/parse.c", "harness/commands/cli/option.c")
-WORDS = "core/base/text/words.c"
+WORDS, PAIR = "core/base/text/words.c", "core/base/text/pair.c"
 
 THREADS = "harness/console/threads.c"
 
@@ -32,9 +32,9 @@ ROWS = [
     Fault(PARAMS, "snprintf(text, size, «\"%.10g\"», *double_at", "\"%.3g\"", "parameters print three digits"),
     Fault(VALUE, "if (value < row->least || «value > row->most»)", "false", "an option's number may be above its range"),
     Fault(VALUE, "if (!(«*number > 0» && *number <= row->most))", "*number >= 0", "a factor may be 0"),
-    Fault(VALUE, "return take_int(&text, first) && *text++ == sign && take_int(&text, second) && «!*text»;", "true", "what follows a size is ignored"),
+    Fault(PAIR, "return take(&text, first) && *text++ == sign && take(&text, second) && «!*text»;", "true", "what follows a size is ignored"),
     Fault(VALUE, "if (size->width < 1 || size->height < 1 || size->width > MAX_SIZE_PX ||\n        «size->height > MAX_SIZE_PX»)", "false", "a picture may be of any height"),
-    Fault(VALUE, "range->last = «range->first»;", "range->first + 1", "a range of one number has two"),
+    Fault(PAIR, "*last = «*first»;", "*first + 1", "a range of one number has two"),
     Fault(VALUE, "if (range->first < row->least || «range->last < range->first»)", "false", "a range may run backwards"),
     Fault(VALUE, "if («errno || value < INT_MIN || value > INT_MAX»)", "false", "a number that does not fit is cut"),
     Fault(VALUE, "*(int *)at(row, values) = «(int)row->least - 1»;", "(int)row->least", "an option that is not given has its least value"),

@@ -41,7 +41,7 @@ ROWS = [
     Fault(COMPILE, "if («status» && exit != RG_EXIT_UNSUPPORTED", "0", "what is not compiled is not told", tests=("compiling beforehand",)),
     Fault(COMPILE, "status && «exit != RG_EXIT_UNSUPPORTED»", "true", "what is unsupported is told as a failure", tests=("compiling beforehand",)),
     Fault(COMPILE, "begun < count_of(jobs) && «!rg_interrupted()») {", "true", "what was interrupted begins the rest", tests=("compiling beforehand",)),
-    Fault("harness/tables/sweep/plan.c", "probe_settings(device, &subject, «rg_cell_steps(table)», probe)", "1", "a sweep is of the first frames", tests=("foreseen",)),
+    Fault("harness/tables/own/plan.c", "probe_settings(device, &subject, «rg_cell_steps(table)», probe)", "1", "a sweep is of the first frames", tests=("foreseen",)),
     Fault(CELL, "*step_ms = passed_ms «/ fmax(done, 1)»;", "/ 1", "each step takes what all do", tests=("foreseen",)),
     Fault(CELL, "done < steps && «passed_ms < LONGEST_MS» &&", "true", "looking takes as long as what it foresees", tests=("foreseen",)),
     Fault(CELL, "passed_ms < LONGEST_MS && «!rg_interrupted()») {", "true", "an interrupted look goes on", tests=("foreseen",)),

@@ -55,7 +55,7 @@ ROWS = [
     Fault("harness/tables/print.c", "«full < 2»; full++)", "false", "a journal replaces a file that is read", tests=("command line, tables",)),
     Fault(REGENERATE, "«(exit == RG_EXIT_USAGE || exit == RG_EXIT_HARNESS)» && i < count; i++)", "false", "what was measured is lost where the claims cannot be printed", tests=("command line, losses",)),
     Fault("harness/commands/tables/sweep.c", ".fresh = «o->fresh»,", "true", "an interrupted sweep begins anew", tests=("command line, losses",)),
-    Fault("harness/tables/sweep/grid.c", "k ? \",\" : \"\", axis->values[«k»]);", "0", "a sweep goes on with rows of other axes", tests=("command line, losses",)),
+    Fault("harness/tables/own/grid.c", "k ? \",\" : \"\", axis->values[«k»]);", "0", "a sweep goes on with rows of other axes", tests=("command line, losses",)),
     Fault(REGENERATE, "return «any_is_lost || rg_interrupted()»;", "rg_interrupted()", "what was measured is lost where the results cannot be written", tests=("command line, losses",)),
     Fault(CLOCK, "clock_gettime(«CLOCK_MONOTONIC», &now);", "CLOCK_REALTIME", "times are taken by a clock that can be set back", tests=("command line, losses",)),
     Fault(DOCUMENT, "*at += strspn(text + *at, \" \\t\\r\\n\");", "", "line ends behind a document are taken for another"),

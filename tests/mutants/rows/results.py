@@ -79,8 +79,12 @@ ROWS = [
     Fault(BEGIN, "if («rg_table_is_extra(table, c)»)", "true", "keys are told as printed numbers"),
     Fault("harness/commands/tables/table.c", "if («strcmp(here, before) != 0»)\n                return rg_error", "false", "verdicts mix quick and full", tests=("command line, kept",)),
     Fault("harness/tables/claims/json.c", "if (!i || «outcome->claim != o->outcomes[i - 1].claim») {", "true", "programs are told a claim once a device", tests=("command line, kept",)),
-    Fault("harness/tables/claims/json.c", "bound(«test->has_least», claim->least)", "true", "programs are told bounds that a test has not", tests=("command line, kept",)),
+    Fault("harness/tables/claims/json.c", "bound(«test->needs & RG_CLAIM_LEAST», claim->least)", "true", "programs are told bounds that a test has not", tests=("command line, kept",)),
     Fault("harness/tables/claims/claims.c", "part = is_of_word ? 0 : *c == ',' || part == '/' ? part : «'-'»;", "0", "ids of claims run their words together", tests=("command line, kept",)),
     Fault("harness/tables/claims/text.c", "const char *length = «result->full ? \"full\" : \"quick\"»;", "\"quick\"", "claims of full tables are told as quick", tests=("command line, kept",)),
     Fault(TEXT, "if («*devices»)\n            rg_sheet_note(sheet, \"%s, %s, %s on %s: %s.\"", "true", "a reason of several devices is told again for each of them", tests=("command line, kept",)),
+    Fault("harness/tables/own/grid.c", "snprintf(set, sizeof(set), \"%s\", «grid->set ? grid->set : \"\"»);", "\"\"", "what a file sets in all rows is lost", tests=("command line, results",)),
+    Fault("harness/tables/own/file.c", "own->table.variants[v].fps = «column»;", "NULL", "printed rates of a file stand beside no variant", tests=("command line, results",)),
+    Fault("harness/tables/own/file.c", "own->grid.rows[row].values[table->key_count + c] = own->values[«row»][c];", "0", "all rows of a file have the first one's print", tests=("command line, results",)),
+    Fault("harness/tables/own/claim.c", "claim->source = «RG_CLAIM_SAID»;", "RG_CLAIM_PRINTED", "somebody's words in a file are no quotation", tests=("command line, results",)),
 ]

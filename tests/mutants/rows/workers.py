@@ -10,7 +10,7 @@ NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devic
 DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/devices/frames/messages.c", "harness/measure/serving/messages.c"
 D = "harness/devices/drivers/"
 CACHES, CHOICE, APART, SIDE, PREFIX = (D + name + ".c" for name in ("caches", "choice", "apart", "side", "prefix"))
-PLAN, DOCTOR, EXAMINE = "harness/tables/sweep/plan.c", "harness/commands/doctor.c", "harness/doctor/examine.c"
+PLAN, DOCTOR, EXAMINE = "harness/tables/own/plan.c", "harness/commands/doctor.c", "harness/doctor/examine.c"
 
 # Tables of fields hold constants, which cannot have a switch: their faults are planted in the code that uses them.
 LEAST = "return «integer_of(value, field) >= field->least» &&"

@@ -10,7 +10,7 @@
 #include "core/base/array.h"
 #include "core/base/log.h"
 #include "core/base/text/place.h"
-#include "harness/compare/text/lines.h"
+#include "core/base/files/lines.h"
 #include "shaders/fixed/fixed.h"
 
 enum { MAX_SIZE_PX = 16384, MAX_FRAMES = 100000 };

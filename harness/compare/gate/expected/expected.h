@@ -7,7 +7,7 @@
 
 #include "core/base/outcome.h"
 #include "harness/compare/gate/report/report.h"
-#include "harness/compare/text/lines.h"
+#include "core/base/files/lines.h"
 #include "harness/compare/gate/text/regex.h"
 
 enum rg_known_form {

@@ -12,7 +12,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/measuring/measure.h"
-#include "harness/tables/sweep/plan.h"
+#include "harness/tables/own/plan.h"
 #include "tests/harness/measuring/fake.h"
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"

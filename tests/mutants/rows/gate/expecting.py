@@ -3,7 +3,7 @@ from fault import Fault
 
 TESTS = ("gate cells", "expectations", "expectations mended", "regular expressions", "command line, acts")
 
-CELLS, LINES, GLOB = "harness/compare/gate/cells/cells.c", "harness/compare/text/lines.c", "harness/compare/gate/text/glob.c"
+CELLS, LINES, GLOB = "harness/compare/gate/cells/cells.c", "core/base/files/lines.c", "harness/compare/gate/text/glob.c"
 DATE, OWN, MESA = "harness/compare/gate/text/date.c", "harness/compare/gate/expected/own.c", "harness/compare/gate/expected/mesa.c"
 JUDGE, MEND = "harness/compare/gate/expected/judge.c", "harness/compare/gate/expected/mend.c"
 REGEX, WRITE, LOG = "harness/compare/gate/text/regex.c", "harness/compare/gate/expected/write.c", "core/base/log.c"

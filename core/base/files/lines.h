@@ -1,6 +1,6 @@
 // A text file as lines with their positions.
-#ifndef RG_HARNESS_COMPARE_TEXT_LINES_H
-#define RG_HARNESS_COMPARE_TEXT_LINES_H
+#ifndef RG_CORE_BASE_FILES_LINES_H
+#define RG_CORE_BASE_FILES_LINES_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-#include "harness/tables/sweep/axis.h"
+#include "harness/tables/own/axis.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,9 +10,9 @@
 static bool add(struct rg_axis *axis, const char *text, const char *value, size_t length)
 {
     if (axis->count == RG_TABLE_ROWS)
-        return rg_error("--axis %s: more than %d values", text, RG_TABLE_ROWS);
+        return rg_error("%s %s: more than %d values", axis->word, text, RG_TABLE_ROWS);
     if (!length || length >= RG_AXIS_VALUE || memchr(value, ' ', length))
-        return rg_error("--axis %s: write it as NAME=VALUE,VALUE or NAME=5,10..40", text);
+        return rg_error("%s %s: write it as NAME=VALUE,VALUE or NAME=5,10..40", axis->word, text);
     char *to = axis->values[axis->count++];
     memcpy(to, value, length);
     to[length] = 0;
@@ -36,10 +36,11 @@ static bool add_range(struct rg_axis *axis, const char *text, const char *from, 
     snprintf(last, sizeof(last), "%.*s", (int)to_length, to);
     if (!axis->count || !read_number(axis->values[axis->count - 1], &before) ||
         !read_number(second, &a) || !read_number(last, &b))
-        return rg_error("--axis %s: a range goes on from a number before it, as in 5,10..40", text);
+        return rg_error("%s %s: a range goes on from a number before it, as in 5,10..40",
+                        axis->word, text);
     const double step = a - before, steps = step != 0 ? floor((b - a) / step + 1e-9) : -1;
     if (!(steps >= 0)) // also if infinite numbers made it NAN
-        return rg_error("--axis %s: %s does not come after %s and %s", text, last,
+        return rg_error("%s %s: %s does not come after %s and %s", axis->word, text, last,
                         axis->values[axis->count - 1], second);
     for (double i = 0; i <= steps; i++) {
         char value[RG_AXIS_VALUE];
@@ -62,12 +63,12 @@ static const char *range_in(const char *value, size_t length)
     return read_number(first, &number) ? dots : NULL;
 }
 
-bool rg_axis_read(const char *text, struct rg_axis *axis)
+bool rg_axis_read(const char *word, const char *text, struct rg_axis *axis)
 {
     const char *equals = strchr(text, '=');
-    *axis = (struct rg_axis){0};
+    *axis = (struct rg_axis){.word = word};
     if (!equals || equals == text || equals - text >= RG_AXIS_NAME)
-        return rg_error("--axis %s: write it as NAME=VALUE,VALUE or NAME=5,10..40", text);
+        return rg_error("%s %s: write it as NAME=VALUE,VALUE or NAME=5,10..40", axis->word, text);
     memcpy(axis->name, text, (size_t)(equals - text));
     const char *from = equals + 1;
     for (bool more = true; more;) {

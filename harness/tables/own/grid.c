@@ -1,10 +1,11 @@
-#include "harness/tables/sweep/grid.h"
+#include "harness/tables/own/grid.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/text/add.h"
 #include "core/techniques/technique.h"
 
 static const struct rg_param *param_of(const struct rg_technique *technique,
@@ -27,15 +28,16 @@ static bool add_columns(struct rg_grid *grid, const struct rg_technique *techniq
         const struct rg_axis *axis = &grid->axes[i];
         for (int k = 0; k < i; k++)
             if (!strcmp(grid->axes[k].name, axis->name))
-                return rg_error("--axis %s: stands twice; name all its values at once", axis->name);
+                return rg_error("%s %s: stands twice; name all its values at once", axis->word,
+                                axis->name);
         // A preset has to be the first axis, because it overwrites parameters that are set before.
         if (i && technique->params->preset && !strcmp(axis->name, technique->params->preset))
-            return rg_error("--axis %s: stands for other parameters; name it before --axis %s",
+            return rg_error("%s %s: stands for other parameters; name it before %s", axis->word,
                             axis->name, grid->axes[0].name);
         if (has_column(technique, axis))
             table->columns[table->key_count++] = axis->name;
         else if (table->names)
-            return rg_error("--axis %s: only one axis can be of files, and %s is", axis->name,
+            return rg_error("%s %s: only one can be of files, and %s is", axis->word, axis->name,
                             table->names);
         else
             table->names = axis->name;
@@ -53,6 +55,8 @@ static double value_of(const struct rg_param *param, const void *settings)
 // The index of a row's value on an axis; the last axis varies fastest.
 static int index_at(const struct rg_grid *grid, int axis, int row)
 {
+    if (grid->is_listed)
+        return row;
     for (int i = grid->axis_count - 1; i > axis; i--)
         row /= grid->axes[i].count;
     return row % grid->axes[axis].count;
@@ -61,10 +65,10 @@ static int index_at(const struct rg_grid *grid, int axis, int row)
 static void write_set(struct rg_grid *grid, int row)
 {
     char set[RG_SET_SIZE];
-    size_t used = 0;
-    for (int i = 0; i < grid->axis_count && used < sizeof(set); i++)
-        used += (size_t)snprintf(set + used, sizeof(set) - used, "%s%s=%s", i ? " " : "",
-                                 grid->axes[i].name, grid->axes[i].values[index_at(grid, i, row)]);
+    snprintf(set, sizeof(set), "%s", grid->set ? grid->set : "");
+    for (int i = 0; i < grid->axis_count; i++)
+        rg_text_add(set, sizeof(set), " ", "%s=%s", grid->axes[i].name,
+                    grid->axes[i].values[index_at(grid, i, row)]);
     memcpy(grid->sets[row], set, sizeof(set));
     grid->rows[row].set = grid->sets[row];
 }
@@ -109,9 +113,9 @@ bool rg_grid_make(struct rg_grid *grid, const struct rg_technique *technique)
 {
     int64_t rows = 1;
     for (int i = 0; i < grid->axis_count; i++)
-        rows *= grid->axes[i].count;
+        rows = grid->is_listed ? grid->axes[i].count : rows * grid->axes[i].count;
     if (rows > RG_TABLE_ROWS)
-        return rg_error("--axis: %lld rows are more than %d; leave some values out",
+        return rg_error("%s: %lld rows are more than %d; leave some values out", grid->axes[0].word,
                         (long long)rows, RG_TABLE_ROWS);
     snprintf(grid->id, sizeof(grid->id), "sweep-%s", technique->name);
     grid->table = (struct rg_table){.id = grid->id,

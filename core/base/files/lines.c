@@ -1,4 +1,4 @@
-#include "harness/compare/text/lines.h"
+#include "core/base/files/lines.h"
 
 #include <errno.h>
 #include <stdio.h>
