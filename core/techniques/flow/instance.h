@@ -26,8 +26,7 @@ enum flow_pass {
     FLOW_SMOOTH_THRICE,
     FLOW_SMOOTH_WIDE,
     FLOW_PACE,
-    FLOW_SPREAD_OUT,
-    FLOW_SPREAD_BACK,
+    FLOW_SPREAD,
     FLOW_WET_ROWS,
     FLOW_WET,
     FLOW_CLOSE_ACROSS,
@@ -84,7 +83,8 @@ struct flow {
     struct rg_asset *panes;          // the panes' orientations
     struct rg_asset *ways;           // the slides of water (flow_ways_at); NULL: nothing slides
     struct flow_told told;
-    int model_faces; // 0: no model
+    int model_faces;               // 0: no model
+    struct rg_asset *pace, *paces; // of the lattice's cells, swapped as they spread; or NULL
     float model_low[3], model_high[3];
     // Parameters of the current frame's stages.
     flow_splat_params drop;

@@ -114,10 +114,8 @@ static const struct rg_stage stages[FLOW_PASS_COUNT] = {
     [FLOW_SMOOTH_WIDE] = {"flow_smooth", is_sliding, .params = AT(sliding), .over = "level",
                           .named = {{"rough", "level"}, {"even", "wide"}}},
     [FLOW_PACE] = {"flow_pace", is_sliding, .params = AT(sliding), .over = "level"},
-    [FLOW_SPREAD_OUT] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
-                         .named = {{"slow", "pace"}, {"cells", "mean"}, {"fast", "paces"}}},
-    [FLOW_SPREAD_BACK] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
-                          .named = {{"slow", "paces"}, {"cells", "mean"}, {"fast", "pace"}}},
+    [FLOW_SPREAD] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
+                     .named = {{"slow", "pace"}, {"cells", "mean"}, {"fast", "paces"}}},
     [FLOW_WET_ROWS] = {"flow_wet_rows", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_WET] = {"flow_wet", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_CLOSE_ACROSS] = {"flow_across", is_sliding, .params = AT(sliding), .over = "close_rows",
@@ -213,8 +211,8 @@ static void add_sliding(struct flow *flow)
     rg_add_buf(i, "level", all, NULL);
     rg_add_buf(i, "close", all, NULL);
     rg_add_buf(i, "wide", all, NULL);
-    rg_add_buf(i, "pace", all, NULL);
-    rg_add_buf(i, "paces", all, NULL);
+    flow->pace = rg_add_buf(i, "pace", all, NULL);
+    flow->paces = rg_add_buf(i, "paces", all, NULL);
     rg_add_buf(i, "mean", all, NULL);
     rg_add_buf(i, "ridge", all, NULL);
     rg_add_buf(i, "close_rows", rows, NULL);

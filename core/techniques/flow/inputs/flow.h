@@ -78,6 +78,7 @@ void flow_panes_at(const struct flow_settings *settings, int noise_size, int64_t
 double flow_distance_mm(const struct flow_settings *settings, int64_t frame);
 // Texels along a side of a pane: resolution_px, or as many as the camera's distance asks for.
 int flow_texels(const struct flow_settings *settings, int64_t frame, int height_px);
+double flow_texel_mm(const struct flow_settings *settings);
 
 // The parameters of the movement's and the normal map's kernels at a frame.
 flow_params flow_params_at(const struct flow_settings *settings, int noise_size, int64_t frame);
@@ -106,6 +107,8 @@ enum {
 
 // The part of a number above the next lower whole one.
 double flow_fraction(double x);
+// The whole part of a number that is clamped.
+int flow_clamp(double value, int low, int high);
 // The n-th number of a sequence that fills 0 to 1 evenly, however far it is taken: multiples of the
 // golden ratio.
 double flow_even(int64_t n);

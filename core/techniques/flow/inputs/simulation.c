@@ -123,6 +123,16 @@ void flow_panes_at(const struct flow_settings *s, int noise_size, int64_t frame,
     }
 }
 
+double flow_texel_mm(const struct flow_settings *s)
+{
+    return s->pane_mm / s->resolution_px;
+}
+
+int flow_clamp(double value, int low, int high)
+{
+    return value < low ? low : value > high ? high : (int)value;
+}
+
 double flow_fraction(double x)
 {
     return x - floor(x);
@@ -163,10 +173,9 @@ flow_params flow_params_at(const struct flow_settings *s, int noise_size, int64_
 
 flow_normals_params flow_normals_params_of(const struct flow_settings *s)
 {
-    const double texel_mm = s->pane_mm / s->resolution_px;
     return (flow_normals_params){
         .size = s->resolution_px,
-        .slope_per_height = (float)(s->relief / (2 * texel_mm)),
+        .slope_per_height = (float)(s->relief / (2 * flow_texel_mm(s))),
         .wet_per_height = (float)(1 / s->wet_height),
     };
 }

@@ -159,10 +159,11 @@ static void test_hulls_are_measured(void **state)
     // A cross of 5 texels fills its hull; an L of 3 x 3 has one of its three inner texels less.
     static const int cross[] = {1, 10, 11, 12, 21}, corner[] = {0, 10, 20, 21, 22}, one[] = {7},
                      line[] = {3, 4, 5};
-    assert_equals(flow_convexity(cross, 5, 10), 1);
-    assert_equals(flow_convexity(corner, 5, 10), 5.0 / 6);
-    assert_equals(flow_convexity(one, 1, 10), 1);
-    assert_equals(flow_convexity(line, 3, 10), 1);
+    double room[3 * FLOW_CONVEX_ROOM][2];
+    assert_equals(flow_convexity(cross, 5, 10, room), 1);
+    assert_equals(flow_convexity(corner, 5, 10, room), 5.0 / 6);
+    assert_equals(flow_convexity(one, 1, 10, room), 1);
+    assert_equals(flow_convexity(line, 3, 10, room), 1);
 }
 
 // At the defaults 95 % of the drops at rest that are wider than 2 mm have an area of more than 95 %
