@@ -157,7 +157,7 @@ bool flow_step(struct rg_instance *instance)
     const bool ok = flow_turn_panes(flow) &&
                     (flow->settings.move == FLOW_MOVE_PAPER
                          ? flow_splat_drops(flow, instance->frame,
-                                            flow_drops_at(&flow->settings, instance->frame)) &&
+                                            flow_drops_at(&flow->rain, instance->frame)) &&
                                move(flow)
                          : flow_land_rain(flow) && slide(flow));
     instance->counters[FLOW_TEXELS].value += (int64_t)flow->pane_count * n * n;

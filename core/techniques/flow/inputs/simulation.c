@@ -1,5 +1,5 @@
 // The host's part of flow's simulation: orientation, drops, and the kernels' parameters.
-#include "core/techniques/flow/inputs/rain.h"
+#include "core/techniques/flow/inputs/flow.h"
 
 #include <math.h>
 
@@ -180,13 +180,6 @@ flow_normals_params flow_normals_params_of(const struct flow_settings *s)
     };
 }
 
-// The epsilon lets a number that is whole except for rounding count as whole, whatever step_s is.
-int64_t flow_fallen_before(const struct flow_settings *s, int64_t frame)
-{
-    const double spare = s->move == FLOW_MOVE_SLIDING ? 1e-6 : 0;
-    return (int64_t)floor((double)frame * (flow_rain_drops_s(s) * s->step_s) + spare);
-}
-
 flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t frame, int number)
 {
     const uint stream = frame < 0 ? FLOW_STREAM_SEEDED : FLOW_STREAM_RAIN;
@@ -206,9 +199,4 @@ flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t fra
         .height = (float)(radius_mm * s->height_per_mm),
         .capacity = (float)s->capacity,
     };
-}
-
-int flow_drops_at(const struct flow_settings *s, int64_t frame)
-{
-    return (int)(flow_fallen_before(s, frame + 1) - flow_fallen_before(s, frame));
 }

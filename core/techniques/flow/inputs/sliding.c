@@ -26,11 +26,17 @@
 // steep as contact_slope where it is less by 1 / STEEPER.
 #define FILL     0.5
 #define STEEPER  5.0
-#define HOLDS_MM 40.0
+#define HOLDS_MM 40.0 // a texel; water above it drips off
 
 static int texels_a_cell(const struct flow_settings *s)
 {
     return (int)fmax(ceil(CELL_MM / flow_texel_mm(s) - 1e-9), 1);
+}
+
+// In units of water, which a float counts to the droplet.
+double flow_least_relief_mm(void)
+{
+    return HOLDS_MM / (double)FLOW_EDGE_HOLDS;
 }
 
 int flow_lattice_cells(const struct flow_settings *s)
