@@ -132,7 +132,6 @@ RG_STRUCT(drops_params)
     // The passes over height and ID maps, one or more in a step.
     int apart; // cells between those that it is flattened and thinned with; 1 by the paper's rules
     float dry_mm;   // above 0; lower water is removed
-    float gap_mm;   // lower water is removed, if no drop at rest puts it back; 0: none
     float owned_mm; // above 0; lower water has no owner
     int down_cell;  // from a cell to the one below it, in cells of a map, as drops run
     int right_cell;
@@ -145,7 +144,7 @@ RG_STRUCT(drops_params)
     int has_joined; // 1: some have merged in this step
     int is_removal; // 1: all drops go in this step
 };
-RG_STRUCT_SIZE(drops_params, 48)
+RG_STRUCT_SIZE(drops_params, 47)
 
 // The cell of a map at a column and row of the pane.
 RG_FN int drops_cell(drops_params p, int column, int row)

@@ -33,6 +33,7 @@ enum drops_stage {
     DROPS_RUN_PLACE,
     DROPS_RUN_OWN,
     DROPS_RUN_FLATTEN,
+    DROPS_RUN_FLATTEN_BEADS,
     DROPS_RUN_DOZE,
     // pictures
     DROPS_RUN_PANE,

@@ -36,6 +36,11 @@ static bool has_beads(const struct rg_instance *i)
     return ((const struct drops *)i)->settings.trail == DROPS_TRAIL_BEADS;
 }
 
+static bool has_no_beads(const struct rg_instance *i)
+{
+    return !has_beads(i);
+}
+
 static const struct rg_stage stages[DROPS_STAGES] = {
     [DROPS_RUN_AFFINITY] = {"drops_affinity", PARAMS},
     [DROPS_RUN_BEADS] = {"drops_beads", has_beads, PARAMS},
@@ -59,7 +64,8 @@ static const struct rg_stage stages[DROPS_STAGES] = {
     [DROPS_RUN_CLEAR] = {"drops_clear", PARAMS},
     [DROPS_RUN_PLACE] = {"drops_place", PARAMS, AT_REST},
     [DROPS_RUN_OWN] = {"drops_own", PARAMS, AT_REST},
-    [DROPS_RUN_FLATTEN] = {"drops_flatten", PARAMS},
+    [DROPS_RUN_FLATTEN] = {"drops_flatten", has_no_beads, PARAMS},
+    [DROPS_RUN_FLATTEN_BEADS] = {"drops_flatten_beads", has_beads, PARAMS},
     [DROPS_RUN_DOZE] = {"drops_doze", PARAMS, .over = "tiles"},
     [DROPS_RUN_PANE] = {"drops_pane", shows_pane, .params = AT(pane), .colour = "target"},
     [DROPS_RUN_SHOW] = {"drops_show", shows_maps, .params = AT(show), .colour = "target"},
@@ -132,7 +138,6 @@ drops_params drops_params_of(const struct drops_settings *s)
         .patch_mm = (float)ruling,
         .reach_cells = (int)lround((3 * ruling / l - 1) / 2),
         .lines = s->trail == DROPS_LINES,
-        .gap_mm = s->trail == DROPS_TRAIL_BEADS ? DROPS_BEAD_GAP_MM : 0,
         .spacing_mm = (float)(1.5 * l),
         .apart = (int)lround(ruling / l),
         .does_sleep = s->sleep && has_one_pass(s),
@@ -166,7 +171,8 @@ static void add_maps(struct drops *d)
     rg_add_buf(i, "still", cells, NULL);
     rg_add_buf(i, "still_ids", cells, NULL);
     rg_add_buf(i, "affinity", cells, NULL);
-    rg_add_buf(i, "held", cells, NULL);
+    if (has_beads(i))
+        rg_add_buf(i, "held", cells, NULL);
     rg_add_buf(i, "labels", cells, NULL);
     rg_add_buf(i, "leaders", cells, nobody);
     rg_add_state(i, d->height, "height", d->params.stride, DROPS_MARGIN);

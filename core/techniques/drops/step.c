@@ -90,7 +90,7 @@ static int passes_in(const struct drops_settings *s, int64_t step)
     return (int)(floor((double)(step + 1) * rate + 1e-6) - floor((double)step * rate + 1e-6));
 }
 
-// kernels/drops/water/flatten.h. Smoothing rounds heights, so that a change of less than half a
+// kernels/drops/water/flattening.h. Smoothing rounds heights, so that a change of less than half a
 // unit vanishes.
 static bool flatten(struct drops *d)
 {
@@ -102,7 +102,7 @@ static bool flatten(struct drops *d)
     p->owned_mm = p->does_spread ? fmaxf((float)s->owned_mm, FLT_MIN) : FLT_MIN;
     bool ok = true;
     for (int i = passes_in(s, d->base.frame - 1); ok && i > 0; i--) {
-        ok = run_rows(d, DROPS_RUN_FLATTEN);
+        ok = run_rows(d, DROPS_RUN_FLATTEN) && run_rows(d, DROPS_RUN_FLATTEN_BEADS);
         rg_swap(d->height, d->next_height);
         rg_swap(d->ids, d->next_ids);
     }

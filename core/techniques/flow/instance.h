@@ -2,7 +2,7 @@
 #ifndef RG_CORE_TECHNIQUES_FLOW_INSTANCE_H
 #define RG_CORE_TECHNIQUES_FLOW_INSTANCE_H
 
-#include "core/techniques/flow/inputs/flow.h"
+#include "core/techniques/flow/inputs/rain.h"
 #include "core/techniques/flow/inputs/sliding.h"
 #include "core/techniques/technique.h"
 #include "kernels/flow/glow/params.h"
@@ -26,8 +26,7 @@ enum flow_pass {
     FLOW_SMOOTH_THRICE,
     FLOW_SMOOTH_WIDE,
     FLOW_PACE,
-    FLOW_SPREAD_OUT,
-    FLOW_SPREAD_BACK,
+    FLOW_SPREAD,
     FLOW_WET_ROWS,
     FLOW_WET,
     FLOW_CLOSE_ACROSS,
@@ -65,7 +64,6 @@ enum { FLOW_DROP_SIZES = 5 };
 
 // The facts of `survey`; NULL without it.
 struct flow_told {
-    struct rg_fact *landed; // NULL for move=paper
     struct rg_fact *wet, *centre, *drops[FLOW_DROP_SIZES];
     struct rg_fact *resting, *convex; // NULL for move=paper
 };
@@ -78,9 +76,15 @@ struct flow {
     struct rg_fact *texels;          // has resolution_px where the camera decides it; else NULL
     struct rg_asset *water, *moved;  // the maps of this frame and of the next, swapped
     struct rg_asset *kept, *heading; // the texels' directions, likewise; NULL: they have none
-    struct rg_asset *landing;        // what drops that slide bring, by texel (land.c); or NULL
+    struct flow_rain rain;
+    // Of drops that slide, as they land (land.c).
+    struct rg_fact *landed;          // the volume of all
+    struct rg_asset *landing;        // what they bring, by texel
     uint32_t *landing_words;         // the host's copy
+    double *landing_mm;              // a drop's height, by texel
+    int64_t landing_texels;          // that one run reaches at most
     double owed_mm3[FLOW_MAX_PANES]; // of drops that landed, less than a droplet
+    struct rg_asset *pace, *paces;   // of the lattice's cells, swapped as they spread; or NULL
     struct rg_asset *panes;          // the panes' orientations
     struct rg_asset *ways;           // the slides of water (flow_ways_at); NULL: nothing slides
     struct flow_told told;
@@ -105,8 +109,8 @@ void flow_close(struct rg_instance *instance);
 
 // --- drops that land (land.c) ---
 
-// Texels that one run of FLOW_LAND reaches at most.
-int64_t flow_landing_texels(const struct flow *flow);
+// Adds what move=sliding needs to land drops; flow_close frees it.
+void flow_open_landing(struct flow *flow);
 // Lands the drops of move=sliding: the initial ones, or those of the current frame.
 bool flow_land_initial(struct flow *flow);
 bool flow_land_rain(struct flow *flow);

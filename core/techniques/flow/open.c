@@ -5,7 +5,6 @@
 
 #include "core/base/alloc.h"
 #include "core/scene/mesh/mesh.h"
-#include "core/techniques/flow/inputs/rain.h"
 #include "core/techniques/flow/instance.h"
 #include "core/techniques/scenery/environment.h"
 #include "kernels/flow/panes/normal_map.h"
@@ -114,10 +113,8 @@ static const struct rg_stage stages[FLOW_PASS_COUNT] = {
     [FLOW_SMOOTH_WIDE] = {"flow_smooth", is_sliding, .params = AT(sliding), .over = "level",
                           .named = {{"rough", "level"}, {"even", "wide"}}},
     [FLOW_PACE] = {"flow_pace", is_sliding, .params = AT(sliding), .over = "level"},
-    [FLOW_SPREAD_OUT] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
-                         .named = {{"slow", "pace"}, {"cells", "mean"}, {"fast", "paces"}}},
-    [FLOW_SPREAD_BACK] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
-                          .named = {{"slow", "paces"}, {"cells", "mean"}, {"fast", "pace"}}},
+    [FLOW_SPREAD] = {"flow_spread", is_sliding, .params = AT(sliding), .over = "level",
+                     .named = {{"slow", "pace"}, {"cells", "mean"}, {"fast", "paces"}}},
     [FLOW_WET_ROWS] = {"flow_wet_rows", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_WET] = {"flow_wet", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_CLOSE_ACROSS] = {"flow_across", is_sliding, .params = AT(sliding), .over = "close_rows",
@@ -213,8 +210,8 @@ static void add_sliding(struct flow *flow)
     rg_add_buf(i, "level", all, NULL);
     rg_add_buf(i, "close", all, NULL);
     rg_add_buf(i, "wide", all, NULL);
-    rg_add_buf(i, "pace", all, NULL);
-    rg_add_buf(i, "paces", all, NULL);
+    flow->pace = rg_add_buf(i, "pace", all, NULL);
+    flow->paces = rg_add_buf(i, "paces", all, NULL);
     rg_add_buf(i, "mean", all, NULL);
     rg_add_buf(i, "ridge", all, NULL);
     rg_add_buf(i, "close_rows", rows, NULL);
@@ -224,11 +221,7 @@ static void add_sliding(struct flow *flow)
     rg_add_buf(i, "wet", texels, NULL);
     rg_add_buf(i, "paced", texels, NULL);
     rg_add_buf(i, "beads", 2 * (int64_t)flow->finest_px * flow->finest_px, NULL);
-    const int64_t landing = 2 * flow_landing_texels(flow);
-    flow->landing = rg_add_buf(i, "landing", landing, NULL);
-    flow->landing_words = rg_alloc((size_t)landing, sizeof(*flow->landing_words), "landing drops");
-    i->has_failed |= !flow->landing_words;
-    flow->told.landed = rg_tell(i, "landed_mm3", 0);
+    flow_open_landing(flow);
     flow->ways = rg_add_buf(i, "ways", 2 * FLOW_PACES * FLOW_MAX_PANES, NULL);
 }
 
@@ -353,13 +346,16 @@ bool flow_open(struct rg_instance *instance)
 {
     struct flow *flow = (struct flow *)instance;
     const struct flow_settings *s = &flow->settings;
+    flow->rain = flow_rain_of(s);
+    if (!flow_rain_fits(&flow->rain))
+        return false;
     flow->pane_count = flow_pane_count(s);
     flow_open_detail(flow);
     rg_add_counters(instance, counter_names,
                     has_model(instance) ? FLOW_COUNTER_COUNT : FLOW_TRIANGLES);
     add_water(flow);
     add_maps(flow);
-    rg_tell(instance, "pane_rain_mm_h", flow_pane_rain_mm_h(s));
+    rg_tell(instance, "pane_rain_mm_h", flow->rain.mm_h);
     if (is_sliding(instance))
         add_sliding(flow);
     if (s->texels_a_pixel > 0)
@@ -380,4 +376,5 @@ bool flow_open(struct rg_instance *instance)
 void flow_close(struct rg_instance *instance)
 {
     free(((struct flow *)instance)->landing_words);
+    free(((struct flow *)instance)->landing_mm);
 }

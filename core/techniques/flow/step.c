@@ -1,20 +1,15 @@
 // A step of flow: drops land, water moves.
 #include "core/techniques/flow/instance.h"
 
-static int clamp(double value, int low, int high)
-{
-    return value < low ? low : value > high ? high : (int)value;
-}
-
 // Runs the splat of one drop over the texels that it covers, if any.
 static bool land_drop(struct flow *flow)
 {
     const flow_splat_params *drop = &flow->drop;
     const double reach = (double)drop->radius_px + 1;
-    const int x0 = clamp((double)drop->centre_x - reach, 0, drop->size);
-    const int y0 = clamp((double)drop->centre_y - reach, 0, drop->size);
-    const int x1 = clamp((double)drop->centre_x + reach, 0, drop->size);
-    const int y1 = clamp((double)drop->centre_y + reach, 0, drop->size);
+    const int x0 = flow_clamp((double)drop->centre_x - reach, 0, drop->size);
+    const int y0 = flow_clamp((double)drop->centre_y - reach, 0, drop->size);
+    const int x1 = flow_clamp((double)drop->centre_x + reach, 0, drop->size);
+    const int y1 = flow_clamp((double)drop->centre_y + reach, 0, drop->size);
     if (x0 >= x1 || y0 >= y1)
         return true;
     flow->base.counters[FLOW_DROPS].value++;
@@ -61,7 +56,7 @@ static bool move(struct flow *flow)
     return ok;
 }
 
-enum { SPREADS = 3 };
+enum { SPREADS = 6 }; // even, so that each group of panes ends in the same map
 
 // Panes that one stage handles together, one group after the other.
 struct group {
@@ -80,8 +75,10 @@ static bool run(const struct group *g, enum flow_pass pass)
 static bool spread(const struct group *g)
 {
     bool ok = true;
-    for (int i = 0; ok && i < SPREADS; i++)
-        ok = run(g, FLOW_SPREAD_OUT) && run(g, FLOW_SPREAD_BACK);
+    for (int i = 0; ok && i < SPREADS; i++) {
+        ok = run(g, FLOW_SPREAD);
+        rg_swap(g->flow->pace, g->flow->paces);
+    }
     return ok;
 }
 
@@ -160,7 +157,7 @@ bool flow_step(struct rg_instance *instance)
     const bool ok = flow_turn_panes(flow) &&
                     (flow->settings.move == FLOW_MOVE_PAPER
                          ? flow_splat_drops(flow, instance->frame,
-                                            flow_drops_at(&flow->settings, instance->frame)) &&
+                                            flow_drops_at(&flow->rain, instance->frame)) &&
                                move(flow)
                          : flow_land_rain(flow) && slide(flow));
     instance->counters[FLOW_TEXELS].value += (int64_t)flow->pane_count * n * n;

@@ -10,6 +10,8 @@
 #include "kernels/flow/water/splat_params.h"
 #include "kernels/flow/water/water.h"
 
+#define FLOW_MOST_DROPS_S 60000 // that fall on a pane
+
 enum flow_direction { FLOW_NEAREST, FLOW_SPLIT, FLOW_EACH_TEXEL };
 enum flow_scene { FLOW_BOX, FLOW_ONE_PANE };
 enum flow_move { FLOW_MOVE_SLIDING, FLOW_MOVE_PAPER };
@@ -76,6 +78,7 @@ void flow_panes_at(const struct flow_settings *settings, int noise_size, int64_t
 // The camera's distance from the middle of the box at a frame. It stays half a pane's side away
 // from the box's corners, unless it starts nearer.
 double flow_distance_mm(const struct flow_settings *settings, int64_t frame);
+double flow_texel_mm(const struct flow_settings *settings);
 // Texels along a side of a pane: resolution_px, or as many as the camera's distance asks for.
 int flow_texels(const struct flow_settings *settings, int64_t frame, int height_px);
 
@@ -104,6 +107,8 @@ enum {
     FLOW_STREAMS_A_PANE = 16
 };
 
+// The whole part of a number that is clamped.
+int flow_clamp(double value, int low, int high);
 // The part of a number above the next lower whole one.
 double flow_fraction(double x);
 // The n-th number of a sequence that fills 0 to 1 evenly, however far it is taken: multiples of the
@@ -114,10 +119,6 @@ double flow_even(int64_t n);
 // those that fall in that frame. inputs/rain.h has those of move=sliding.
 flow_splat_params flow_drop(const struct flow_settings *settings, int pane, int64_t frame,
                             int number);
-// The number of drops that have fallen on a pane before a frame: constant on average, not random.
-int64_t flow_fallen_before(const struct flow_settings *settings, int64_t frame);
-// The number of those that fall in a frame.
-int flow_drops_at(const struct flow_settings *settings, int64_t frame);
 
 // The remainder map (FLOW_REMAINDER_ENTRIES floats, 0 to 1) and the noise map (size x size floats),
 // generated or read from the user's image. The caller frees them. NULL, and one logged line, on

@@ -53,7 +53,7 @@ static const struct rg_param rows[] = {
     {"noise_scroll_x", RG_PARAM_FLOAT, AT(noise_scroll_x), 0.013, -1, 1, "map/frame", "move=paper: how far the window moves across the noise map", NULL},
     {"noise_scroll_y", RG_PARAM_FLOAT, AT(noise_scroll_y), 0.007, -1, 1, "map/frame", "move=paper: how far the window moves down the noise map", NULL},
     {"drops", RG_PARAM_INT, AT(drops), 160, 0, 100000, "1", "seeded drops on each pane at the start", NULL},
-    {"rain_drops_s", RG_PARAM_FLOAT, AT(rain_drops_s), 60, 0, 60000, "1/s", "move=paper: drops that fall on each pane", NULL},
+    {"rain_drops_s", RG_PARAM_FLOAT, AT(rain_drops_s), 60, 0, FLOW_MOST_DROPS_S, "1/s", "move=paper: drops that fall on each pane", NULL},
     {"pane_rain_mm_h", RG_PARAM_FLOAT, AT(pane_rain_mm_h), 31, 0, 10000, "mm/h", "move=sliding: rain that reaches each pane, in drops of a spectrum; 31 is what wind of 10 m/s drives of 20 mm/h", NULL},
     {"contact_deg", RG_PARAM_FLOAT, AT(contact_deg), 60, 5, 90, "deg", "contact angle of a drop that has landed", NULL},
     {"survey", RG_PARAM_CHOICE, AT(survey), 0, 0, 1, "1", "tells how much of the panes is wet, and how many drops of which size they have", "off on"},

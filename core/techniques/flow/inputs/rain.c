@@ -1,21 +1,29 @@
-// The rain that reaches panes of sliding drops.
+// The rain that reaches panes.
 //
-// Wind drives it: Lacy, 1965, has 0.222 R^0.88 mm/h on an upright wall for each metre a second of
-// wind, R the rate on level ground (ISO 15927-3). At 10 m/s 20 mm/h become 31. The wind carries all
-// drops at its own speed, so their sizes are those of the air: Marshall and Palmer's for R.
+// Wind drives that of sliding drops: Lacy, 1965, has 0.222 R^0.88 mm/h on an upright wall for each
+// metre a second of wind, R the rate on level ground (ISO 15927-3). At 10 m/s 20 mm/h become 31.
+// The wind carries all drops at its own speed, so their sizes are those of the air: Marshall and
+// Palmer's for R.
 #include "core/techniques/flow/inputs/rain.h"
 
 #include <math.h>
 
+#include "core/base/log.h"
 #include "core/scene/spectrum.h"
+#include "core/techniques/flow/inputs/sliding.h"
 #include "kernels/dialect/rng.h"
 
 #define WIND_M_S 10.0
 #define LEAST_MM 0.5 // the least diameter; smaller drops are many and have little water
 
+// What a function of the C library gives.
+static double rounded(double value)
+{
+    return (double)(float)value;
+}
+
 // --- sizes ---
 
-// How fast the number of drops falls with their diameter, in 1/mm.
 static double slope_of(const struct flow_settings *s)
 {
     return rg_marshall_palmer_slope(pow(s->pane_rain_mm_h / (0.222 * WIND_M_S), 1 / 0.88));
@@ -27,64 +35,115 @@ static double cubes_beyond(double slope, double d)
     return d * d * d + 3 * d * d / slope + 6 * d / (slope * slope) + 6 / (slope * slope * slope);
 }
 
-// The share of drops larger than the least that are larger than the largest, and left out.
-static double too_large(double slope)
+static double mean_volume_mm3(const struct flow_rain *rain)
 {
-    return exp(-slope * (RG_LARGEST_DROP_MM - LEAST_MM));
-}
-
-static double mean_volume_mm3(double slope)
-{
-    const double cubes =
-        cubes_beyond(slope, LEAST_MM) - too_large(slope) * cubes_beyond(slope, RG_LARGEST_DROP_MM);
-    return M_PI / 6 * cubes / (1 - too_large(slope));
+    const double cubes = cubes_beyond(rain->slope, LEAST_MM) -
+                         rain->too_large * cubes_beyond(rain->slope, RG_LARGEST_DROP_MM);
+    return M_PI / 6 * cubes / (1 - rain->too_large);
 }
 
 // The diameter below which this share of drops is.
-static double diameter_of(double slope, double share)
+static double diameter_of(const struct flow_rain *rain, double share)
 {
-    return LEAST_MM - log(1 - share * (1 - too_large(slope))) / slope;
+    return rounded(LEAST_MM - log(1 - share * (1 - rain->too_large)) / rain->slope);
 }
 
 // --- rates ---
 
-// Of drops with the profile of a half ellipse, whose radii flow_drop spreads as the product of two
-// uniform numbers.
+// The mean of a power of the radii of move=paper, which flow_drop spreads as the square t^2 of a
+// uniform number: the integral of (least + (most - least) t^2)^power by parts.
+static double mean_power(const struct flow_settings *s, int power)
+{
+    double most = 1, mean = 1;
+    for (int n = 1; n <= power; n++) {
+        most *= s->drop_radius_max_mm;
+        mean = (most + 2 * n * s->drop_radius_min_mm * mean) / (2 * n + 1);
+    }
+    return mean;
+}
+
+// What lands of a drop of move=paper, in the mean; water beyond an edge is lost. Water that is (x,
+// y) off its drop's middle is on the pane with a chance of (1 - |x| / side) (1 - |y| / side). Under
+// a half ellipse of radius r the mean of |x| is 3/8 r, and that of |x y| is 2 / (5 pi) r^2. No drop
+// is wider than the pane.
 static double mean_of_paper_mm3(const struct flow_settings *s)
 {
-    const double r = s->drop_radius_min_mm, d = s->drop_radius_max_mm - r;
-    const double cubes = r * r * r + 3 * r * r * d / 4 + 3 * r * d * d / 9 + d * d * d / 16;
+    const double side = s->pane_mm;
+    const double cubes = mean_power(s, 3) - 0.75 * mean_power(s, 4) / side +
+                         2 / (5 * M_PI) * mean_power(s, 5) / (side * side);
     return 2 * M_PI / 3 * cubes * s->height_per_mm * s->relief;
 }
 
-static double mm3_of_rate(const struct flow_settings *s, double mm_h)
+static void set_rates(struct flow_rain *rain)
 {
-    return mm_h / 3600 * s->pane_mm * s->pane_mm; // a second
+    const struct flow_settings *s = rain->settings;
+    const double mm3_s = s->pane_mm * s->pane_mm / 3600; // of 1 mm/h
+    if (s->move == FLOW_MOVE_PAPER) {
+        rain->drops_s = s->rain_drops_s;
+        rain->mm_h = s->rain_drops_s * mean_of_paper_mm3(s) / mm3_s;
+    } else {
+        rain->drops_s =
+            s->pane_rain_mm_h > 0 ? s->pane_rain_mm_h * mm3_s / mean_volume_mm3(rain) : 0;
+        rain->mm_h = s->pane_rain_mm_h;
+    }
+    rain->drops_a_frame = rain->drops_s * s->step_s;
 }
 
-double flow_pane_rain_mm_h(const struct flow_settings *s)
+struct flow_rain flow_rain_of(const struct flow_settings *s)
 {
-    if (s->move == FLOW_MOVE_SLIDING)
-        return s->pane_rain_mm_h;
-    return s->rain_drops_s * mean_of_paper_mm3(s) / mm3_of_rate(s, 1);
+    const double sphere = rounded(1 / sin(s->contact_deg * M_PI / 180));
+    const double depth = sqrt(sphere * sphere - 1), height = sphere - depth;
+    struct flow_rain rain = {.settings = s,
+                             .slope = rounded(slope_of(s)),
+                             .sphere_mm = sphere,
+                             .depth_mm = depth,
+                             .cap_mm3 = M_PI / 6 * height * (3 + height * height)};
+    rain.too_large = rounded(exp(-rain.slope * (RG_LARGEST_DROP_MM - LEAST_MM)));
+    for (uint pane = 0; pane < FLOW_MAX_PANES; pane++)
+        rain.first[pane] = (double)rg_uniform(
+            rg_random((uint)s->seed, 0, 0, FLOW_STREAM_SIZES + FLOW_STREAMS_A_PANE * pane).x);
+    set_rates(&rain);
+    return rain;
 }
 
-double flow_rain_drops_s(const struct flow_settings *s)
+// Of relief, for the largest drop in a corner, where a pane has a quarter of its contact: floats
+// count to the droplet what it brings and, below, what texels hold.
+static double relief_of_largest_mm(const struct flow_rain *rain)
 {
-    if (s->move == FLOW_MOVE_PAPER)
-        return s->rain_drops_s;
-    return s->pane_rain_mm_h > 0 ? mm3_of_rate(s, s->pane_rain_mm_h) / mean_volume_mm3(slope_of(s))
-                                 : 0;
+    const double r = flow_largest_radius_mm(rain), side = fmin(r, rain->settings->pane_mm);
+    const double highest_mm = 2.6 * rain->cap_mm3 * r * r * r / (side * side);
+    return highest_mm / (2 * (double)FLOW_EDGE_HOLDS);
+}
+
+bool flow_rain_fits(const struct flow_rain *rain)
+{
+    const struct flow_settings *s = rain->settings;
+    const double held_mm = flow_least_relief_mm(), largest_mm = relief_of_largest_mm(rain);
+    if (s->move == FLOW_MOVE_SLIDING && s->relief < fmax(held_mm, largest_mm))
+        return rg_error("relief: %g mm a unit of water is too little to count the highest water of "
+                        "move=sliding; take %.9g or more%s",
+                        s->relief, ceil(1000 * fmax(held_mm, largest_mm)) / 1000,
+                        largest_mm > held_mm ? ", lower drop_radius_max_mm or raise pane_mm" : "");
+    if (rain->drops_s > FLOW_MOST_DROPS_S)
+        return rg_error("pane_rain_mm_h: %g mm/h on a pane of pane_mm=%g are %.0f drops a second, "
+                        "more than %d; lower either",
+                        s->pane_rain_mm_h, s->pane_mm, rain->drops_s, FLOW_MOST_DROPS_S);
+    return true;
+}
+
+// The epsilon lets a number that is whole except for rounding count as whole, whatever step_s is.
+int64_t flow_fallen_before(const struct flow_rain *rain, int64_t frame)
+{
+    const double spare = rain->settings->move == FLOW_MOVE_SLIDING ? 1e-6 : 0;
+    return (int64_t)floor((double)frame * rain->drops_a_frame + spare);
+}
+
+int flow_drops_at(const struct flow_rain *rain, int64_t frame)
+{
+    return (int)(flow_fallen_before(rain, frame + 1) - flow_fallen_before(rain, frame));
 }
 
 // --- drops ---
-
-// The volume of a cap by the cube of its contact's radius.
-static double volume_a_cube(const struct flow_settings *s)
-{
-    const double angle = s->contact_deg * M_PI / 180, c = cos(angle);
-    return M_PI / 3 * (2 - 3 * c + c * c * c) / pow(sin(angle), 3);
-}
 
 static struct flow_drop drop_at(const struct flow_settings *s, int pane, rg_uint4 w)
 {
@@ -93,41 +152,50 @@ static struct flow_drop drop_at(const struct flow_settings *s, int pane, rg_uint
                               .y_mm = (double)rg_uniform(w.y) * s->pane_mm};
 }
 
-struct flow_drop flow_initial_drop(const struct flow_settings *s, int pane, int number)
+// The product of two uniform numbers spreads the radii: more drops are small than of move=paper
+// (flow_drop), since large ones slide off at once.
+struct flow_drop flow_initial_drop(const struct flow_rain *rain, int pane, int number)
 {
+    const struct flow_settings *s = rain->settings;
     const uint stream = FLOW_STREAM_SEEDED + FLOW_STREAMS_A_PANE * (uint)pane;
     const rg_uint4 w = rg_random((uint)s->seed, (uint)number, 0, stream);
     struct flow_drop drop = drop_at(s, pane, w);
     const double t = (double)rg_uniform(w.z) * (double)rg_uniform(w.w);
-    drop.radius_mm = s->drop_radius_min_mm + (s->drop_radius_max_mm - s->drop_radius_min_mm) * t;
-    drop.volume_mm3 = volume_a_cube(s) * pow(drop.radius_mm, 3);
+    const double r = s->drop_radius_min_mm + (s->drop_radius_max_mm - s->drop_radius_min_mm) * t;
+    drop.radius_mm = r;
+    drop.volume_mm3 = rain->cap_mm3 * r * r * r;
     return drop;
+}
+
+static double radius_of(const struct flow_rain *rain, double volume_mm3)
+{
+    return rounded(cbrt(volume_mm3 / rain->cap_mm3));
 }
 
 // Sizes follow one another by the golden ratio, so that a second of rain has all of them in their
 // shares, and its rate.
-struct flow_drop flow_falling_drop(const struct flow_settings *s, int pane, int64_t number)
+struct flow_drop flow_falling_drop(const struct flow_rain *rain, int pane, int64_t number)
 {
-    const uint streams = FLOW_STREAMS_A_PANE * (uint)pane;
-    const rg_uint4 w = rg_random((uint)s->seed, (uint)number, 0, FLOW_STREAM_RAIN + streams);
-    const rg_uint4 first = rg_random((uint)s->seed, 0, 0, FLOW_STREAM_SIZES + streams);
-    struct flow_drop drop = drop_at(s, pane, w);
-    const double share = flow_fraction((double)rg_uniform(first.x) + flow_even(number));
-    drop.volume_mm3 = rg_drop_volume_mm3(diameter_of(slope_of(s), share));
-    drop.radius_mm = cbrt(drop.volume_mm3 / volume_a_cube(s));
+    const struct flow_settings *s = rain->settings;
+    const uint stream = FLOW_STREAM_RAIN + FLOW_STREAMS_A_PANE * (uint)pane;
+    struct flow_drop drop = drop_at(s, pane, rg_random((uint)s->seed, (uint)number, 0, stream));
+    const double share = flow_fraction(rain->first[pane] + flow_even(number));
+    drop.volume_mm3 = rg_drop_volume_mm3(diameter_of(rain, share));
+    drop.radius_mm = radius_of(rain, drop.volume_mm3);
     return drop;
 }
 
-double flow_largest_radius_mm(const struct flow_settings *s)
+double flow_largest_radius_mm(const struct flow_rain *rain)
 {
-    const double rain_mm = cbrt(rg_drop_volume_mm3(RG_LARGEST_DROP_MM) / volume_a_cube(s));
-    return fmax(fmax(s->drop_radius_min_mm, s->drop_radius_max_mm), rain_mm);
+    const struct flow_settings *s = rain->settings;
+    return fmax(fmax(s->drop_radius_min_mm, s->drop_radius_max_mm),
+                radius_of(rain, rg_drop_volume_mm3(RG_LARGEST_DROP_MM)));
 }
 
-double flow_drop_height_mm(const struct flow_settings *s, double radius_mm, double distance_mm)
+double flow_cap_height_mm(const struct flow_rain *rain, double radius_mm, double distance2_mm2)
 {
-    const double angle = s->contact_deg * M_PI / 180, sphere_mm = radius_mm / sin(angle);
-    if (distance_mm >= radius_mm)
+    const double sphere_mm = rain->sphere_mm * radius_mm;
+    if (distance2_mm2 >= radius_mm * radius_mm)
         return 0;
-    return sqrt(sphere_mm * sphere_mm - distance_mm * distance_mm) - sphere_mm * cos(angle);
+    return fmax(sqrt(sphere_mm * sphere_mm - distance2_mm2) - rain->depth_mm * radius_mm, 0);
 }

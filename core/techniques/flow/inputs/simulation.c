@@ -1,5 +1,5 @@
 // The host's part of flow's simulation: orientation, drops, and the kernels' parameters.
-#include "core/techniques/flow/inputs/rain.h"
+#include "core/techniques/flow/inputs/flow.h"
 
 #include <math.h>
 
@@ -123,6 +123,16 @@ void flow_panes_at(const struct flow_settings *s, int noise_size, int64_t frame,
     }
 }
 
+double flow_texel_mm(const struct flow_settings *s)
+{
+    return s->pane_mm / s->resolution_px;
+}
+
+int flow_clamp(double value, int low, int high)
+{
+    return value < low ? low : value > high ? high : (int)value;
+}
+
 double flow_fraction(double x)
 {
     return x - floor(x);
@@ -163,19 +173,11 @@ flow_params flow_params_at(const struct flow_settings *s, int noise_size, int64_
 
 flow_normals_params flow_normals_params_of(const struct flow_settings *s)
 {
-    const double texel_mm = s->pane_mm / s->resolution_px;
     return (flow_normals_params){
         .size = s->resolution_px,
-        .slope_per_height = (float)(s->relief / (2 * texel_mm)),
+        .slope_per_height = (float)(s->relief / (2 * flow_texel_mm(s))),
         .wet_per_height = (float)(1 / s->wet_height),
     };
-}
-
-// The epsilon lets a number that is whole except for rounding count as whole, whatever step_s is.
-int64_t flow_fallen_before(const struct flow_settings *s, int64_t frame)
-{
-    const double spare = s->move == FLOW_MOVE_SLIDING ? 1e-6 : 0;
-    return (int64_t)floor((double)frame * (flow_rain_drops_s(s) * s->step_s) + spare);
 }
 
 flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t frame, int number)
@@ -197,9 +199,4 @@ flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t fra
         .height = (float)(radius_mm * s->height_per_mm),
         .capacity = (float)s->capacity,
     };
-}
-
-int flow_drops_at(const struct flow_settings *s, int64_t frame)
-{
-    return (int)(flow_fallen_before(s, frame + 1) - flow_fallen_before(s, frame));
 }

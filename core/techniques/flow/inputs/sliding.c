@@ -26,16 +26,17 @@
 // steep as contact_slope where it is less by 1 / STEEPER.
 #define FILL     0.5
 #define STEEPER  5.0
-#define HOLDS_MM 40.0
-
-static double texel_mm(const struct flow_settings *s)
-{
-    return s->pane_mm / s->resolution_px;
-}
+#define HOLDS_MM 40.0 // a texel; water above it drips off
 
 static int texels_a_cell(const struct flow_settings *s)
 {
-    return (int)fmax(ceil(CELL_MM / texel_mm(s) - 1e-9), 1);
+    return (int)fmax(ceil(CELL_MM / flow_texel_mm(s) - 1e-9), 1);
+}
+
+// In units of water, which a float counts to the droplet.
+double flow_least_relief_mm(void)
+{
+    return HOLDS_MM / (double)FLOW_EDGE_HOLDS;
 }
 
 int flow_lattice_cells(const struct flow_settings *s)
@@ -47,9 +48,9 @@ int flow_lattice_cells(const struct flow_settings *s)
 int flow_slide_runs(const struct flow_settings *s)
 {
     const double way_mm = s->slide_most_mm_s * s->step_s;
-    const double longest_mm = fmin(LONGEST_MM, FLOW_MARGIN * texel_mm(s));
+    const double longest_mm = fmin(LONGEST_MM, FLOW_MARGIN * flow_texel_mm(s));
     // A texel is the shortest distance that water can slide.
-    return (int)fmax(ceil(way_mm / fmax(longest_mm, texel_mm(s)) - 1e-9), 1);
+    return (int)fmax(ceil(way_mm / fmax(longest_mm, flow_texel_mm(s)) - 1e-9), 1);
 }
 
 static double run_s(const struct flow_settings *s)
@@ -60,19 +61,19 @@ static double run_s(const struct flow_settings *s)
 // The share of a height difference that levels between two texels in a run of the whole time.
 static double levelled(const struct flow_settings *s)
 {
-    return s->levelling_mm_s * run_s(s) * MOST_MM / (texel_mm(s) * texel_mm(s));
+    return s->levelling_mm_s * run_s(s) * MOST_MM / (flow_texel_mm(s) * flow_texel_mm(s));
 }
 
 // Texels between those that tell how wet the glass is around a place, so that a step of four
 // reaches NEAR_MM; how many steps that is; and the sum of their weights.
 static int apart(const struct flow_settings *s)
 {
-    return (int)fmax(ceil(NEAR_MM / (5 * texel_mm(s)) - 1e-9), 1);
+    return (int)fmax(ceil(NEAR_MM / (5 * flow_texel_mm(s)) - 1e-9), 1);
 }
 
 static double near_steps(const struct flow_settings *s)
 {
-    return fmax(NEAR_MM / (apart(s) * texel_mm(s)), 1);
+    return fmax(NEAR_MM / (apart(s) * flow_texel_mm(s)), 1);
 }
 
 static double near_scale(const struct flow_settings *s)
@@ -91,7 +92,7 @@ enum { REACHES = sizeof(reaches) / sizeof(reaches[0]) };
 static int first_reach(const struct flow_settings *s)
 {
     int first = 0;
-    while (reaches[first] > 1 && reaches[first] * texel_mm(s) > FAR_MM)
+    while (reaches[first] > 1 && reaches[first] * flow_texel_mm(s) > FAR_MM)
         first++;
     return first;
 }
@@ -123,7 +124,7 @@ int flow_relax_reach(const struct flow_settings *s, int run)
 flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t run)
 {
     const int k = texels_a_cell(s);
-    const double cell_mm = k * texel_mm(s), cell_mm2 = cell_mm * cell_mm;
+    const double cell_mm = k * flow_texel_mm(s), cell_mm2 = cell_mm * cell_mm;
     // The area of a Gaussian after this many runs; at least a cell.
     const double around_mm2 = fmax(2 * M_PI * AROUND_RUNS * SMOOTHED_MM2, cell_mm2);
     const double to_height = 1 / s->relief;
@@ -142,7 +143,7 @@ flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t ru
         .bent = (float)(BENT_MM * to_height),
         .least_layer = (float)(LEAST_MM * to_height),
         .most_layer = (float)(MOST_MM * to_height),
-        .advance = (float)(s->contact_slope * texel_mm(s) * to_height),
+        .advance = (float)(s->contact_slope * flow_texel_mm(s) * to_height),
         .cohesion = (float)s->cohesion,
         .dried2 = (float)(2 * s->drying_mm2_s * run_s(s) * to_height * to_height),
         .part = (float)flow_even(run), // so that runs, rounded, add up to the whole
@@ -174,7 +175,7 @@ void flow_ways_at(const struct flow_settings *s, int64_t frame, int64_t run, int
         for (int pace = 0; pace < FLOW_PACES; pace++) {
             const double speed_mm_s =
                 pace ? s->slide_most_mm_s * pow(FLOW_PACE_RATIO, pace + 1 - FLOW_PACES) : 0;
-            const double texels = speed_mm_s * run_s(s) / texel_mm(s);
+            const double texels = speed_mm_s * run_s(s) / flow_texel_mm(s);
             int32_t *way = &ways[2 * (pane * FLOW_PACES + pace)];
             way[0] = whole(texels * gx / along, run);
             way[1] = whole(texels * gy / along, run);

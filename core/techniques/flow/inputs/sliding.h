@@ -5,6 +5,8 @@
 #include "core/techniques/flow/inputs/flow.h"
 #include "kernels/flow/sliding/params.h"
 
+// The least relief with which the highest water that a texel holds is at most FLOW_EDGE_HOLDS.
+double flow_least_relief_mm(void);
 // The number of cells along a side of the lattice over a pane.
 int flow_lattice_cells(const struct flow_settings *settings);
 // The number of runs that divide a frame, each of which dries, levels and slides; and how often

@@ -1,70 +1,54 @@
 // The share of a shape's convex hull that the shape covers, in texels.
 #include "core/techniques/flow/survey/convex.h"
 
-#include <stdint.h>
+#include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
-#include "core/base/alloc.h"
+#include "core/scene/mesh/hull.h"
 
-struct place {
-    int64_t x, y;
-};
-
-static int by_row(const void *a, const void *b)
-{
-    const struct place *p = a, *q = b;
-    return p->y != q->y ? (p->y > q->y) - (p->y < q->y) : (p->x > q->x) - (p->x < q->x);
-}
-
-// Twice the area of a triangle; above 0 if it turns one way, below if the other.
-static int64_t turn(const struct place *a, const struct place *b, const struct place *c)
-{
-    return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
-}
-
-static int64_t common_divisor(int64_t a, int64_t b)
+static int common_divisor(int a, int b)
 {
     return b ? common_divisor(b, a % b) : a;
 }
 
-// Adds one side of the hull to `hull`: the places in order, without those that lie inside.
-static int add_side(const struct place *places, int count, int step, struct place *hull)
-{
-    int corners = 0;
-    for (int i = 0; i < count; i++, places += step) {
-        while (corners > 1 && turn(&hull[corners - 2], &hull[corners - 1], places) <= 0)
-            corners--;
-        hull[corners++] = *places;
-    }
-    return corners - 1; // the last one begins the other side
-}
-
 // Pick's theorem: places in the hull and on its rim.
-static double places_in(const struct place *hull, int corners)
+static double places_in(double (*hull)[2], int corners)
 {
-    int64_t area2 = 0, rim = 0;
+    double area2 = 0, rim = 0;
     for (int i = 0; i < corners; i++) {
-        const struct place *a = &hull[i], *b = &hull[(i + 1) % corners];
-        area2 += a->x * b->y - a->y * b->x;
-        rim += common_divisor(llabs(b->x - a->x), llabs(b->y - a->y));
+        const double *a = hull[i], *b = hull[(i + 1) % corners];
+        area2 += a[0] * b[1] - a[1] * b[0];
+        rim += common_divisor(abs((int)(b[0] - a[0])), abs((int)(b[1] - a[1])));
     }
-    return (double)llabs(area2) / 2 + (double)rim / 2 + 1;
+    return fabs(area2) / 2 + rim / 2 + 1;
 }
 
-double flow_convexity(const int *texels, int count, int row)
+// Writes the first and the last texel of each row, and returns their number. The others lie
+// between.
+static int put_ends(const int *texels, int count, int row, double (*points)[2])
 {
-    struct place *places = rg_alloc((size_t)count, sizeof(*places), "survey");
-    struct place *hull = rg_alloc(2 * (size_t)count, sizeof(*hull), "survey");
-    double share = -1;
-    for (int i = 0; places && i < count; i++)
-        places[i] = (struct place){texels[i] % row, texels[i] / row};
-    if (places && hull) {
-        qsort(places, (size_t)count, sizeof(*places), by_row);
-        int corners = add_side(places, count, 1, hull);
-        corners += add_side(places + count - 1, count, -1, hull + corners);
-        share = count / places_in(hull, corners);
+    int top = texels[0] / row, bottom = top;
+    for (int i = 0; i < count; i++) {
+        top = texels[i] / row < top ? texels[i] / row : top;
+        bottom = texels[i] / row > bottom ? texels[i] / row : bottom;
     }
-    free(places);
-    free(hull);
-    return share;
+    const int rows = bottom - top + 1;
+    for (int k = 0; k < 2 * rows; k++) {
+        points[k][0] = top + k / 2;
+        points[k][1] = k % 2 ? 0 : row;
+    }
+    for (int i = 0; i < count; i++) {
+        double(*ends)[2] = points + 2 * (ptrdiff_t)(texels[i] / row - top);
+        ends[0][1] = fmin(ends[0][1], texels[i] % row);
+        ends[1][1] = fmax(ends[1][1], texels[i] % row);
+    }
+    return 2 * rows;
+}
+
+double flow_convexity(const int *texels, int count, int row, double (*room)[2])
+{
+    const int ends = put_ends(texels, count, row, room);
+    double(*hull)[2] = room + ends;
+    return count / places_in(hull, rg_hull(room, ends, hull));
 }

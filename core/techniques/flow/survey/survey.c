@@ -36,6 +36,7 @@ struct pane {
     float wet;            // height from which a texel counts as wet
     float *water;         // a map with margins; counted drops are set to dry
     int *texels;          // of the drop that was taken last, by index
+    double (*room)[2];    // for its convexity
     const uint32_t *pace; // of the lattice's cells; NULL: nothing slides
     int cells, texels_a_cell;
 };
@@ -90,21 +91,19 @@ struct sums {
     int64_t resting, convex; // drops wider than RESTING_MM; and those of them without dents
 };
 
-static bool survey_drop(const struct pane *p, int x, int y, struct sums *sums)
+static void survey_drop(const struct pane *p, int x, int y, struct sums *sums)
 {
     const int count = take_drop(p, x, y);
     sums->drops[size_of(count, p->texel_mm)]++;
     if (!p->pace || diameter_mm(count, p->texel_mm) < RESTING_MM || !is_resting(p, count))
-        return true;
-    const double convexity = flow_convexity(p->texels, count, p->size + 2 * FLOW_MARGIN);
+        return;
+    const int row = p->size + 2 * FLOW_MARGIN;
     sums->resting++;
-    sums->convex += convexity > CONVEX;
-    return convexity >= 0;
+    sums->convex += flow_convexity(p->texels, count, row, p->room) > CONVEX;
 }
 
-static bool survey_pane(const struct pane *p, struct sums *sums)
+static void survey_pane(const struct pane *p, struct sums *sums)
 {
-    bool ok = true;
     for (int y = 0; y < p->size; y++)
         for (int x = 0; x < p->size; x++) {
             const double water = (double)p->water[flow_index(p->size, x, y)];
@@ -113,10 +112,9 @@ static bool survey_pane(const struct pane *p, struct sums *sums)
             sums->down += water * (y + 0.5) / p->size;
         }
     for (int y = 0; y < p->size; y++)
-        for (int x = 0; x < p->size && ok; x++)
+        for (int x = 0; x < p->size; x++)
             if (p->water[flow_index(p->size, x, y)] >= p->wet)
-                ok = survey_drop(p, x, y, sums);
-    return ok;
+                survey_drop(p, x, y, sums);
 }
 
 static void tell(struct flow *flow, const struct sums *sums)
@@ -144,33 +142,42 @@ static void *read_maps(const struct flow *flow, const struct rg_asset *asset, in
     return NULL;
 }
 
-bool flow_survey(struct flow *flow)
+// Surveys all panes, with room for a drop's texels and for its convexity.
+static bool survey_panes(struct flow *flow, float *water, uint32_t *pace)
 {
     const int n = flow->settings.resolution_px, length = flow_map_length(n);
-    const int cells = flow_lattice_cells(&flow->settings);
-    const struct rg_asset *paces = rg_asset_find(&flow->base, "pace");
-    if (!flow->told.wet)
-        return true;
-    float *water = read_maps(flow, flow->water, length);
-    uint32_t *pace = paces ? read_maps(flow, paces, flow_map_length(cells)) : NULL;
+    const int cells = flow_lattice_cells(&flow->settings), cell_length = flow_map_length(cells);
     int *texels = rg_alloc((size_t)length, sizeof(*texels), "survey");
+    double(*room)[2] = rg_alloc(FLOW_CONVEX_ROOM * (size_t)n, sizeof(*room), "survey");
+    const bool ok = texels && room;
     struct sums sums = {0};
-    bool ok = water && texels && (pace || !paces);
     for (int i = 0; ok && i < flow->pane_count; i++)
-        ok = survey_pane(
-            &(struct pane){.size = n,
-                           .texel_mm = flow->settings.pane_mm / n,
-                           .wet = (float)flow->settings.wet_height,
-                           .water = water + (int64_t)i * length,
-                           .texels = texels,
-                           .pace = pace ? pace + (int64_t)i * flow_map_length(cells) : NULL,
-                           .cells = cells,
-                           .texels_a_cell = (n + cells - 1) / cells},
-            &sums);
+        survey_pane(&(struct pane){.size = n,
+                                   .texel_mm = flow_texel_mm(&flow->settings),
+                                   .wet = (float)flow->settings.wet_height,
+                                   .water = water + (int64_t)i * length,
+                                   .texels = texels,
+                                   .room = room,
+                                   .pace = pace ? pace + (int64_t)i * cell_length : NULL,
+                                   .cells = cells,
+                                   .texels_a_cell = (n + cells - 1) / cells},
+                    &sums);
     if (ok)
         tell(flow, &sums);
+    free(texels);
+    free(room);
+    return ok;
+}
+
+bool flow_survey(struct flow *flow)
+{
+    if (!flow->settings.survey)
+        return true;
+    const int n = flow->settings.resolution_px, cells = flow_lattice_cells(&flow->settings);
+    float *water = read_maps(flow, flow->water, flow_map_length(n));
+    uint32_t *pace = flow->pace ? read_maps(flow, flow->pace, flow_map_length(cells)) : NULL;
+    const bool ok = water && (pace || !flow->pace) && survey_panes(flow, water, pace);
     free(water);
     free(pace);
-    free(texels);
     return ok;
 }

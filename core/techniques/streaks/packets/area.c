@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/scene/mesh/hull.h"
 #include "core/techniques/streaks/packets/inner.h"
 
 enum { CORNERS = 8, POINTS = CORNERS + CORNERS * (CORNERS - 1) };
@@ -55,51 +56,6 @@ static int slice(const double corners[CORNERS][3], double above, double below, d
     return count;
 }
 
-// Above 0 if c is to the left of the line from a to b.
-static double turn(const double a[2], const double b[2], const double c[2])
-{
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-static bool comes_before(const double a[2], const double b[2])
-{
-    return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
-}
-
-static void sort(double (*points)[2], int count)
-{
-    for (int i = 1; i < count; i++) {
-        double point[2];
-        memcpy(point, points[i], sizeof(point));
-        int at = i;
-        for (; at > 0 && comes_before(point, points[at - 1]); at--)
-            memcpy(points[at], points[at - 1], sizeof(point));
-        memcpy(points[at], point, sizeof(point));
-    }
-}
-
-// Andrew's monotone chain, counterclockwise; `hull` has room for twice as many.
-static int hull_of(double (*points)[2], int count, double (*hull)[2])
-{
-    sort(points, count);
-    if (count < 3) {
-        memcpy(hull, points, (size_t)count * sizeof(*points));
-        return count;
-    }
-    int size = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        const int begin = size + 1;
-        for (int i = 0; i < count; i++) {
-            const double *point = points[pass == 0 ? i : count - 1 - i];
-            while (size > begin && turn(hull[size - 2], hull[size - 1], point) <= 0)
-                size--;
-            memcpy(hull[size++], point, sizeof(*hull));
-        }
-        size--;
-    }
-    return size;
-}
-
 // Clips a polygon by Sutherland and Hodgman's method: keeps the part on one side of a line across
 // an axis.
 static int clip(double (*corners)[2], int count, int axis, double border, double sign)
@@ -128,7 +84,7 @@ static void make_hull(const struct streaks_view *view, double local_height_m, do
     double points[POINTS][2], hull[2 * POINTS][2];
     const int count = slice(view->corners, view->top_m - view->above_m - rounding,
                             view->top_m + local_height_m + view->below_m + rounding, points);
-    int size = hull_of(points, count, hull);
+    int size = rg_hull(points, count, hull);
     for (int side = 0; side < 4 && size > 0; side++)
         if (isfinite(area->prism[side]))
             size = clip(hull, size, side % 2,

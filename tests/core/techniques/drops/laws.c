@@ -303,6 +303,18 @@ static void momentum_is_kept(void **state)
     rig_close(d);
 }
 
+static void only_beads_have_a_map_of_what_glass_holds(void **state)
+{
+    (void)state;
+    static const char *const trails[] = {PANE "trail=hemispheres", PANE "trail=lines",
+                                         PANE "trail=beads"};
+    for (int i = 0; i < 3; i++) {
+        struct drops *d = rig_open(device, trails[i]);
+        assert_int_equal(rg_asset_find(&d->base, "held") != NULL, i == 2);
+        rig_close(d);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -317,6 +329,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(waters_of_late_drops_merge),
         cmocka_unit_test(the_oldest_owns_what_is_as_high),
         cmocka_unit_test(momentum_is_kept),
+        cmocka_unit_test(only_beads_have_a_map_of_what_glass_holds),
     };
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
     assert_non_null(device);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/techniques/flow/inputs/rain.h"
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/oracle/flow/flow.h"
 
@@ -74,9 +75,10 @@ static void pair_close(struct pair *pair)
 
 static void pair_step(struct pair *pair, int steps)
 {
+    const struct flow_rain rain = flow_rain_of(&pair->rig.settings);
     rig_step(&pair->rig, steps);
     for (int i = 0; i < steps; i++) {
-        land(pair, pair->oracle.frame, flow_drops_at(&pair->rig.settings, pair->oracle.frame));
+        land(pair, pair->oracle.frame, flow_drops_at(&rain, pair->oracle.frame));
         oracle_step(&pair->oracle);
     }
 }
