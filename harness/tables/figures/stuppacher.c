@@ -13,11 +13,18 @@ const struct rg_figure rg_figures_stuppacher[] = {
      .caption = "The height map: black where there is no water, the lighter the more.",
      .printed =
          "(a) Height map indicating water drops. (b) Sketch of a single drop in the texture."},
-    {.id = "stuppacher-14",
+    {.id = "stuppacher-14a",
      .technique = "flow",
      .settings = ONE "move=paper stage=height",
      .frame = 120,
      .caption = "Water by the paper's equations: thresholds leave steps in the height map.",
+     .printed = "Because of the processing with thresholds (a) bad distributions of water amounts "
+                "and thus (b) bad lighting may occur."},
+    {.id = "stuppacher-14b",
+     .technique = "flow",
+     .settings = ONE "move=paper blur=off panes=mirror",
+     .frame = 120,
+     .caption = "Lit as it is: the steps break the light.",
      .printed = "Because of the processing with thresholds (a) bad distributions of water amounts "
                 "and thus (b) bad lighting may occur."},
     {.id = "stuppacher-15",

@@ -16,5 +16,6 @@ RG_GRID_KERNEL(flow_blur)
 {
     float sum =
         (row_sum(rg, p, z, x, y - 1) + row_sum(rg, p, z, x, y)) + row_sum(rg, p, z, x, y + 1);
-    blurred_put(rg, flow_pane_index(p.size, z, x, y), sum * (1.0f / 9.0f));
+    int i = flow_pane_index(p.size, z, x, y);
+    blurred_put(rg, i, p.blur != 0 ? sum * (1.0f / 9.0f) : water_at(rg, i));
 }

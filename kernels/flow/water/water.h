@@ -41,8 +41,9 @@ RG_STRUCT(flow_params)
     float noise_step;       // noise texels per pane texel
     float noise_x, noise_y; // beginning of the window, in noise texels
     float sweep; // for texels that keep directions: the neighbours' share in a texel's own
+    int blur;    // 0: the height map is lit as it is
 };
-RG_STRUCT_SIZE(flow_params, 13)
+RG_STRUCT_SIZE(flow_params, 14)
 
 // The destination of water that leaves a pane over an edge.
 RG_STRUCT(flow_neighbour)

@@ -44,6 +44,8 @@ double light_blurred(const struct light_surface *surface, int x, int y)
     const int n = surface->size;
     if (x < 0 || y < 0 || x >= n || y >= n)
         return 0;
+    if (surface->sharp)
+        return (double)surface->water[y * n + x] / 65536;
     int64_t sum = 0;
     for (int j = y - 1; j <= y + 1; j++)
         for (int i = x - 1; i <= x + 1; i++)

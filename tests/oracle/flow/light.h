@@ -3,6 +3,7 @@
 #ifndef RG_TESTS_ORACLE_FLOW_LIGHT_H
 #define RG_TESTS_ORACLE_FLOW_LIGHT_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 // A cube map, borrowed: [face][y][x][rgb], faces +x -x +y -y +z -z as in OpenGL. The outermost
@@ -20,9 +21,11 @@ struct light_surface {
     const int64_t *water;
     int size;
     double pane_mm, relief, wet_height;
+    bool sharp; // lit without the blur
 };
 
-// The mean of a texel and its neighbours, in units; beyond the edge the pane is dry.
+// The mean of a texel and its neighbours, in units, or a sharp texel itself; beyond the edge the
+// pane is dry.
 double light_blurred(const struct light_surface *surface, int x, int y);
 // The normal's x and y and the wetness at a point of the pane, between four texels of the normal
 // map. The point is 0 to 1 from left to right and from top to bottom.

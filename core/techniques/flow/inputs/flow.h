@@ -50,6 +50,7 @@ struct flow_settings {
     double rain_drops_s, step_s, drop_radius_min_mm, drop_radius_max_mm, height_per_mm;
     int survey;
     // lighting
+    int blur;
     double relief, wet_height;
     double fresnel_bias, fresnel_scale, refraction_strength, reflectivity;
     char environment[RG_PATH_SIZE];

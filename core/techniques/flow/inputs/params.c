@@ -63,6 +63,7 @@ static const struct rg_param rows[] = {
     {"drop_radius_min_mm", RG_PARAM_FLOAT, AT(drop_radius_min_mm), 1, 0.01, 100, "mm", "of the smallest drop", NULL},
     {"drop_radius_max_mm", RG_PARAM_FLOAT, AT(drop_radius_max_mm), 4, 0.01, 100, "mm", "of the largest drop", NULL},
     {"drop_height_per_mm", RG_PARAM_FLOAT, AT(height_per_mm), 0.4, 0, 16, "height/mm", "height of a drop's middle by its radius", NULL},
+    {"blur", RG_PARAM_CHOICE, AT(blur), 1, 0, 1, "1", "whether the height map is blurred before it is lit; off shows the steps that the paper's movement leaves", "off on"},
     {"relief", RG_PARAM_FLOAT, AT(relief), 2.5, 0, 100, "mm/height", "how high a unit of water stands, for the normal map", NULL},
     {"wet_height", RG_PARAM_FLOAT, AT(wet_height), 0.04, 0.001, 16, "height", "water from which on a texel looks fully wet", NULL},
     {"view_angle_deg", RG_PARAM_FLOAT, AT(view_angle_deg), 45, 1, 150, "deg", "vertical angle of view", NULL},

@@ -168,6 +168,7 @@ flow_params flow_params_at(const struct flow_settings *s, int noise_size, int64_
         .noise_x = (float)(noise_size * flow_fraction((double)frame * s->noise_scroll_x)),
         .noise_y = (float)(noise_size * flow_fraction((double)frame * s->noise_scroll_y)),
         .sweep = (float)s->sweep,
+        .blur = s->blur,
     };
 }
 

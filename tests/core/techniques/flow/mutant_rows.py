@@ -197,6 +197,7 @@ ROWS = [Row(*row) for row in (
     ("the blur leaves a corner out", "water/blur.h",
      "(water_at(rg, i - 1) + water_at(rg, i))", "(water_at(rg, i) + water_at(rg, i))", PICTURE),
     ("the blur makes water", "water/blur.h", "1.0f / 9.0f", "1.0f / 8.8f", PICTURE),
+    ("maps are blurred in any case", "water/blur.h", "p.blur != 0 ?", "p.blur != 2 ?", ("view",)),
     # the model in its box, and the sky
     ("the lamp has no cosine", "model.h",
      "p.light * rg_max(v3_dot(n, v3_make(p.light_x, p.light_y, p.light_z)), 0.0f)", "p.light",

@@ -145,13 +145,16 @@ static void expect_light(const char *what, int x, int y, float light, double due
 static void test_stages_show_the_maps(void **state)
 {
     (void)state;
-    static const char *const stages[] = {"stage=height", "stage=blurred", "stage=normals"};
-    for (int stage = 0; stage < 3; stage++) {
+    static const char *const stages[] = {"stage=height", "stage=blurred", "stage=normals",
+                                         "stage=blurred blur=off", "stage=normals blur=off"};
+    for (int k = 0; k < 5; k++) {
+        const int stage = k < 3 ? k : k - 2;
         struct rig rig;
-        open_still(&rig, stages[stage], SIZE, SIZE);
+        open_still(&rig, stages[k], SIZE, SIZE);
         const struct flow_settings *s = &rig.settings;
         int64_t *water = water_of(&rig, 3 * UNIT / 2);
-        const struct light_surface surface = {water, SIZE, s->pane_mm, s->relief, s->wet_height};
+        const struct light_surface surface = {water,     SIZE,          s->pane_mm,
+                                              s->relief, s->wet_height, k >= 3};
         rig_put(&rig, water);
         float *light = rig_draw(&rig);
         for (int i = 0; i < SIZE * SIZE; i++) {
@@ -167,7 +170,7 @@ static void test_stages_show_the_maps(void **state)
                 {0.5 + normal[0] / 2, 0.5 + normal[1] / 2, 0.5 + z / 2},
             };
             for (int c = 0; c < 3; c++)
-                expect_light(stages[stage], x, y, light[4 * i + c], due[stage][c]);
+                expect_light(stages[k], x, y, light[4 * i + c], due[stage][c]);
         }
         free(water);
         free(light);
