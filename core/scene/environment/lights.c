@@ -3,6 +3,7 @@
 
 #include "core/scene/environment/cube.h"
 #include "core/scene/environment/parts.h"
+#include "core/scene/vector.h"
 
 struct light {
     double at[3]; // in the street
@@ -52,7 +53,7 @@ static void add_texel(struct rg_environment *environment, const struct splat *s,
 {
     double d[3];
     rg_cube_direction(face, x, y, environment->size, d);
-    const double scale = 1 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double scale = 1 / sqrt(rg_dot(d, d));
     for (int i = 0; i < 3; i++)
         d[i] *= scale;
     const double weight = weight_of(s, d, 2.0 / environment->size * scale);
@@ -90,9 +91,9 @@ static struct patch patch_of(const struct splat *s, int face, int size)
     rg_cube_direction(face, 0, 0, 1, corner);
     rg_cube_direction(face, 1, 0, 1, right);
     rg_cube_direction(face, 0, 1, 1, below);
-    double ahead = 0, u = 0, v = 0;
+    double u = 0, v = 0;
+    const double ahead = rg_dot(corner, s->to);
     for (int i = 0; i < 3; i++) {
-        ahead += corner[i] * s->to[i];
         u += (right[i] - corner[i]) / 2 * s->to[i];
         v += (below[i] - corner[i]) / 2 * s->to[i];
     }
@@ -114,7 +115,7 @@ static struct patch patch_of(const struct splat *s, int face, int size)
 static void add_splat(struct splats *splats, const struct light *light, double up_m, bool streak)
 {
     const double place[3] = {light->at[0], up_m, light->at[2]};
-    const double way_m = sqrt(place[0] * place[0] + place[1] * place[1] + place[2] * place[2]);
+    const double way_m = sqrt(rg_dot(place, place));
     const double texel = 2.0 / splats->size, radius = light->radius_m / way_m;
     const double least = streak ? 1.5 * texel : .75 * texel;
     struct splat s = {.streak = streak};

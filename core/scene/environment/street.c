@@ -4,6 +4,7 @@
 
 #include "core/scene/environment/cube.h"
 #include "core/scene/environment/parts.h"
+#include "core/scene/vector.h"
 
 #define END_M  150.0 // where the street meets another
 #define LEFT_M 300.0 // from where walls along that other street are counted
@@ -214,7 +215,7 @@ struct seen {
 static void seen_along(const double d[3], const void *user, double light[3])
 {
     const struct seen *seen = user;
-    const double scale = 1 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double scale = 1 / sqrt(rg_dot(d, d));
     double s[3];
     street_turn(d, s);
     const struct street_ray ray = {s[0] * scale, s[1] * scale, s[2] * scale, EYE_M,
