@@ -55,10 +55,12 @@ static const struct rg_water_ball *next_ball(const struct rg_water *w,
     for (int i = 0; i < w->count; i++) {
         const struct rg_water_ball *b = &w->balls[i];
         double to[3];
+        if (b == leaves)
+            continue;
         along(b->at, -1, start, to);
         const double middle = rg_dot(to, way),
                      inner = middle * middle - rg_dot(to, to) + b->radius_m * b->radius_m;
-        if (middle <= 0 || inner <= 0 || b == leaves)
+        if (middle <= 0 || inner <= 0)
             continue;
         const double far = middle - sqrt(inner);
         if (far > 0 && far < least) {
