@@ -5,6 +5,7 @@
 
 #include "core/scene/atlas/optics/drop.h"
 #include "core/scene/vector.h"
+#include "kernels/dialect/dielectric.h"
 
 static const double index_of_water = (double)RG_DROP_INDEX;
 
@@ -14,19 +15,15 @@ static void along(const double from[3], double far, const double way[3], double 
         to[i] = from[i] + far * way[i];
 }
 
-// The cosine inside of light that enters water, by Snell, and the share of unpolarised light that
-// is reflected there, by Fresnel.
+// The cosine inside of light that enters water, and the share that is reflected there.
 static double refracted(double cosine)
 {
-    return sqrt(1 - (1 - cosine * cosine) / (index_of_water * index_of_water));
+    return (double)sqrtf(rg_cos_refracted2((float)cosine, 1 / RG_DROP_INDEX));
 }
 
 static double reflectance(double cosine)
 {
-    const double after = refracted(cosine);
-    const double across = (cosine - index_of_water * after) / (cosine + index_of_water * after);
-    const double within = (index_of_water * cosine - after) / (index_of_water * cosine + after);
-    return 0.5 * (across * across + within * within);
+    return (double)rg_reflectance((float)cosine, (float)refracted(cosine), 1 / RG_DROP_INDEX);
 }
 
 static void add(struct rg_water_light *light, const double from[3], double share)
