@@ -83,7 +83,7 @@ ROWS = [
     Fault(SPECTRUM, "return d * d / «fmax(rg_terminal_speed(spectrum->law, d), 0.1)»;", "1", "drops are kept by their streaks as by their cross-sections"),
     Fault(SPECTRUM, "classes[k].drops_m3 *= «spectrum->amount»;", "1", "classes of a normalised spectrum are its authors'"),
     Fault(SPECTRUM, "return section_mm2_m3 * «1e-6 * 1000»;", "1e-6", "extinction is that of a metre"),
-    Fault(SIZES, "const double water_mm3_m2_s = set->drops_m2_s * rg_drop_volume_mm3(«2» * radius_mm);", "1", "drops of one size have less water"),
+    Fault(SIZES, "set->drops_m2_s * rg_drop_volume_mm3(«2 *» radius_mm);", "1 *", "drops of one size have less water"),
     Fault(SIZES, "left.section_mm2_m3 / («left.section_mm2_m3 + kept.section_mm2_m3»)", "kept.section_mm2_m3", "the light that is left out is over that which is not"),
     Fault(BLUR, "return diameter_rad * size / «(M_PI / 2)»;", "M_PI", "a face spans half a turn",
           lives="it says by how many places, and from which halved map, a disc is seen: half as many are within the bound that the test derives from their number"),
