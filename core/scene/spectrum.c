@@ -72,24 +72,13 @@ static double middle_of(const struct rg_spectrum *spectrum, int i, double *width
     return from + *width / 2;
 }
 
-// The drops there are over those of the law.
-static double amount_of(const struct rg_spectrum *spectrum)
-{
-    struct rg_spectrum whole = *spectrum;
-    whole.normalised = 0;
-    whole.least_mm = RG_SMALLEST_DROP_MM;
-    whole.most_mm = RG_LARGEST_DROP_MM;
-    return spectrum->normalised ? spectrum->rain_mm_h / rg_spectrum_rainfall(&whole).rain_mm_h : 1;
-}
-
 struct rg_rainfall rg_spectrum_rainfall(const struct rg_spectrum *spectrum)
 {
-    const double amount = amount_of(spectrum);
     struct rg_rainfall sum = {0};
     for (int i = 0; i < STEPS; i++) {
         double width;
         const double d = middle_of(spectrum, i, &width);
-        const double drops = amount * rg_spectrum_density(spectrum, d) * width;
+        const double drops = spectrum->amount * rg_spectrum_density(spectrum, d) * width;
         const double speed = rg_terminal_speed(spectrum->law, d);
         sum.drops_m3 += drops;
         sum.water_mm3_m3 += drops * rg_drop_volume_mm3(d);
@@ -98,6 +87,15 @@ struct rg_rainfall rg_spectrum_rainfall(const struct rg_spectrum *spectrum)
         sum.section_mm2_m3 += drops * M_PI / 4 * d * d;
     }
     return sum;
+}
+
+void rg_spectrum_normalise(struct rg_spectrum *spectrum)
+{
+    struct rg_spectrum whole = *spectrum;
+    whole.amount = 1;
+    whole.least_mm = RG_SMALLEST_DROP_MM;
+    whole.most_mm = RG_LARGEST_DROP_MM;
+    spectrum->amount = spectrum->rain_mm_h / rg_spectrum_rainfall(&whole).rain_mm_h;
 }
 
 double rg_extinction_per_km(double section_mm2_m3)
@@ -110,8 +108,9 @@ double rg_extinction_per_km(double section_mm2_m3)
 // How readily a drop is kept, by any unit.
 static double chance_of(const struct rg_spectrum *spectrum, enum rg_spectrum_keep keep, double d)
 {
-    const double speed = fmax(rg_terminal_speed(spectrum->law, d), 0.1); // Atlas' may be 0
-    return keep == RG_KEEP_ALIKE ? 1 : keep == RG_KEEP_BY_SECTION ? d * d : d * d / speed;
+    if (keep != RG_KEEP_BY_STREAK)
+        return keep == RG_KEEP_ALIKE ? 1 : d * d;
+    return d * d / fmax(rg_terminal_speed(spectrum->law, d), 0.1); // Atlas' may be 0
 }
 
 static double kept_of(const struct rg_spectrum *spectrum, enum rg_spectrum_keep keep)
@@ -128,7 +127,7 @@ static double kept_of(const struct rg_spectrum *spectrum, enum rg_spectrum_keep 
 void rg_spectrum_classes(const struct rg_spectrum *spectrum, enum rg_spectrum_keep keep, int count,
                          struct rg_drop_class *classes)
 {
-    const double kept = kept_of(spectrum, keep), amount = amount_of(spectrum);
+    const double kept = kept_of(spectrum, keep);
     double before = 0;
     memset(classes, 0, (size_t)count * sizeof(*classes));
     for (int i = 0; i < STEPS; i++) {
@@ -150,6 +149,6 @@ void rg_spectrum_classes(const struct rg_spectrum *spectrum, enum rg_spectrum_ke
     for (int k = 0; k < count; k++) {
         classes[k].diameter_mm = cbrt(classes[k].diameter_mm / classes[k].drops_m3);
         classes[k].speed_m_s = rg_terminal_speed(spectrum->law, classes[k].diameter_mm);
-        classes[k].drops_m3 *= amount;
+        classes[k].drops_m3 *= spectrum->amount;
     }
 }

@@ -20,9 +20,7 @@ struct rg_spectrum {
     enum rg_speed_law law;
     double rain_mm_h;         // R, the rain rate of the spectrum; above 0
     double least_mm, most_mm; // 0.1 <= least < most
-    // Whether there are as many drops as make R at their speeds, of 0.1 to 6 mm all together;
-    // otherwise as many as the law has, which makes another rain rate (docs/spectra.md).
-    int normalised;
+    double amount;            // the drops that there are over those of the law: 1, or normalised
 };
 
 // The largest and the smallest diameter: larger drops break up as they fall, smaller ones are a
@@ -38,6 +36,10 @@ double rg_marshall_palmer_slope(double rain_mm_h);
 // normalised.
 double rg_spectrum_density(const struct rg_spectrum *spectrum, double diameter_mm);
 double rg_terminal_speed(enum rg_speed_law law, double diameter_mm); // m/s
+
+// Sets the amount so that drops of 0.1 to 6 mm, all together, make R at their speeds. The law
+// itself makes another rain rate (docs/spectra.md).
+void rg_spectrum_normalise(struct rg_spectrum *spectrum);
 
 // Totals over the drops between the bounds.
 struct rg_rainfall {

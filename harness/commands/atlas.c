@@ -63,9 +63,6 @@ static bool can_be_kept(const struct atlas_options *o, int64_t bytes)
     return !o->output || rg_output_can_be_written(o->output, bytes);
 }
 
-static const char *const size_names[RG_ATLAS_SIZE_COUNT] = {
-    "full", "small", "cave", "cave-small", "measured", "measured-small"};
-
 // An atlas and its origin.
 struct found {
     struct rg_atlas *atlas;
@@ -101,10 +98,10 @@ static bool find(const struct atlas_options *o, struct found *found)
     char why[256];
     enum rg_atlas_cached state;
     const bool quick = o->length.quick;
-    const enum rg_atlas_size size =
-        o->from ? quick ? RG_ATLAS_CAVE_SMALL : RG_ATLAS_CAVE
-                : rg_atlas_swinging(quick ? RG_ATLAS_SMALL : RG_ATLAS_FULL,
-                                    o->measured ? RG_SWINGS_MEASURED : RG_SWINGS_DATABASE);
+    const enum rg_atlas_size large = o->from ? RG_ATLAS_CAVE : RG_ATLAS_FULL;
+    const enum rg_atlas_size small = o->from ? RG_ATLAS_CAVE_SMALL : RG_ATLAS_SMALL;
+    const enum rg_atlas_size plain = quick ? small : large;
+    const enum rg_atlas_size size = o->measured ? rg_atlas_kinds[plain].measured : plain;
     const double start_ms = rg_now_ms();
     struct rg_progress progress;
     const struct rg_atlas_progress tells = {tell, &progress};
@@ -147,7 +144,7 @@ static void print_text(const struct found *found)
     const struct rg_atlas *atlas = found->atlas;
     const struct rg_atlas_range point = point_range(atlas), env = env_range(atlas);
     const bool cached = found->from[0] == 'c';
-    printf("%s atlas, %s in %.1f s; %.1f MB, checksum %016llx\n", size_names[atlas->size],
+    printf("%s atlas, %s in %.1f s; %.1f MB, checksum %016llx\n", rg_atlas_kinds[atlas->size].name,
            cached                  ? "read"
            : found->from[0] == 'm' ? "made"
                                    : "packed",
@@ -189,10 +186,11 @@ static void print_json(const struct found *found)
         }
         json_array_append_new(images, row);
     }
-    json_t *json = json_pack("{sisssssfsosIssso}", "format", 1, "size", size_names[atlas->size],
-                             "from", found->from, "seconds", found->seconds, "file",
-                             found->kept ? rg_json_text(found->path) : json_null(), "bytes",
-                             (json_int_t)bytes_of(atlas), "hash", hash, "images", images);
+    json_t *json =
+        json_pack("{sisssssfsosIssso}", "format", 1, "size", rg_atlas_kinds[atlas->size].name,
+                  "from", found->from, "seconds", found->seconds, "file",
+                  found->kept ? rg_json_text(found->path) : json_null(), "bytes",
+                  (json_int_t)bytes_of(atlas), "hash", hash, "images", images);
     json_dumpf(json, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
     printf("\n");
     json_decref(json);

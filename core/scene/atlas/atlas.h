@@ -84,12 +84,25 @@ struct rg_atlas {
         hash; // XXH3 of the factors, then the texels of the three images, as little-endian bytes
 };
 
-// Whether a size is a quarter of the full one each way, and whether it is traced, not packed.
-bool rg_atlas_is_small(enum rg_atlas_size size);
-bool rg_atlas_is_traced(enum rg_atlas_size size);
+// How drops swing, and the resolution at which a streak is traced.
+struct rg_streak_detail {
+    enum rg_swings swings;
+    int moments; // parts of the exposure: the drop's image fades from one end to the other
+    int column;  // rays across a column of the picture
+    int along;   // rows of rays along the diameter of the drop at rest, seen from the front; from
+                 // above up to half as many more, because the fall blurs these less
+};
 
-// The full or small atlas of drops that swing so; other sizes are returned as they are.
-enum rg_atlas_size rg_atlas_swinging(enum rg_atlas_size size, enum rg_swings swings);
+// What sizes differ in.
+struct rg_atlas_kind {
+    const char *name;
+    bool is_small;                  // a quarter of the full one each way
+    bool is_packed;                 // of the original database, not traced
+    enum rg_atlas_size measured;    // the same of drops that swing as was measured; packed: itself
+    struct rg_streak_detail detail; // of a traced one: neither steps nor noise are visible but
+                                    // those of the database's own pictures
+};
+extern const struct rg_atlas_kind rg_atlas_kinds[RG_ATLAS_SIZE_COUNT];
 
 // A listener for progress: `done` of `total` units, which take about equally long. It is called by
 // one thread at a time.

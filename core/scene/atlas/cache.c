@@ -46,10 +46,9 @@ static bool because(char why[256], const char *format, ...)
 
 bool rg_atlas_cache_path(enum rg_atlas_size size, char path[RG_ATLAS_PATH_SIZE], char why[256])
 {
-    static const char *const names[RG_ATLAS_SIZE_COUNT] = {
-        "streaks-full.atlas",       "streaks-small.atlas",    "streaks-cave.atlas",
-        "streaks-cave-small.atlas", "streaks-measured.atlas", "streaks-measured-small.atlas"};
-    return rg_user_path(RG_USER_CACHE, names[size], path, RG_ATLAS_PATH_SIZE, why);
+    char name[64];
+    snprintf(name, sizeof(name), "streaks-%s.atlas", rg_atlas_kinds[size].name);
+    return rg_user_path(RG_USER_CACHE, name, path, RG_ATLAS_PATH_SIZE, why);
 }
 
 // --- reading a file ---

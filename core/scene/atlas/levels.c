@@ -49,29 +49,24 @@ const uint16_t *rg_atlas_texels(const struct rg_atlas *atlas, enum rg_atlas_part
     return atlas->images[part].texels + offset_of(&atlas->images[part], layer, level);
 }
 
-bool rg_atlas_is_small(enum rg_atlas_size size)
-{
-    return size == RG_ATLAS_SMALL || size == RG_ATLAS_CAVE_SMALL || size == RG_ATLAS_MEASURED_SMALL;
-}
-
-bool rg_atlas_is_traced(enum rg_atlas_size size)
-{
-    return size != RG_ATLAS_CAVE && size != RG_ATLAS_CAVE_SMALL;
-}
-
-enum rg_atlas_size rg_atlas_swinging(enum rg_atlas_size size, enum rg_swings swings)
-{
-    if (swings == RG_SWINGS_DATABASE || size > RG_ATLAS_SMALL)
-        return size;
-    return size == RG_ATLAS_SMALL ? RG_ATLAS_MEASURED_SMALL : RG_ATLAS_MEASURED;
-}
+// In the order of enum rg_atlas_size.
+// clang-format off
+const struct rg_atlas_kind rg_atlas_kinds[RG_ATLAS_SIZE_COUNT] = {
+    {"full",           false, false, RG_ATLAS_MEASURED,       {RG_SWINGS_DATABASE, RG_DATABASE_POSES, 12, 256}},
+    {"small",          true,  false, RG_ATLAS_MEASURED_SMALL, {RG_SWINGS_DATABASE, RG_DATABASE_POSES, 20, 64}},
+    {"cave",           false, true,  RG_ATLAS_CAVE,           {0}},
+    {"cave-small",     true,  true,  RG_ATLAS_CAVE_SMALL,     {0}},
+    {"measured",       false, false, RG_ATLAS_MEASURED,       {RG_SWINGS_MEASURED, 2 * RG_DATABASE_POSES, 12, 176}},
+    {"measured-small", true,  false, RG_ATLAS_MEASURED_SMALL, {RG_SWINGS_MEASURED, RG_DATABASE_POSES, 20, 64}},
+};
+// clang-format on
 
 struct rg_atlas *rg_atlas_allocate(enum rg_atlas_size size)
 {
     struct rg_atlas *atlas = rg_alloc(1, sizeof(*atlas), "streak atlas");
     if (!atlas)
         return NULL;
-    const int first = rg_atlas_is_small(size) ? 2 : 0;
+    const int first = rg_atlas_kinds[size].is_small ? 2 : 0;
     atlas->size = size;
     atlas->first_level = first;
     for (int part = 0; part < 2; part++)

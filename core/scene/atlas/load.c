@@ -10,12 +10,13 @@ struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_pr
     struct rg_atlas *atlas = rg_atlas_cache_read(size, &state, gone);
     if (atlas)
         return atlas;
-    if (!rg_atlas_is_traced(size))
+    const struct rg_atlas_kind *kind = &rg_atlas_kinds[size];
+    if (kind->is_packed)
         return rg_error_null("%s: %s; `raingauge atlas %s--from DIR` packs the original database",
-                             path, gone, rg_atlas_is_small(size) ? "--quick " : "");
+                             path, gone, kind->is_small ? "--quick " : "");
     if (state != RG_ATLAS_ABSENT)
         rg_warning("%s: %s; the streak atlas is made anew", path, gone);
-    else if (!rg_atlas_is_small(size))
+    else if (!kind->is_small)
         rg_info("the streak atlas is made, which takes a minute or two%s%s",
                 kept ? ", and kept as " : "", kept ? path : "");
     atlas = rg_atlas_make(size, progress);

@@ -46,11 +46,10 @@ static bool put_streaks(struct rg_atlas *atlas, int oscillation, int view, struc
 static bool make_streaks(struct rg_atlas *atlas, int set, const struct rg_lobes *lobes)
 {
     const int oscillation = set % RG_ATLAS_OSCILLATIONS, view = set / RG_ATLAS_OSCILLATIONS;
-    const struct rg_streak_detail detail = rg_streak_detail(atlas->size);
     struct rg_streaks streaks;
-    const bool made =
-        rg_streaks_trace(oscillation, view, atlas->first_level, &detail, lobes, &streaks) &&
-        put_streaks(atlas, oscillation, view, &streaks);
+    const bool made = rg_streaks_trace(oscillation, view, atlas->first_level,
+                                       &rg_atlas_kinds[atlas->size].detail, lobes, &streaks) &&
+                      put_streaks(atlas, oscillation, view, &streaks);
     rg_streaks_free(&streaks);
     return made;
 }

@@ -140,7 +140,7 @@ static void add_ball(struct rg_water *water, double away, double phi, double up,
 // Adds the rim of the sheet, and the fingers that stand on it, thinner towards their beads.
 static void add_rim(struct rg_water *w, const struct material *m, int material, double passed)
 {
-    for (int k = 0; k < (int)w->spikes && w->height_m > 3 * m->rim_m; k++) {
+    for (int k = 0; k < w->spikes && w->height_m > 3 * m->rim_m; k++) {
         const struct chance chance = chance_of(material, k, 0);
         const double middle = (2 * M_PI * k - w->turn) / w->spikes;
         const double phi = middle + 0.1 * (chance.a - 0.5), lift = m->lift_deg * M_PI / 180;
@@ -208,6 +208,15 @@ void rg_splash_water(int material, double time_s, struct rg_water *water)
     add_rim(water, m, material, fmin(time_s / m->life_s, 1));
     add_droplets(water, m, material, time_s);
     add_jet(water, m, time_s);
+}
+
+double rg_splash_frame(int material, int frame, struct rg_water *water)
+{
+    const double time_s = (frame + 0.5) * FRAME_S;
+    // It fades out over the last third of the animation.
+    const double last = (time_s / (RG_ATLAS_FRAMES * FRAME_S) - 0.65) / 0.35;
+    rg_splash_water(material, time_s, water);
+    return last > 0 ? 1 - last * last * (3 - 2 * last) : 1;
 }
 
 // --- drawing ---
@@ -308,15 +317,11 @@ bool rg_splash_see(const struct rg_water *water,
 bool rg_splash_draw(int material, int frame, float texels[RG_SPLASH_HEIGHT_PX * RG_SPLASH_WIDTH_PX],
                     struct rg_splash_light *light)
 {
-    const double time_s = (frame + 0.5) * FRAME_S;
-    // It fades out over the last third of the animation.
-    const double last = (time_s / (RG_ATLAS_FRAMES * FRAME_S) - 0.65) / 0.35;
-    const double left = last > 0 ? 1 - last * last * (3 - 2 * last) : 1;
     struct rg_water water;
-    rg_splash_water(material, time_s, &water);
+    const double shown = rg_splash_frame(material, frame, &water);
     const bool drawn = rg_splash_see(&water, texels, light);
     for (int i = 0; drawn && i < RG_SPLASH_WIDTH_PX * RG_SPLASH_HEIGHT_PX; i++)
-        texels[i] *= (float)left;
+        texels[i] *= (float)shown;
     return drawn;
 }
 
@@ -332,6 +337,6 @@ void rg_splash_parts(const struct rg_splash_light *light,
         // to either side
         const double cell_sr = 2 * M_PI / RG_ATLAS_PHIS * (sin(high) - sin(low));
         for (int phi = 0; phi < RG_ATLAS_PHIS; phi++)
-            parts[height][phi] = (float)(light->cells[height][phi] / (sum * cell_sr));
+            parts[height][phi] = sum > 0 ? (float)(light->cells[height][phi] / (sum * cell_sr)) : 0;
     }
 }

@@ -32,19 +32,6 @@ struct tracing {
     struct rg_drop_row row;
 };
 
-struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size)
-{
-    const bool small = rg_atlas_is_small(size);
-    if (size == RG_ATLAS_MEASURED)
-        return (struct rg_streak_detail){RG_SWINGS_MEASURED, .moments = 2 * RG_DATABASE_POSES,
-                                         .column = 12, .along = 176};
-    return (struct rg_streak_detail){.swings = size == RG_ATLAS_MEASURED_SMALL ? RG_SWINGS_MEASURED
-                                                                               : RG_SWINGS_DATABASE,
-                                     .moments = RG_DATABASE_POSES,
-                                     .column = small ? 20 : 12,
-                                     .along = small ? 64 : 256};
-}
-
 // The integral of a tent of width 2 from its middle.
 static double tent(double s)
 {
@@ -127,8 +114,8 @@ static void trace_row(struct tracing *t, const struct rg_drop_shape *shape, int 
     add_row(t, t->env, weights, first, count, t->streaks->env);
 }
 
-// Traces the drop as it is after k parts of the exposure. Each moment shifts the
-// rows of rays by the golden ratio, so that later moments fill the gaps of earlier ones.
+// Traces the drop as it is after k parts of the exposure. Each moment shifts the rows of rays by
+// the golden ratio, so that later moments fill the gaps of earlier ones.
 static void trace_moment(struct tracing *t, int oscillation, int k)
 {
     const struct rg_drop_shape shape =

@@ -6,18 +6,6 @@
 
 #include "core/scene/atlas/lights.h"
 
-// How drops swing, and the resolution at which a streak is traced.
-struct rg_streak_detail {
-    enum rg_swings swings;
-    int moments; // parts of the exposure: the drop's image fades from one end to the other
-    int column;  // rays across a column of the picture
-    int along;   // rows of rays along the diameter of the drop at rest, seen from the front; from
-                 // above up to half as many more, because the fall blurs these less
-};
-
-// That of an atlas: neither steps nor noise are visible but those of the database's own pictures.
-struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size);
-
 // Pictures of width x height, row 0 on top, tightly packed. The caller frees both arrays.
 struct rg_streaks {
     int width, height;

@@ -113,12 +113,30 @@ static bool ends_in(const char *text, const char *end)
     return length >= end_length && !strcmp(text + length - end_length, end);
 }
 
-static struct rg_environment *read_packaged(const char *name)
+static bool is_path(const char *name)
+{
+    return strpbrk(name, "./");
+}
+
+static const char *package_folder(void)
 {
     const char *folder = getenv("RG_ENVIRONMENT_DIR");
-    folder = folder && *folder ? folder : PACKAGE_DIR;
-    char path[2048];
-    snprintf(path, sizeof(path), "%s/%s_skybox.ktx", folder, name);
+    return folder && *folder ? folder : PACKAGE_DIR;
+}
+
+void rg_environment_file(const char *name, char path[RG_ENVIRONMENT_PATH_SIZE])
+{
+    if (is_path(name))
+        snprintf(path, RG_ENVIRONMENT_PATH_SIZE, "%s", name);
+    else
+        snprintf(path, RG_ENVIRONMENT_PATH_SIZE, "%s/%s_skybox.ktx", package_folder(), name);
+}
+
+static struct rg_environment *read_packaged(const char *name)
+{
+    const char *folder = package_folder();
+    char path[RG_ENVIRONMENT_PATH_SIZE];
+    rg_environment_file(name, path);
     if (!access(path, F_OK))
         return rg_ktx_read(path);
     if (!access(folder, F_OK))
@@ -145,7 +163,7 @@ struct rg_environment *rg_environment_load(const char *name, int size_px)
         return make_sky();
     if (ends_in(name, ".ktx"))
         return rg_ktx_read(name);
-    if (strpbrk(name, "./"))
+    if (is_path(name))
         return read_lat_long(name);
     return read_packaged(name);
 }

@@ -4,6 +4,8 @@
 
 #include "core/device/device.h"
 
+enum { RG_ENVIRONMENT_PATH_SIZE = 2048 };
+
 // Six faces in the order and orientation of OpenGL (kernels/dialect/image/cube.h), linear light.
 // Each face has a border of one texel from its neighbours, so that filtering crosses edges without
 // a seam: light[face][y + 1][x + 1][channel], x and y from -1 to size.
@@ -24,6 +26,9 @@ struct rg_environment {
 // NULL, and one logged line, on failure. The caller destroys it.
 struct rg_environment *rg_environment_load(const char *name, int size_px);
 void rg_environment_destroy(struct rg_environment *environment);
+
+// The file that a name stands for, which need not exist: computed maps have none.
+void rg_environment_file(const char *name, char path[RG_ENVIRONMENT_PATH_SIZE]);
 
 // Uploads an environment as an image in RG11B10F, 6 layers and `levels` levels, each face resampled
 // to size_px texels a side in level 0. The caller destroys it.

@@ -79,9 +79,7 @@ void street_front(const struct street_look *look, const struct street_wall *w, d
         w->row < 2 ? street_lamplight(look, w->x_m, w->up_m, w->along_m) : look->lamps * .01;
     const double open = .45 + .55 * street_clamp(w->up_m / 18);
     for (int i = 0; i < 3; i++) {
-        static const double lamp[3] = {1, .62, .27};
-        light[i] +=
-            wall * ledge * stain * tint[i] *
-            (look->sky * open * (.5 * look->horizon[i] + .5 * look->zenith[i]) + lamps * lamp[i]);
+        const double fallen = look->sky * open * (.5 * look->horizon[i] + .5 * look->zenith[i]);
+        light[i] += wall * ledge * stain * tint[i] * (fallen + lamps * street_lamp[i]);
     }
 }

@@ -4,18 +4,13 @@
 #define TURN_SIN (11.0 / 61)
 #define TURN_COS (60.0 / 61)
 
-void street_turn(const double d[3], double s[3])
-{
-    s[0] = TURN_COS * d[0] - TURN_SIN * d[2];
-    s[1] = d[1];
-    s[2] = -TURN_SIN * d[0] - TURN_COS * d[2];
-}
+const double street_lamp[3] = {1, .62, .27};
 
-void street_turn_back(const double s[3], double d[3])
+void street_turn(const double from[3], double to[3])
 {
-    d[0] = TURN_COS * s[0] - TURN_SIN * s[2];
-    d[1] = s[1];
-    d[2] = -TURN_SIN * s[0] - TURN_COS * s[2];
+    to[0] = TURN_COS * from[0] - TURN_SIN * from[2];
+    to[1] = from[1];
+    to[2] = -TURN_SIN * from[0] - TURN_COS * from[2];
 }
 
 // --- chance and patterns ---

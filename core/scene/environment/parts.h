@@ -53,11 +53,21 @@ static inline double street_smooth(double x)
 // The share of a window of `width` around x that stripes cover: in each unit, from 0 to `share`.
 double street_stripes(double x, double share, double width);
 
-// The light of the street lamps at a place, without its colour: 0 by day.
+// The share of light that water mirrors to a ray at an angle of this cosine (Schlick, 1994).
+static inline double street_mirrored(double cosine)
+{
+    const double flat = 1 - cosine, flat2 = flat * flat;
+    return .025 + .975 * flat2 * flat2 * flat;
+}
+
+// The colour of street lamps.
+extern const double street_lamp[3];
+// Their light at a place, without its colour: 0 by day.
 double street_lamplight(const struct street_look *look, double x_m, double y_m, double z_m);
 
-// The wall of a house: `row` tells streets apart, `along_m` is the place along it, `width_m` what a
-// texel covers of it. Its height there is `street_height`.
+// The wall of a house: `row` is one of the street's two, 0 and 1, or of those behind it, 2 and 3;
+// `along_m` is the place along it, `width_m` what a texel covers of it. Its height there is
+// `street_height`.
 double street_height(int row, double along_m);
 struct street_wall {
     int row;
@@ -67,8 +77,7 @@ void street_front(const struct street_look *look, const struct street_wall *wall
 
 // Adds lamps, cars' and traffic lights, and their streaks on the wet ground.
 void street_add_lights(const struct street_look *look, struct rg_environment *environment);
-// From the world, whose y is up too, to the street, and back.
-void street_turn(const double world[3], double street[3]);
-void street_turn_back(const double street[3], double world[3]);
+// From the world, whose y is up too, to the street, or back: it is a mirror image, and so both.
+void street_turn(const double from[3], double to[3]);
 
 #endif

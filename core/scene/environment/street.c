@@ -4,8 +4,10 @@
 
 #include "core/scene/environment/cube.h"
 #include "core/scene/environment/parts.h"
+#include "core/scene/vector.h"
 
 #define END_M  150.0 // where the street meets another
+#define LEFT_M 300.0 // from where walls along that other street are counted
 #define BACK_M 34.0  // from the middle to the towers behind the houses
 #define CARS_M 4.3   // to the sides of parked cars that look at the roadway
 #define SLOT_M 6.4   // of a parked car
@@ -81,10 +83,9 @@ static bool car(const struct street_look *look, int side, double along_m, double
     const double x_m = side ? CARS_M : -CARS_M;
     const double lamps = street_lamplight(look, x_m, up_m, along_m);
     for (int i = 0; i < 3; i++) {
-        static const double lamp[3] = {1, .62, .27};
         const double sky_light = look->sky * (.2 + .6 * up_m) * look->horizon[i];
-        const double glass = (sky_light + .25 * lamps * lamp[i]) * .12;
-        light[i] = body ? paint[i] * (sky_light + lamps * lamp[i]) : glass;
+        const double glass = (sky_light + .25 * lamps * street_lamp[i]) * .12;
+        light[i] = body ? paint[i] * (sky_light + lamps * street_lamp[i]) : glass;
     }
     return true;
 }
@@ -96,17 +97,41 @@ static void add_haze(const struct street_look *look, double way_m, double light[
         light[i] += (look->horizon[i] * .8 - light[i]) * share * share;
 }
 
-// The wall of `row` at `way_m` along the ray; false where the ray passes above it.
-static bool wall(const struct street_look *look, const struct street_ray *ray, int row,
-                 double way_m, double facing, double light[3])
+// Where a ray may meet a wall, which looks as those of one row and is as high as those of another.
+struct meeting {
+    int row, high_as;
+    double along_m, way_m, facing;
+};
+
+// The light of a wall; false where the ray passes above it.
+static bool wall(const struct street_look *look, const struct street_ray *ray,
+                 const struct meeting *m, double light[3])
 {
-    const bool is_end = row >= 4;
-    const double x_m = ray->x * way_m, along_m = is_end ? x_m + 300 : ray->z * way_m;
-    const double up_m = ray->eye_m + ray->y * way_m;
-    if (up_m >= street_height(row & 3, along_m))
+    const double up_m = ray->eye_m + ray->y * m->way_m;
+    if (up_m >= street_height(m->high_as, m->along_m))
         return false;
-    const double width_m = way_m * ray->texel / (facing < .05 ? .05 : facing);
-    street_front(look, &(struct street_wall){is_end ? 3 : row, x_m, along_m, up_m, width_m}, light);
+    const double width_m = m->way_m * ray->texel / (m->facing < .05 ? .05 : m->facing);
+    street_front(look, &(struct street_wall){m->row, ray->x * m->way_m, m->along_m, up_m, width_m},
+                 light);
+    add_haze(look, m->way_m, light);
+    return true;
+}
+
+// The way along a ray for each metre across the street.
+static double way_per_m(const struct street_ray *ray)
+{
+    const double across = ray->x > 0 ? ray->x : -ray->x;
+    return across > 1e-6 ? 1 / across : 1e6;
+}
+
+// The light of a parked car that the ray meets before `end_m`; false where it meets none.
+static bool car_before(const struct street_look *look, const struct street_ray *ray, double end_m,
+                       double light[3])
+{
+    const double way_m = CARS_M * way_per_m(ray);
+    if (way_m >= end_m ||
+        !car(look, ray->x > 0, ray->z * way_m, ray->eye_m + ray->y * way_m, light))
+        return false;
     add_haze(look, way_m, light);
     return true;
 }
@@ -116,20 +141,16 @@ static void above_ground(const struct street_look *look, const struct street_ray
 {
     const int side = ray->x > 0;
     const double across = side ? ray->x : -ray->x, along = ray->z > 0 ? ray->z : -ray->z;
-    const double per_m = across > 1e-6 ? 1 / across : 1e6;
     const double end_m = along > 1e-6 ? END_M / along : 1e9;
-    const double cars_m = CARS_M * per_m, front_m = FRONT_M * per_m, back_m = BACK_M * per_m;
-    if (cars_m < end_m && car(look, side, ray->z * cars_m, ray->eye_m + ray->y * cars_m, light)) {
-        add_haze(look, cars_m, light);
-        return;
-    }
-    if (front_m < end_m && wall(look, ray, side, front_m, across, light))
-        return;
-    if (back_m < end_m && wall(look, ray, 2 + side, back_m, across, light))
-        return;
-    if (end_m < back_m && wall(look, ray, 4 + (ray->z > 0), end_m, along, light))
-        return;
-    sky(look, ray, light);
+    const double front_m = FRONT_M * way_per_m(ray), back_m = BACK_M * way_per_m(ray);
+    const struct meeting front = {side, side, ray->z * front_m, front_m, across};
+    const struct meeting back = {2 + side, 2 + side, ray->z * back_m, back_m, across};
+    const struct meeting end = {3, ray->z > 0, ray->x * end_m + LEFT_M, end_m, along};
+    if (!car_before(look, ray, end_m, light) &&
+        !(front_m < end_m && wall(look, ray, &front, light)) &&
+        !(back_m < end_m && wall(look, ray, &back, light)) &&
+        !(end_m < back_m && wall(look, ray, &end, light)))
+        sky(look, ray, light);
 }
 
 // --- the ground ---
@@ -175,13 +196,11 @@ static void ground(const struct street_look *look, const struct street_ray *ray,
     mirrored.texel = ray->texel * (6 - 4 * wet);
     double above[3];
     above_ground(look, &mirrored, above);
-    const double flat = 1 - down, flat2 = flat * flat;
-    const double share = (.025 + .975 * flat2 * flat2 * flat) * (.3 + .7 * wet);
+    const double share = street_mirrored(down) * (.3 + .7 * wet);
     for (int i = 0; i < 3; i++) {
-        static const double lamp[3] = {1, .62, .27};
         const double fallen = look->sky * (.6 * look->zenith[i] + .4 * look->horizon[i]);
-        light[i] =
-            tint * (1 - .35 * wet) * (fallen + lamps * lamp[i]) * (1 - share) + above[i] * share;
+        const double own = tint * (1 - .35 * wet) * (fallen + lamps * street_lamp[i]);
+        light[i] = own * (1 - share) + above[i] * share;
     }
     add_haze(look, way_m, light);
 }
@@ -196,22 +215,16 @@ struct seen {
 static void seen_along(const double d[3], const void *user, double light[3])
 {
     const struct seen *seen = user;
-    const double scale = 1 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double scale = 1 / sqrt(rg_dot(d, d));
     double s[3];
     street_turn(d, s);
     const struct street_ray ray = {s[0] * scale, s[1] * scale, s[2] * scale, EYE_M,
                                    seen->texel * scale};
-    // Whatever is nearer than the ground hides it: only cars do, and those stand on it.
-    const double down = -ray.y;
-    const double cars_m = CARS_M / (ray.x > 0 ? ray.x + 1e-9 : 1e-9 - ray.x);
-    const double front_m = FRONT_M * cars_m / CARS_M;
-    const double ground_m = down > 0 ? EYE_M / down : 1e9;
-    if (ground_m < front_m && ground_m < END_M &&
-        !(cars_m < ground_m &&
-          car(seen->look, ray.x > 0, ray.z * cars_m, EYE_M - down * cars_m, light)))
-        ground(seen->look, &ray, light);
-    else
+    const double ground_m = ray.y < 0 ? EYE_M / -ray.y : 1e9;
+    if (ground_m >= FRONT_M * way_per_m(&ray) || ground_m >= END_M)
         above_ground(seen->look, &ray, light);
+    else if (!car_before(seen->look, &ray, ground_m, light)) // only cars hide the ground
+        ground(seen->look, &ray, light);
 }
 
 struct rg_environment *rg_street(enum street_time time, int size)

@@ -236,16 +236,10 @@ static void add_maps(struct flow *flow)
 
 static void add_environment(struct flow *flow)
 {
-    struct rg_environment *environment = scenery_environment(
-        flow->settings.environment, flow->settings.environment_px, flow->base.device);
-    struct rg_image *image =
-        environment
-            ? rg_environment_upload(environment, flow->settings.environment_px,
-                                    flow_environment_levels(&flow->settings), flow->base.device)
-            : NULL;
-    rg_environment_destroy(environment);
-    rg_give_image(&flow->base, "environment", image);
-    rg_tell_texture(&flow->base, "environment", image, 0);
+    const struct flow_settings *s = &flow->settings;
+    scenery_add_environment(&flow->base,
+                            &(struct scenery_around){s->environment, s->environment_px,
+                                                     flow_environment_levels(s), .blur_rad = 0});
 }
 
 static flow_glow_params glow_of(const struct rg_image_desc *from, int step_x, int step_y,

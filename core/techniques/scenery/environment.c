@@ -1,11 +1,15 @@
 #include "core/techniques/scenery/environment.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/device/shared.h"
+#include "core/scene/environment/blur.h"
 #include "core/scene/environment/cube.h"
 #include "core/scene/matrix.h"
 #include "core/techniques/scenery/scenery.h"
@@ -131,4 +135,41 @@ struct rg_environment *scenery_environment(const char *name, int size_px, struct
     if (!strcmp(name, "city-night"))
         return draw_city(SCENERY_NIGHT, size_px, device);
     return rg_environment_load(name, size_px);
+}
+
+// --- the image, which instances share ---
+
+static void *make_image(struct rg_device *device, const void *arg)
+{
+    const struct scenery_around *a = arg;
+    struct rg_environment *sharp = scenery_environment(a->name, a->size_px, device);
+    struct rg_environment *blurred =
+        sharp && a->blur_rad > 0 ? rg_environment_blur(sharp, a->blur_rad) : NULL;
+    const struct rg_environment *seen = a->blur_rad > 0 ? blurred : sharp;
+    struct rg_image *image =
+        seen ? rg_environment_upload(seen, a->size_px, a->levels, device) : NULL;
+    rg_environment_destroy(blurred);
+    rg_environment_destroy(sharp);
+    return image;
+}
+
+static void destroy_image(void *thing)
+{
+    rg_image_destroy(thing);
+}
+
+void scenery_add_environment(struct rg_instance *instance, const struct scenery_around *around)
+{
+    static const struct rg_shared_kind kind = {"environment", make_image, destroy_image};
+    char path[RG_ENVIRONMENT_PATH_SIZE], key[RG_ENVIRONMENT_PATH_SIZE + RG_PATH_SIZE + 128];
+    struct stat file = {0};
+    rg_environment_file(around->name, path);
+    if (stat(path, &file)) // it is computed
+        path[0] = 0;
+    snprintf(key, sizeof(key), "%s %d %d %a %s %lld %lld.%09ld", around->name, around->size_px,
+             around->levels, around->blur_rad, path, (long long)file.st_size,
+             (long long)file.st_mtim.tv_sec, file.st_mtim.tv_nsec);
+    struct rg_image *image = rg_shared_get(instance->device, key, &kind, around);
+    rg_share_image(instance, "environment", image);
+    rg_tell_texture(instance, "environment", image, 0);
 }

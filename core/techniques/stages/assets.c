@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "core/device/shared.h"
 
 static void *fail(struct rg_instance *instance)
 {
@@ -146,6 +147,17 @@ struct rg_asset *rg_give_image(struct rg_instance *instance, const char *name,
     return asset;
 }
 
+struct rg_asset *rg_share_image(struct rg_instance *instance, const char *name,
+                                struct rg_image *image)
+{
+    struct rg_asset *asset = image ? rg_lend_image(instance, name, image) : fail(instance);
+    if (asset)
+        asset->is_shared = true;
+    else
+        rg_shared_put(instance->device, image);
+    return asset;
+}
+
 struct rg_asset *rg_add_image(struct rg_instance *instance, const char *name, enum rg_format format,
                               int width, int height)
 {
@@ -166,6 +178,9 @@ void rg_empty(struct rg_asset *asset)
         rg_buf_destroy(asset->buf);
         rg_image_destroy(asset->image);
     }
+    if (asset->is_shared)
+        rg_shared_put(asset->image->device, asset->image);
+    asset->is_shared = false;
     asset->buf = NULL;
     asset->image = NULL;
     asset->is_defined = false;

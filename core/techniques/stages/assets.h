@@ -22,6 +22,9 @@ struct rg_asset *rg_add_image_of(struct rg_instance *instance, const char *name,
 // Takes ownership of an existing image; NULL, from a failure elsewhere, makes adding fail.
 struct rg_asset *rg_give_image(struct rg_instance *instance, const char *name,
                                struct rg_image *image);
+// Takes over what rg_shared_get returned, to put it back with the instance; NULL as above.
+struct rg_asset *rg_share_image(struct rg_instance *instance, const char *name,
+                                struct rg_image *image);
 // Adds an object that the caller owns and keeps alive, or another name for an asset. NULL: the
 // object is set later.
 struct rg_asset *rg_lend_buf(struct rg_instance *instance, const char *name, struct rg_buf *buf);

@@ -20,6 +20,7 @@ struct rg_asset {
     char name[RG_ASSET_NAME];
     bool is_image;
     bool is_owned;      // destroyed with the instance
+    bool is_shared;     // put back with the instance (core/device/shared.h)
     bool is_defined;    // it has been written, so that its contents are the same on all devices
     struct rg_buf *buf; // this or `image` is set; both NULL: made later
     struct rg_image *image;

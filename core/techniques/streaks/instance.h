@@ -2,6 +2,7 @@
 #ifndef RG_CORE_TECHNIQUES_STREAKS_INSTANCE_H
 #define RG_CORE_TECHNIQUES_STREAKS_INSTANCE_H
 
+#include "core/scene/spectrum.h"
 #include "core/techniques/scenery/lights/lights.h"
 #include "core/techniques/scenery/overlay.h"
 #include "core/techniques/scenery/scenery.h"
@@ -43,7 +44,9 @@ enum { STREAKS_SIZES = 512 };
 // The sizes of drops: one class, or STREAKS_SIZES equally frequent ones.
 struct streaks_sizes {
     int count;
-    double drops_m3; // drops kept, where the density map is white
+    double drops_m3;             // drops kept, where the density map is white
+    struct rg_spectrum spectrum; // of classes, and its totals
+    struct rg_rainfall rainfall;
     double speeds_m_s[STREAKS_SIZES];
     double largest_m, fastest_m_s;                   // the largest radius and the highest speed
     float words[STREAKS_SIZES * STREAKS_SIZE_WORDS]; // kernels/streaks/size.h

@@ -166,8 +166,9 @@ static void tell_textures(struct streaks *s)
 
 static bool create_textures(struct streaks *s)
 {
-    const enum rg_atlas_size size = rg_atlas_swinging((enum rg_atlas_size)s->settings.atlas,
-                                                      (enum rg_swings)s->settings.swings);
+    enum rg_atlas_size size = (enum rg_atlas_size)s->settings.atlas;
+    if (s->settings.swings == RG_SWINGS_MEASURED)
+        size = rg_atlas_kinds[size].measured;
     s->textures = streaks_textures_get(s->base.device, size);
     return s->textures;
 }

@@ -17,8 +17,7 @@ RG_FN float streaks_point(rg_ctx rg, streaks_params p, streaks_strip s, int colu
 }
 
 // The weight of a column's texture in a drop's picture, in the lower of its views (0) or the other
-// (1). A splash has one view, and a factor of its material. The first layers of materials are 0,
-// 21, 42 and 63.
+// (1). A splash has one view, and a factor of its material, whose first layer it has.
 RG_FN float streaks_part_of(rg_ctx rg, streaks_billboard r, int view, int column, float part)
 {
     int splash = streaks_is(r, STREAKS_LOOK_SPLASH);
@@ -26,7 +25,7 @@ RG_FN float streaks_part_of(rg_ctx rg, streaks_billboard r, int view, int column
     float higher = r.shown - rg_to_float(lower);
     float seen = view != 0 ? higher : 1.0f - higher;
     int drop_row = streaks_layer_of(r) * STREAKS_VIEWS + lower + view;
-    int crown_row = streaks_layer_of(r) >> 4;
+    int crown_row = streaks_layer_of(r) / STREAKS_FRAMES;
     int at = splash != 0 ? STREAKS_SPLASH_FACTORS + crown_row * STREAKS_COLUMNS
                          : drop_row * STREAKS_COLUMNS;
     float share = splash != 0 ? rg_to_float(1 - view) : seen;

@@ -4,13 +4,10 @@
 #include <string.h>
 
 #include "core/scene/atlas/optics/drop.h"
+#include "core/scene/vector.h"
+#include "kernels/dialect/dielectric.h"
 
 static const double index_of_water = (double)RG_DROP_INDEX;
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 static void along(const double from[3], double far, const double way[3], double to[3])
 {
@@ -18,13 +15,15 @@ static void along(const double from[3], double far, const double way[3], double 
         to[i] = from[i] + far * way[i];
 }
 
-// The share of unpolarised light that is reflected where it enters water, by Fresnel.
+// The cosine inside of light that enters water, and the share that is reflected there.
+static double refracted(double cosine)
+{
+    return (double)sqrtf(rg_cos_refracted2((float)cosine, 1 / RG_DROP_INDEX));
+}
+
 static double reflectance(double cosine)
 {
-    const double after = sqrt(1 - (1 - cosine * cosine) / (index_of_water * index_of_water));
-    const double across = (cosine - index_of_water * after) / (cosine + index_of_water * after);
-    const double within = (index_of_water * cosine - after) / (index_of_water * cosine + after);
-    return 0.5 * (across * across + within * within);
+    return (double)rg_reflectance((float)cosine, (float)refracted(cosine), 1 / RG_DROP_INDEX);
 }
 
 static void add(struct rg_water_light *light, const double from[3], double share)
@@ -53,10 +52,12 @@ static const struct rg_water_ball *next_ball(const struct rg_water *w,
     for (int i = 0; i < w->count; i++) {
         const struct rg_water_ball *b = &w->balls[i];
         double to[3];
+        if (b == leaves)
+            continue;
         along(b->at, -1, start, to);
-        const double middle = dot(to, way),
-                     inner = middle * middle - dot(to, to) + b->radius_m * b->radius_m;
-        if (middle <= 0 || inner <= 0 || (leaves && b == leaves))
+        const double middle = rg_dot(to, way),
+                     inner = middle * middle - rg_dot(to, to) + b->radius_m * b->radius_m;
+        if (middle <= 0 || inner <= 0)
             continue;
         const double far = middle - sqrt(inner);
         if (far > 0 && far < least) {
@@ -88,25 +89,26 @@ static void see_ball(const struct rg_water *w, const struct rg_water_ball *ball,
 {
     double from[3], normal[3], inside[3], out[3], at[3];
     along(start, -1, ball->at, from);
-    const double middle = -dot(from, way), squared = dot(from, from) - middle * middle;
+    const double middle = -rg_dot(from, way), squared = rg_dot(from, from) - middle * middle;
     const double half = sqrt(fmax(ball->radius_m * ball->radius_m - squared, 0));
     along(from, middle - half, way, normal);
     for (int i = 0; i < 3; i++)
         normal[i] /= ball->radius_m;
     const double in = fmin(half / ball->radius_m, 1), mirrors = reflectance(in);
-    const double after = sqrt(1 - (1 - in * in) / (index_of_water * index_of_water));
+    const double after = refracted(in);
     along(way, 2 * in, normal, out);
     along(ball->at, ball->radius_m, normal, at);
     follow(w, ball, at, out, left * mirrors, deep + 1, light);
     for (int i = 0; i < 3; i++)
         inside[i] = (way[i] + (in - index_of_water * after) * normal[i]) / index_of_water;
+    double share = left * (1 - mirrors) * (1 - mirrors);
     for (int turns = 0; turns < 2; turns++) {
         along(normal, 2 * after, inside, normal);
         for (int i = 0; i < 3; i++)
             out[i] = index_of_water * inside[i] + (in - index_of_water * after) * normal[i];
         along(ball->at, ball->radius_m, normal, at);
-        follow(w, ball, at, out, left * (1 - mirrors) * (1 - mirrors) * pow(mirrors, turns),
-               deep + 1, light);
+        follow(w, ball, at, out, share, deep + 1, light);
+        share *= mirrors;
         along(inside, -2 * after, normal, inside);
     }
 }
@@ -130,8 +132,8 @@ static double see_wall(const struct rg_water *w, const double start[3], const do
     normal[0] = at[0] / radius / length;
     normal[1] = -w->flare / length;
     normal[2] = at[2] / radius / length;
-    const double one = reflectance(fabs(dot(way, normal))), both = 2 * one / (1 + one);
-    along(way, -2 * dot(way, normal), normal, out);
+    const double one = reflectance(fabs(rg_dot(way, normal))), both = 2 * one / (1 + one);
+    along(way, -2 * rg_dot(way, normal), normal, out);
     follow(w, NULL, at, out, left * both, 1, light);
     return left * (1 - both);
 }
@@ -173,7 +175,7 @@ static void see_wave(const struct rg_water *w, const double start[3], const doub
     normal[0] = -rise * at[0] / radius / length;
     normal[1] = 1 / length;
     normal[2] = -rise * at[2] / radius / length;
-    const double facing = -dot(way, normal);
+    const double facing = -rg_dot(way, normal);
     along(way, 2 * facing, normal, out);
     if (facing > 0)
         add(light, out, left * (reflectance(facing) - reflectance(-way[1])));
@@ -186,7 +188,7 @@ void rg_water_see(const struct rg_water *water, const struct rg_water_ball *ball
     light->count = 0;
     if (ball) {
         along(ball->at, -1, start, to);
-        end = dot(to, way);
+        end = rg_dot(to, way);
     }
     const double left = see_sheet(water, start, way, end, light);
     if (ball)

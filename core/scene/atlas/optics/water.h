@@ -3,8 +3,6 @@
 #ifndef RG_CORE_SCENE_ATLAS_OPTICS_WATER_H
 #define RG_CORE_SCENE_ATLAS_OPTICS_WATER_H
 
-#include <stdbool.h>
-
 enum { RG_WATER_BALLS = 512, RG_WATER_WAYS = 48 };
 
 struct rg_water_ball {
@@ -14,9 +12,9 @@ struct rg_water_ball {
 // At one moment. The sheet is a cone, `foot_m` wide at the ground and wider by `flare` a metre up;
 // its edge is scalloped between `spikes` fingers. The wave is a ring of this radius and width.
 struct rg_water {
-    int count;
+    int count, spikes;
     struct rg_water_ball balls[RG_WATER_BALLS];
-    double foot_m, flare, height_m, spikes, turn;
+    double foot_m, flare, height_m, turn;
     double ring_m, ring_width_m, ring_height_m;
 };
 

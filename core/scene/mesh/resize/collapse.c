@@ -7,6 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/scene/mesh/resize/resize.h"
+#include "core/scene/vector.h"
 
 enum { NONE = -1, QUADRIC = 10 };
 
@@ -22,6 +23,7 @@ enum { NONE = -1, QUADRIC = 10 };
 struct collapse {
     double cost;
     uint32_t from, to;
+    uint32_t faces; // at this edge
 };
 
 struct state {
@@ -33,9 +35,13 @@ struct state {
     double *weights;             // by vertex: of its planes
     uint32_t *first;             // by vertex: its faces in `around`, one more at the end
     uint32_t *around;            // faces
-    int *seen;                   // by vertex: the last vertex whose neighbour it was, or NONE
-    bool *touched, *fixed;       // by vertex: in this round; more than two faces share an edge
-    bool *border;                // by vertex
+    struct rg_side *sides;       // sorted, as they were when the round began
+    uint32_t *ends;              // by vertex: of the sides whose lower vertex it is
+    uint32_t *sharing;           // by corner: the faces at the side from it to the next
+    uint64_t *seen;              // by vertex: the last attempt in which it was a neighbour
+    uint64_t attempts;
+    bool *touched, *fixed; // by vertex: in this round; more than two faces share an edge
+    bool *border;          // by vertex
     struct collapse *collapses;
 };
 
@@ -46,17 +52,14 @@ static void position_of(const struct state *s, uint32_t vertex, double p[3])
 }
 
 // The normal of a triangle, as long as twice its area.
-static void cross_of(const double a[3], const double b[3], const double c[3], double n[3])
+static void normal_of(const double a[3], const double b[3], const double c[3], double n[3])
 {
+    double u[3], v[3];
     for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        n[i] = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
+        u[i] = b[i] - a[i];
+        v[i] = c[i] - a[i];
     }
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    rg_cross(u, v, n);
 }
 
 // --- quadrics ---
@@ -64,7 +67,7 @@ static double dot(const double a[3], const double b[3])
 static void add_plane(struct state *s, uint32_t vertex, const double n[3], const double on[3],
                       double weight)
 {
-    const double plane[4] = {n[0], n[1], n[2], -dot(n, on)};
+    const double plane[4] = {n[0], n[1], n[2], -rg_dot(n, on)};
     double *q = s->quadrics[vertex];
     for (int i = 0; i < 4; i++)
         for (int j = i; j < 4; j++)
@@ -81,7 +84,7 @@ static double error_at(const double q[QUADRIC], const double p[3])
 
 static bool make_unit(double n[3], double *length)
 {
-    *length = sqrt(dot(n, n));
+    *length = sqrt(rg_dot(n, n));
     for (int i = 0; i < 3 && *length > 0; i++)
         n[i] /= *length;
     return *length > 0;
@@ -93,7 +96,7 @@ static void add_face(struct state *s, const uint32_t corner[3])
     double p[3][3], n[3], length;
     for (int k = 0; k < 3; k++)
         position_of(s, corner[k], p[k]);
-    cross_of(p[0], p[1], p[2], n);
+    normal_of(p[0], p[1], p[2], n);
     if (!make_unit(n, &length))
         return;
     for (int k = 0; k < 3; k++)
@@ -106,14 +109,14 @@ static void add_border(struct state *s, const uint32_t corner[3], int k)
     double p[3][3], n[3], above[3], length, side2 = 0;
     for (int i = 0; i < 3; i++)
         position_of(s, corner[(k + i) % 3], p[i]);
-    cross_of(p[0], p[1], p[2], n);
+    normal_of(p[0], p[1], p[2], n);
     if (!make_unit(n, &length))
         return;
     for (int i = 0; i < 3; i++) {
         above[i] = p[0][i] + n[i];
         side2 += (p[1][i] - p[0][i]) * (p[1][i] - p[0][i]);
     }
-    cross_of(p[0], p[1], above, n);
+    normal_of(p[0], p[1], above, n);
     if (!make_unit(n, &length))
         return;
     add_plane(s, a, n, p[0], BORDER_WEIGHT * side2);
@@ -141,56 +144,63 @@ static bool has(const uint32_t corner[3], uint32_t vertex)
     return corner[0] == vertex || corner[1] == vertex || corner[2] == vertex;
 }
 
-// The faces that two vertices share.
-static int shared(const struct state *s, uint32_t a, uint32_t b)
+// Sorts the sides, and counts those of each edge: a border has one, and what more than two faces
+// share may not move.
+static void find_sides(struct state *s)
 {
-    int count = 0;
-    for (uint32_t i = s->first[a]; i < s->first[a + 1]; i++)
-        count += has(s->indices + 3 * (size_t)s->around[i], b);
-    return count;
-}
-
-// Marks borders and what may not move; with `planes` adds those of borders.
-static void find_borders(struct state *s, bool planes)
-{
+    const size_t count =
+        rg_resize_sides(s->indices, s->face_count, s->vertex_count, s->ends, s->sides);
     memset(s->border, 0, s->vertex_count);
     memset(s->fixed, 0, s->vertex_count);
-    for (int face = 0; face < s->face_count; face++) {
-        const uint32_t *corner = s->indices + 3 * (size_t)face;
-        for (int k = 0; k < 3; k++) {
-            const uint32_t a = corner[k], b = corner[(k + 1) % 3];
-            const int count = shared(s, a, b);
-            if (count == 1) {
-                s->border[a] = s->border[b] = true;
-                if (planes)
-                    add_border(s, corner, k);
-            } else if (count > 2)
-                s->fixed[a] = s->fixed[b] = true;
-        }
+    for (size_t i = 0, end; i < count; i = end) {
+        const uint64_t key = s->sides[i].key;
+        for (end = i + 1; end < count && s->sides[end].key == key;)
+            end++;
+        for (size_t k = i; k < end; k++)
+            s->sharing[s->sides[k].corner] = (uint32_t)(end - i);
+        bool *marks = end - i == 1 ? s->border : end - i > 2 ? s->fixed : NULL;
+        if (marks)
+            marks[key >> 32] = marks[(uint32_t)key] = true;
     }
+}
+
+// Whether two vertices are an edge's, which none of this round's collapses has touched.
+static bool are_joined(const struct state *s, uint32_t a, uint32_t b)
+{
+    const uint64_t key = rg_side_key(a, b);
+    const uint32_t lower = (uint32_t)(key >> 32), end = s->ends[lower];
+    uint32_t low = lower ? s->ends[lower - 1] : 0, high = end;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (s->sides[middle].key < key)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < end && s->sides[low].key == key;
 }
 
 // --- one collapse ---
 
-// Marks the neighbours of `to`, then counts those of `from` among them: if there are more than the
-// faces that both share, the surface would be pinched.
-static bool keeps_topology(struct state *s, uint32_t from, uint32_t to)
+// Counts the neighbours that both have: if there are more than the faces that both share, the
+// surface would be pinched. It goes around the one with fewer faces, since a fan's middle may have
+// them all.
+static bool keeps_topology(struct state *s, const struct collapse *c)
 {
-    int common = 0;
-    for (uint32_t i = s->first[to]; i < s->first[to + 1]; i++)
-        for (int k = 0; k < 3; k++)
-            s->seen[s->indices[3 * (size_t)s->around[i] + (size_t)k]] = (int)to;
-    s->seen[to] = s->seen[from] = NONE;
-    for (uint32_t i = s->first[from]; i < s->first[from + 1]; i++)
+    const uint32_t by_from = s->first[c->from + 1] - s->first[c->from];
+    const uint32_t by_to = s->first[c->to + 1] - s->first[c->to];
+    const uint32_t few = by_from < by_to ? c->from : c->to, many = few == c->to ? c->from : c->to;
+    uint32_t common = 0;
+    s->attempts++;
+    s->seen[few] = s->seen[many] = s->attempts;
+    for (uint32_t i = s->first[few]; i < s->first[few + 1]; i++)
         for (int k = 0; k < 3; k++) {
-            int *seen = &s->seen[s->indices[3 * (size_t)s->around[i] + (size_t)k]];
-            common += *seen == (int)to;
-            *seen = *seen == (int)to ? NONE : *seen;
+            const uint32_t vertex = s->indices[3 * (size_t)s->around[i] + (size_t)k];
+            if (s->seen[vertex] != s->attempts)
+                common += are_joined(s, vertex, many);
+            s->seen[vertex] = s->attempts;
         }
-    for (uint32_t i = s->first[to]; i < s->first[to + 1]; i++)
-        for (int k = 0; k < 3; k++)
-            s->seen[s->indices[3 * (size_t)s->around[i] + (size_t)k]] = NONE;
-    return common == shared(s, from, to);
+    return common == c->faces;
 }
 
 static bool keeps_facing(const struct state *s, uint32_t from, uint32_t to)
@@ -206,10 +216,10 @@ static bool keeps_facing(const struct state *s, uint32_t from, uint32_t to)
             position_of(s, corner[k], before[k]);
             memcpy(after[k], corner[k] == from ? target : before[k], sizeof(after[k]));
         }
-        cross_of(before[0], before[1], before[2], n);
-        cross_of(after[0], after[1], after[2], m);
-        if (dot(n, m) < LEAST_TURN * sqrt(dot(n, n) * dot(m, m)) ||
-            (dot(m, m) <= 0 && dot(n, n) > 0))
+        normal_of(before[0], before[1], before[2], n);
+        normal_of(after[0], after[1], after[2], m);
+        if (rg_dot(n, m) < LEAST_TURN * sqrt(rg_dot(n, n) * rg_dot(m, m)) ||
+            (rg_dot(m, m) <= 0 && rg_dot(n, n) > 0))
             return false;
     }
     return true;
@@ -256,7 +266,7 @@ static double cost_of(const struct state *s, uint32_t from, uint32_t to)
 }
 
 // A vertex of a border may only move along it.
-static bool may_move(const struct state *s, uint32_t from, uint32_t to, int faces)
+static bool may_move(const struct state *s, uint32_t from, uint32_t to, uint32_t faces)
 {
     return !s->fixed[from] && (!s->border[from] || (faces == 1 && s->border[to]));
 }
@@ -266,15 +276,15 @@ static size_t find_collapses(struct state *s)
     size_t count = 0;
     for (int i = 0; i < 3 * s->face_count; i++) {
         const uint32_t a = s->indices[i], b = s->indices[i % 3 == 2 ? i - 2 : i + 1];
-        const int faces = shared(s, a, b);
+        const uint32_t faces = s->sharing[i];
         if (a > b && faces > 1)
             continue; // its other face has it
         const bool there = may_move(s, a, b, faces), back = may_move(s, b, a, faces);
         const double cost = there ? cost_of(s, a, b) : 0, other = back ? cost_of(s, b, a) : 0;
         if (there && (!back || cost <= other))
-            s->collapses[count++] = (struct collapse){cost, a, b};
+            s->collapses[count++] = (struct collapse){cost, a, b, faces};
         else if (back)
-            s->collapses[count++] = (struct collapse){other, b, a};
+            s->collapses[count++] = (struct collapse){other, b, a, faces};
     }
     return count;
 }
@@ -293,7 +303,7 @@ static int compare(const void *a, const void *b)
 static bool run_round(struct state *s)
 {
     find_around(s);
-    find_borders(s, false);
+    find_sides(s);
     const size_t count = find_collapses(s);
     const size_t needed = (size_t)(s->face_count - s->wanted) / 2;
     int left = s->face_count;
@@ -306,10 +316,10 @@ static bool run_round(struct state *s)
         const struct collapse *c = &s->collapses[i];
         if (c->cost > limit && left < s->face_count)
             break;
-        if (s->touched[c->from] || s->touched[c->to] || !keeps_topology(s, c->from, c->to) ||
+        if (s->touched[c->from] || s->touched[c->to] || !keeps_topology(s, c) ||
             !keeps_facing(s, c->from, c->to))
             continue;
-        left -= shared(s, c->from, c->to);
+        left -= (int)c->faces;
         move(s, c->from, c->to);
     }
     const bool changed = left < s->face_count;
@@ -324,19 +334,22 @@ static bool begin(struct state *s, const char *name)
         !(s->weights = rg_alloc(vertices, sizeof(*s->weights), name)) ||
         !(s->first = rg_alloc(vertices + 1, sizeof(*s->first), name)) ||
         !(s->around = rg_alloc(corners, sizeof(*s->around), name)) ||
+        !(s->sides = rg_alloc(corners, sizeof(*s->sides), name)) ||
+        !(s->ends = rg_alloc(vertices, sizeof(*s->ends), name)) ||
+        !(s->sharing = rg_alloc(corners, sizeof(*s->sharing), name)) ||
         !(s->seen = rg_alloc(vertices, sizeof(*s->seen), name)) ||
         !(s->touched = rg_alloc(vertices, sizeof(*s->touched), name)) ||
         !(s->fixed = rg_alloc(vertices, sizeof(*s->fixed), name)) ||
         !(s->border = rg_alloc(vertices, sizeof(*s->border), name)) ||
         !(s->collapses = rg_alloc(corners, sizeof(*s->collapses), name)))
         return false;
-    for (size_t i = 0; i < vertices; i++)
-        s->seen[i] = NONE;
     drop_flat(s);
     for (int face = 0; face < s->face_count; face++)
         add_face(s, s->indices + 3 * (size_t)face);
-    find_around(s);
-    find_borders(s, true);
+    find_sides(s);
+    for (int i = 0; i < 3 * s->face_count; i++)
+        if (s->sharing[i] == 1)
+            add_border(s, s->indices + i / 3 * 3, i % 3);
     return true;
 }
 
@@ -354,6 +367,9 @@ int rg_resize_collapse(const struct rg_mesh *mesh, int wanted, uint32_t *indices
     free(s.weights);
     free(s.first);
     free(s.around);
+    free(s.sides);
+    free(s.ends);
+    free(s.sharing);
     free(s.seen);
     free(s.touched);
     free(s.fixed);

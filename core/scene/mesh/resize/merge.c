@@ -1,4 +1,5 @@
 // Where edges cannot collapse, the vertices of a grid's cell become one.
+#include <math.h>
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
@@ -19,14 +20,19 @@ static int compare(const void *a, const void *b)
     return x->vertex < y->vertex ? -1 : x->vertex > y->vertex;
 }
 
-static uint64_t cell_of(const struct rg_mesh *mesh, uint32_t vertex, int cells)
+// The longest side of the mesh's bounds. A mesh without extent lies in one cell, whatever the
+// length.
+static double longest_of(const struct rg_mesh *mesh)
 {
     double longest = 0;
+    for (int c = 0; c < 3; c++)
+        longest = fmax(longest, (double)mesh->high[c] - (double)mesh->low[c]);
+    return longest > 0 ? longest : 1;
+}
+
+static uint64_t cell_of(const struct rg_mesh *mesh, double longest, uint32_t vertex, int cells)
+{
     uint64_t cell = 0;
-    for (int c = 0; c < 3; c++) {
-        const double side = (double)mesh->high[c] - (double)mesh->low[c];
-        longest = side > longest ? side : longest;
-    }
     for (int c = 0; c < 3; c++) {
         const double at = (double)mesh->positions[3 * (size_t)vertex + (size_t)c];
         const int along = (int)((at - (double)mesh->low[c]) / longest * cells);
@@ -40,8 +46,9 @@ static void find_stand_ins(const struct rg_mesh *mesh, int cells, struct place *
                            uint32_t *stand_ins)
 {
     const size_t count = (size_t)mesh->vertex_count;
+    const double longest = longest_of(mesh);
     for (size_t i = 0; i < count; i++)
-        places[i] = (struct place){cell_of(mesh, (uint32_t)i, cells), (uint32_t)i};
+        places[i] = (struct place){cell_of(mesh, longest, (uint32_t)i, cells), (uint32_t)i};
     qsort(places, count, sizeof(*places), compare);
     uint32_t first = 0;
     for (size_t i = 0; i < count; i++) {

@@ -22,12 +22,6 @@ void rg_resize_rename(struct rg_mesh *mesh, const char *source, const char *done
              mesh->face_count);
 }
 
-// A face's side, from its corner `corner` (3 * face + 0, 1 or 2) to the next.
-struct side {
-    uint64_t key; // the two vertices, the lower index in the upper half
-    uint32_t corner;
-};
-
 // Sides with the same two vertices: `count` of them from `first` on, in sorted order.
 struct edge {
     double length2;
@@ -39,18 +33,11 @@ struct refinement {
     int vertex_count, face_count, wanted;
     float *positions, *normals;
     uint32_t *indices;
-    struct side *sides;
+    struct rg_side *sides;
+    uint32_t *ends; // of `sides`, by vertex
     struct edge *edges;
     bool *taken; // by face: one of its edges was halved in this round
 };
-
-static int compare_sides(const void *a, const void *b)
-{
-    const struct side *x = a, *y = b;
-    if (x->key != y->key)
-        return x->key < y->key ? -1 : 1;
-    return x->corner < y->corner ? -1 : x->corner > y->corner;
-}
 
 static int compare_edges(const void *a, const void *b)
 {
@@ -72,14 +59,9 @@ static double length_squared(const struct refinement *r, uint64_t key)
 // Finds all edges, longest first, and returns their number.
 static size_t find_edges(struct refinement *r)
 {
-    size_t sides = 0, edges = 0;
-    for (uint32_t corner = 0; corner < 3 * (uint32_t)r->face_count; corner++) {
-        const uint64_t a = r->indices[corner];
-        const uint64_t b = r->indices[corner % 3 == 2 ? corner - 2 : corner + 1];
-        if (a != b)
-            r->sides[sides++] = (struct side){a < b ? a << 32 | b : b << 32 | a, corner};
-    }
-    qsort(r->sides, sides, sizeof(*r->sides), compare_sides);
+    const size_t sides =
+        rg_resize_sides(r->indices, r->face_count, (size_t)r->vertex_count, r->ends, r->sides);
+    size_t edges = 0;
     for (size_t i = 0; i < sides; i++) {
         if (i > 0 && r->sides[i].key == r->sides[i - 1].key)
             r->edges[edges - 1].count++;
@@ -93,7 +75,7 @@ static size_t find_edges(struct refinement *r)
 // Whether all of an edge's faces are different and untouched in this round.
 static bool is_free(const struct refinement *r, const struct edge *edge)
 {
-    const struct side *sides = r->sides + edge->first;
+    const struct rg_side *sides = r->sides + edge->first;
     for (uint32_t i = 0; i < edge->count; i++)
         if (r->taken[sides[i].corner / 3] ||
             (i > 0 && sides[i].corner / 3 == sides[i - 1].corner / 3))
@@ -161,7 +143,8 @@ static bool begin_refinement(struct refinement *r, const struct rg_mesh *mesh, i
     if (!(r->positions = rg_alloc(most, 3 * sizeof(float), mesh->name)) ||
         !(r->normals = rg_alloc(most, 3 * sizeof(float), mesh->name)) ||
         !(r->indices = rg_alloc((size_t)faces, 3 * sizeof(uint32_t), mesh->name)) ||
-        !(r->sides = rg_alloc((size_t)faces, 3 * sizeof(struct side), mesh->name)) ||
+        !(r->sides = rg_alloc((size_t)faces, 3 * sizeof(struct rg_side), mesh->name)) ||
+        !(r->ends = rg_alloc(most, sizeof(*r->ends), mesh->name)) ||
         !(r->edges = rg_alloc((size_t)faces, 3 * sizeof(struct edge), mesh->name)) ||
         !(r->taken = rg_alloc((size_t)faces, sizeof(bool), mesh->name)))
         return false;
@@ -177,6 +160,7 @@ static void end_refinement(struct refinement *r)
     free(r->normals);
     free(r->indices);
     free(r->sides);
+    free(r->ends);
     free(r->edges);
     free(r->taken);
 }

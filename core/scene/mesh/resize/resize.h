@@ -9,6 +9,23 @@ bool rg_resize_check(const struct rg_mesh *mesh, int faces);
 // Renames a mesh after its source and its number of faces: "bunny.obj, refined to 70000 faces".
 void rg_resize_rename(struct rg_mesh *mesh, const char *source, const char *done);
 
+// A face's side, from its corner `corner` (3 * face + 0, 1 or 2) to the next.
+struct rg_side {
+    uint64_t key; // the two vertices, the lower index in the upper half
+    uint32_t corner;
+};
+
+static inline uint64_t rg_side_key(uint64_t a, uint64_t b)
+{
+    return a < b ? a << 32 | b : b << 32 | a;
+}
+
+// Fills `sides`, which has room for three a face, with those of different ends, sorted by key and
+// then by corner, so that those of one edge follow each other. Returns their number. `ends`, by
+// vertex, becomes the number of sides whose lower vertex is this one or an earlier one.
+size_t rg_resize_sides(const uint32_t *indices, int face_count, size_t vertex_count, uint32_t *ends,
+                       struct rg_side *sides);
+
 // Collapses edges of `indices`, three of each face, until there are at most `wanted` faces, or
 // until none can collapse without tearing or folding the surface. Every vertex stays where it is.
 // Returns the number of faces left in `indices`, or -1, with one logged line, when memory runs out.

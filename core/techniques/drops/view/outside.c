@@ -6,7 +6,6 @@
 #include "core/base/alloc.h"
 #include "core/image/disc.h"
 #include "core/image/files/io.h"
-#include "core/scene/environment/blur.h"
 #include "core/techniques/drops/instance.h"
 #include "core/techniques/scenery/environment.h"
 #include "kernels/dialect/image/format.h"
@@ -26,20 +25,9 @@ static void add_environment(struct rg_instance *instance, const struct drops_set
     int levels = 1;
     while (s->environment_px >> levels >= LEAST_LEVEL_PX)
         levels++;
-    struct rg_environment *sharp =
-        scenery_environment(s->environment, s->environment_px, instance->device);
-    // A pinhole does not blur.
-    struct rg_environment *blurred =
-        sharp && s->aperture_mm > 0
-            ? rg_environment_blur(sharp, angle_of(s->aperture_mm, s->distance_mm))
-            : NULL;
-    const struct rg_environment *seen = s->aperture_mm > 0 ? blurred : sharp;
-    struct rg_image *image =
-        seen ? rg_environment_upload(seen, s->environment_px, levels, instance->device) : NULL;
-    rg_environment_destroy(blurred);
-    rg_environment_destroy(sharp);
-    rg_give_image(instance, "environment", image);
-    rg_tell_texture(instance, "environment", image, 0);
+    scenery_add_environment(instance,
+                            &(struct scenery_around){s->environment, s->environment_px, levels,
+                                                     angle_of(s->aperture_mm, s->distance_mm)});
 }
 
 // --- the background ---

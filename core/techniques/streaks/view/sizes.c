@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/scene/spectrum.h"
 #include "core/techniques/streaks/instance.h"
 
 // In the order of the parameters' choices.
@@ -11,14 +10,17 @@ enum { ONE_SIZE, OF_MARSHALL_PALMER, OF_BEST };
 
 static struct rg_spectrum spectrum_of(const struct streaks_settings *set)
 {
-    return (struct rg_spectrum){
+    struct rg_spectrum spectrum = {
         .kind = set->spectrum == OF_BEST ? RG_BEST : RG_MARSHALL_PALMER,
         .law = (enum rg_speed_law)set->terminal_speed,
         .rain_mm_h = set->rain_mm_h,
         .least_mm = set->least_diameter_mm,
         .most_mm = RG_LARGEST_DROP_MM,
-        .normalised = set->normalised,
+        .amount = 1,
     };
+    if (set->normalised)
+        rg_spectrum_normalise(&spectrum);
+    return spectrum;
 }
 
 // Rayleigh's frequency of a water drop; the atlas's second oscillation is twice as fast.
@@ -55,12 +57,13 @@ static bool make_one(struct streaks *s)
 static bool make_classes(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    const struct rg_spectrum spectrum = spectrum_of(set);
     struct rg_drop_class classes[STREAKS_SIZES];
     struct streaks_sizes *sizes = &s->sizes;
+    sizes->spectrum = spectrum_of(set);
+    sizes->rainfall = rg_spectrum_rainfall(&sizes->spectrum);
     sizes->count = STREAKS_SIZES;
-    sizes->drops_m3 = rg_spectrum_rainfall(&spectrum).drops_m3 * set->kept_share;
-    rg_spectrum_classes(&spectrum, (enum rg_spectrum_keep)set->kept, STREAKS_SIZES, classes);
+    sizes->drops_m3 = sizes->rainfall.drops_m3 * set->kept_share;
+    rg_spectrum_classes(&sizes->spectrum, (enum rg_spectrum_keep)set->kept, STREAKS_SIZES, classes);
     for (int i = 0; i < STREAKS_SIZES; i++)
         put_class(sizes, set, i, classes[i].diameter_mm / 2000, classes[i].speed_m_s,
                   classes[i].drops_m3 * STREAKS_SIZES / sizes->drops_m3);
@@ -162,9 +165,8 @@ static void tell_one(struct streaks *s)
 
 static void tell_spectrum(struct streaks *s)
 {
-    const struct streaks_settings *set = &s->settings;
-    struct rg_spectrum spectrum = spectrum_of(set);
-    const struct rg_rainfall kept = rg_spectrum_rainfall(&spectrum);
+    const struct rg_rainfall kept = s->sizes.rainfall;
+    struct rg_spectrum spectrum = s->sizes.spectrum;
     spectrum.most_mm = spectrum.least_mm;
     spectrum.least_mm = RG_SMALLEST_DROP_MM;
     const struct rg_rainfall left = spectrum.most_mm > spectrum.least_mm
@@ -172,7 +174,7 @@ static void tell_spectrum(struct streaks *s)
                                         : (struct rg_rainfall){0};
     rg_tell(&s->base, "rain_rate_mm_h", kept.rain_mm_h);
     rg_tell(&s->base, "extinction_per_km", rg_extinction_per_km(kept.section_mm2_m3));
-    rg_tell(&s->base, "rain_nominal_mm_h", set->rain_mm_h);
+    rg_tell(&s->base, "rain_nominal_mm_h", spectrum.rain_mm_h);
     rg_tell(&s->base, "rain_realised_mm_h", realised_mm_h(s));
     rg_tell(&s->base, "drops_m3", kept.drops_m3);
     rg_tell(&s->base, "drops_left_out_m3", left.drops_m3);

@@ -315,19 +315,21 @@ static void test_unpacked_database(void **state)
     assert_non_null(strstr(rg_last_error(), "atlas --from"));
 }
 
-// Each size has a file of its own, and swings choose among the traced ones.
+// Each size has a file of its own, and the traced ones have one of other swings.
 static void test_sizes(void **state)
 {
     (void)state;
     static const enum rg_atlas_size measured[RG_ATLAS_SIZE_COUNT] = {
         RG_ATLAS_MEASURED,   RG_ATLAS_MEASURED_SMALL, RG_ATLAS_CAVE,
         RG_ATLAS_CAVE_SMALL, RG_ATLAS_MEASURED,       RG_ATLAS_MEASURED_SMALL};
+    const struct rg_atlas_kind *kinds = rg_atlas_kinds;
     char paths[RG_ATLAS_SIZE_COUNT][RG_ATLAS_PATH_SIZE];
     for (int i = 0; i < RG_ATLAS_SIZE_COUNT; i++) {
         const enum rg_atlas_size size = (enum rg_atlas_size)i;
-        assert_int_equal(rg_atlas_swinging(size, RG_SWINGS_MEASURED), measured[i]);
-        assert_int_equal(rg_atlas_swinging(size, RG_SWINGS_DATABASE), size);
-        assert_int_equal(rg_atlas_is_small(size), rg_atlas_is_small(measured[i]));
+        assert_int_equal(kinds[i].measured, measured[i]);
+        assert_int_equal(kinds[i].is_small, kinds[measured[i]].is_small);
+        assert_int_equal(kinds[i].is_packed, kinds[measured[i]].is_packed);
+        assert_true(kinds[i].is_packed || kinds[measured[i]].detail.swings == RG_SWINGS_MEASURED);
         assert_true(rg_atlas_cache_path(size, paths[i], why));
         for (int k = 0; k < i; k++)
             assert_string_not_equal(paths[i], paths[k]);

@@ -52,9 +52,8 @@ static double mean_of_middle(const struct rg_streaks *s, int lobe)
 static void test_published_brightness(void **state)
 {
     (void)state;
-    const struct rg_streak_detail shipped = rg_streak_detail(RG_ATLAS_FULL);
     struct rg_streaks streaks;
-    assert_true(rg_streaks_trace(0, 0, 0, &shipped, &lobes, &streaks));
+    assert_true(rg_streaks_trace(0, 0, 0, &rg_atlas_kinds[RG_ATLAS_FULL].detail, &lobes, &streaks));
     double logs[18], mean = 0;
     for (int i = 0; i < 18; i++) {
         const int lobe = rg_lobe_of_cell(i < 9 ? 5 : 7, i % 9);

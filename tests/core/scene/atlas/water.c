@@ -281,6 +281,16 @@ static void test_parts_make_a_sky(void **state)
     assert_below(fabs(sum - 1), 1e-6);
 }
 
+static void test_a_dark_splash_has_no_parts(void **state)
+{
+    (void)state;
+    const struct rg_splash_light dark = {0};
+    float parts[RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
+    rg_splash_parts(&dark, parts);
+    for (int i = 0; i < RG_ATLAS_CELLS; i++)
+        assert_equals((&parts[0][0])[i], 0);
+}
+
 static void test_crowns_are_as_bright_as_paths_find(void **state)
 {
     (void)state;
@@ -297,6 +307,7 @@ int main(void)
         cmocka_unit_test(test_crowns_are_as_bright_as_paths_find),
         cmocka_unit_test(test_waves),
         cmocka_unit_test(test_parts_make_a_sky),
+        cmocka_unit_test(test_a_dark_splash_has_no_parts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

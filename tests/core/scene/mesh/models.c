@@ -308,6 +308,33 @@ static double surface(const struct rg_mesh *mesh)
     return sum;
 }
 
+// All faces of a fan meet at one vertex. Work that grew with their number for each of them would
+// take minutes here.
+static void test_decimation_of_a_fan(void **state)
+{
+    (void)state;
+    enum { FACES = 200000 };
+    float *positions = calloc(FACES + 1, 3 * sizeof(*positions));
+    uint32_t *indices = calloc(FACES, 3 * sizeof(*indices));
+    assert_non_null(positions);
+    assert_non_null(indices);
+    for (uint32_t i = 0; i < FACES; i++) {
+        const uint32_t face[3] = {FACES, i, (i + 1) % FACES};
+        memcpy(indices + 3 * (size_t)i, face, sizeof(face));
+        positions[3 * (size_t)i] = (float)cos(i * 2 * M_PI / FACES);
+        positions[3 * (size_t)i + 1] = (float)sin(i * 2 * M_PI / FACES);
+    }
+    struct rg_mesh *fan = rg_mesh_create("fan", FACES + 1, FACES, positions, NULL, indices);
+    struct rg_mesh *coarse = rg_mesh_decimate(fan, 1000);
+    check_mesh(coarse);
+    assert_int_equal(coarse->face_count, 1000);
+    assert_below(fabs(surface(coarse) - M_PI), 1e-4);
+    rg_mesh_destroy(fan);
+    rg_mesh_destroy(coarse);
+    free(positions);
+    free(indices);
+}
+
 static double longest_side(const struct rg_mesh *mesh)
 {
     double longest = 0;
@@ -518,6 +545,7 @@ int main(void)
         cmocka_unit_test(test_decimation_keeps_borders),
         cmocka_unit_test(test_decimation_keeps_holes),
         cmocka_unit_test(test_decimation_against_the_topology),
+        cmocka_unit_test(test_decimation_of_a_fan),
         cmocka_unit_test(test_refinement),
         cmocka_unit_test(test_refinement_of_an_open_surface),
         cmocka_unit_test(test_refinement_beside_a_line),

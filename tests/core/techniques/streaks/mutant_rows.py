@@ -163,7 +163,7 @@ ROWS = [Row(*row) for row in (
     ("splashes lit from below too", "taps/light.h", "rg_max(v3_dot(reach.to_light, streaks_up_unpack(r.up)), 0.0f)",
      "rg_abs(v3_dot(reach.to_light, streaks_up_unpack(r.up)))", SPLASHES),
     ("splashes have the irradiance of streaks", "taps/light.h", "float matt = rg_max(", "float matt = SCENERY_IRRADIANCE * rg_max(", SPLASHES),
-    ("lights show on all splashes as on those of a film", "taps/light.h", "int crown_row = streaks_layer_of(r) >> 4;",
+    ("lights show on all splashes as on those of a film", "taps/light.h", "int crown_row = streaks_layer_of(r) / STREAKS_FRAMES;",
      "int crown_row = 0 * streaks_layer_of(r);", SPLASHES),
     ("lights show on splashes twice", "taps/light.h", "rg_to_float(1 - view) : seen", "1.0f : seen", FURNACE),
     ("splashes have a part of the light, not of the irradiance", "taps/light.h", "SCENERY_IRRADIANCE * streaks_glint(by)", "streaks_glint(by)", SPLASHES),

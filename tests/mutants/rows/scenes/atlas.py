@@ -21,7 +21,7 @@ ROWS = [
     Fault(DROP, ".blind = is_database ? «BLIND» : 0", "0", "light runs along the wall of the database's drops"),
     Fault(RAYS, "seen = «t < s.blind» ? 0.0f : 1.0f;", "t > s.blind", "light passes far walls, not near ones"),
     Fault(RAYS, "keep(row, way, i, along(scaled(inside.refracted, seen), «1 - seen», d),", "0", "light that passes a near wall is refracted there"),
-    Fault(LEVELS, "return size == RG_ATLAS_SMALL ? «RG_ATLAS_MEASURED_SMALL» : RG_ATLAS_MEASURED;", "RG_ATLAS_MEASURED", "the small atlas of measured swings is the full one"),
+    Fault(LEVELS, "{\"small\",          true,  false, «RG_ATLAS_MEASURED_SMALL»,", "RG_ATLAS_MEASURED", "the small atlas of measured swings is the full one"),
     Fault(LOBES, "return ((2 * axis + «(d[axis] < 0)») * RG_LOBE_GRID", "(d[axis] > 0)", "rays look up the opposite lobes"),
     Fault(LEVELS, "return (rows[view + 1] >> level) «- (rows[view] >> level)»;", "- 0", "rows of the atlas overlap"),
     Fault(LEVELS, "rg_float_bits(value) + «0x1000u»", "0u", "the atlas' halves are cut off, not rounded"),

@@ -28,4 +28,5 @@ ROWS = [
     Fault(AROUND, "(size_t)(«size - 1 - x»)", "x", "the city's environment is mirrored"),
     Fault(AROUND, "{0, 1, 0}, {0, 1, 0}, {0, 0, «-1»}", "1", "the sky of the city's environment is turned"),
     Fault(AROUND, "{0, 0, 1},  {0, 0, «-1»}};\n    const float up", "1", "the city's environment shows the same before and behind"),
+    Fault(AROUND, "around->levels, «around->blur_rad», path", "0.0", "instances share an environment that another lens blurs"),
 ]

@@ -4,8 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/device/work.h"
+#include "core/image/files/io.h"
 #include "core/scene/environment/cube.h"
 #include "core/techniques/scenery/environment.h"
+#include "core/techniques/stages/assets.h"
+#include "tests/core/folder.h"
 #include "tests/core/techniques/scenery/city/stage.h"
 #include "tests/oracle/flow/light.h"
 #include "tests/tools/expect.h"
@@ -104,11 +108,77 @@ static void other_names_are_loaded(void **state)
     assert_null(scenery_environment("no/such.ktx", 64, *state));
 }
 
+// --- instances share it ---
+
+static void write_picture(const char *path, int height)
+{
+    struct rg_picture picture;
+    assert_true(rg_picture_create(&picture, 2 * height, height, 3, path));
+    for (int i = 0; i < 2 * height * height * 3; i++)
+        picture.texels[i] = 1;
+    assert_true(rg_picture_write(path, &picture, &(struct rg_write_options){0}));
+    rg_picture_destroy(&picture);
+}
+
+static struct rg_image *added(struct rg_instance *instance, struct rg_device *device,
+                              const char *name, double blur_rad)
+{
+    *instance = (struct rg_instance){.device = device};
+    scenery_add_environment(instance, &(struct scenery_around){name, 32, 2, blur_rad});
+    assert_false(instance->has_failed);
+    assert_ptr_equal(instance->textures[0].image, rg_asset_find(instance, "environment")->image);
+    return rg_asset_find(instance, "environment")->image;
+}
+
+static void instances_share_an_environment(void **state)
+{
+    struct rg_instance all[4];
+    struct rg_device *device = *state;
+    const int64_t before = rg_device_work(device)->live_bytes;
+    struct rg_image *image = added(&all[0], device, "street", 0.1);
+    const int64_t taken = rg_device_work(device)->live_bytes;
+    assert_ptr_equal(added(&all[1], device, "street", 0.1), image);
+    assert_int_equal(rg_device_work(device)->live_bytes, taken);
+    assert_ptr_not_equal(added(&all[2], device, "street", 0), image);
+    assert_ptr_not_equal(added(&all[3], device, "street-night", 0.1), image);
+    rg_assets_free(&all[0]);
+    assert_ptr_equal(added(&all[0], device, "street", 0.1), image);
+    for (int i = 0; i < 4; i++)
+        rg_assets_free(&all[i]);
+    assert_int_equal(rg_device_work(device)->live_bytes, before);
+}
+
+static void a_file_that_has_changed_is_read_again(void **state)
+{
+    struct rg_instance all[3];
+    const char *path = in_folder("around.exr");
+    write_picture(path, 16);
+    struct rg_image *image = added(&all[0], *state, path, 0);
+    assert_ptr_equal(added(&all[1], *state, path, 0), image);
+    write_picture(path, 32);
+    assert_ptr_not_equal(added(&all[2], *state, path, 0), image);
+    assert_int_equal(unlink(path), 0);
+    for (int i = 0; i < 3; i++)
+        rg_assets_free(&all[i]);
+}
+
+static void what_cannot_be_read_fails_the_instance(void **state)
+{
+    struct rg_instance instance = {.device = *state};
+    scenery_add_environment(&instance, &(struct scenery_around){"no/such.ktx", 32, 1, 0});
+    assert_true(instance.has_failed);
+    assert_int_equal(instance.asset_count, 0);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_map_is_what_is_seen),
         cmocka_unit_test(other_names_are_loaded),
+        cmocka_unit_test(instances_share_an_environment),
+        cmocka_unit_test_setup_teardown(a_file_that_has_changed_is_read_again, make_folder,
+                                        remove_folder),
+        cmocka_unit_test(what_cannot_be_read_fails_the_instance),
     };
     return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }

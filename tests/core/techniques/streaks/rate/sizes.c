@@ -86,7 +86,7 @@ static void test_sums(void **state)
         for (int k = 0; k < RATES; k++) {
             const struct rain r = {best, rates[k], 0.5};
             const struct rg_spectrum spectrum = {
-                best ? RG_BEST : RG_MARSHALL_PALMER, RG_ATLAS, rates[k], 0.5, largest_mm, 0};
+                best ? RG_BEST : RG_MARSHALL_PALMER, RG_ATLAS, rates[k], 0.5, largest_mm, 1};
             const struct rg_rainfall sum = rg_spectrum_rainfall(&spectrum);
             near("drops", sum.drops_m3, integral(&r, largest_mm, one), 1e-4);
             near("water", sum.water_mm3_m3, integral(&r, largest_mm, volume), 1e-4);
@@ -95,10 +95,10 @@ static void test_sums(void **state)
         }
     // In closed form: Marshall and Palmer's number, and Best's water.
     const double slope = 4.1 * pow(20, -0.21), a = 1.30 * pow(20, 0.232);
-    const struct rg_spectrum mp = {RG_MARSHALL_PALMER, RG_ATLAS, 20, 0.7, 5, 0};
+    const struct rg_spectrum mp = {RG_MARSHALL_PALMER, RG_ATLAS, 20, 0.7, 5, 1};
     near("drops", rg_spectrum_rainfall(&mp).drops_m3,
          8000 / slope * (exp(-0.7 * slope) - exp(-5 * slope)), 1e-5);
-    const struct rg_spectrum best = {RG_BEST, RG_ATLAS, 20, 0.7, 5, 0};
+    const struct rg_spectrum best = {RG_BEST, RG_ATLAS, 20, 0.7, 5, 1};
     near("water", rg_spectrum_rainfall(&best).water_mm3_m3,
          67 * pow(20, 0.846) * (exp(-pow(0.7 / a, 2.25)) - exp(-pow(5 / a, 2.25))), 1e-5);
 }
@@ -119,7 +119,7 @@ static void test_speeds(void **state)
                      0.2);
     }
     for (int k = 0; k < RATES; k++) {
-        const struct rg_spectrum all = {RG_BEST, RG_GUNN_KINZER, rates[k], 0.1, largest_mm, 0};
+        const struct rg_spectrum all = {RG_BEST, RG_GUNN_KINZER, rates[k], 0.1, largest_mm, 1};
         near("Best's rain", rg_spectrum_rainfall(&all).rain_mm_h, rates[k],
              rates[k] > 50 ? 0.2 : 0.1);
     }
@@ -132,13 +132,13 @@ static void test_normalised(void **state)
     for (int best = 0; best < 2; best++)
         for (int k = 0; k < RATES; k++) {
             const enum rg_spectrum_kind kind = best ? RG_BEST : RG_MARSHALL_PALMER;
-            struct rg_spectrum law = {kind, RG_GUNN_KINZER, rates[k], 0.1, largest_mm, 0};
+            struct rg_spectrum law = {kind, RG_GUNN_KINZER, rates[k], 0.1, largest_mm, 1};
             const struct rg_rainfall all = rg_spectrum_rainfall(&law);
-            law.normalised = 1;
+            rg_spectrum_normalise(&law);
             near("rain", rg_spectrum_rainfall(&law).rain_mm_h, rates[k], 1e-9);
             law.least_mm = 1.3;
             const struct rg_rainfall kept = rg_spectrum_rainfall(&law);
-            law.normalised = 0;
+            law.amount = 1;
             near("drops", kept.drops_m3,
                  rg_spectrum_rainfall(&law).drops_m3 * rates[k] / all.rain_mm_h, 1e-9);
         }
@@ -151,7 +151,8 @@ static void test_classes(void **state)
     enum { COUNT = 64 };
     struct rg_drop_class classes[COUNT];
     for (int keep = RG_KEEP_ALIKE; keep <= RG_KEEP_BY_STREAK; keep++) {
-        const struct rg_spectrum law = {RG_MARSHALL_PALMER, RG_ATLAS, 10, 0.3, largest_mm, 1};
+        struct rg_spectrum law = {RG_MARSHALL_PALMER, RG_ATLAS, 10, 0.3, largest_mm, 1};
+        rg_spectrum_normalise(&law);
         const struct rg_rainfall all = rg_spectrum_rainfall(&law);
         double drops = 0, water = 0, chances[COUNT], mean = 0;
         rg_spectrum_classes(&law, (enum rg_spectrum_keep)keep, COUNT, classes);
