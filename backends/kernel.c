@@ -28,11 +28,10 @@ const struct rg_kernel *rg_kernel_find(const char *name)
 
 bool rg_kernel_samples(const struct rg_kernel *kernel)
 {
-    const bool has_form = kernel->draw || kernel->code[RG_CODE_NATIVE_GLSL].size;
     bool samples = false;
     for (int i = 0; i < kernel->slot_count; i++)
         samples = samples || kernel->slots[i].sampler != RG_TEXELS;
-    return has_form && samples;
+    return samples;
 }
 
 int rg_kernel_index(const struct rg_kernel *kernel)

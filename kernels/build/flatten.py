@@ -10,8 +10,8 @@ another the driver's own, and makes every float `precise`, which forbids a drive
 reorder: the two things that the dialect cannot say in C and OpenCL C alike. A text whose files are
 older than OUTPUT.d, which lists them, is not made; one that has not changed is not written again, so
 that the build does not make anew what depends on it. Texts NAME.native.* are those of native devices
-(RG_NATIVE in kernels/dialect/lang.h); one of a GRID kernel without samplers is empty. One process makes all texts, with a helper for
-each processor. A kernel with a name that another language reserves is refused.
+(RG_NATIVE in kernels/dialect/lang.h). One process makes all texts, with a helper for each
+processor. A kernel with a name that another language reserves is refused.
 """
 import multiprocessing
 import os
@@ -290,11 +290,8 @@ def flatten(job):
         return needs, f"{header}: {refusal}"
     if language == "GLSL":
         try:
-            samples = re.search(r"\btexture(Lod|Grad)\(", text)
             text = add_varyings(add_struct_readers(make_precise(quotients.rewrite(text))))
             text = VERSION + (FRAGMENT if shell.endswith(".frag") and not is_native else "") + text
-            if is_native and shell.endswith("grid.glsl") and not samples:
-                text = ""
         except quotients.Refused as refused:
             return needs, f"{header}: {refused}"
     write_if_changed(output, text)
