@@ -206,13 +206,13 @@ def make_precise(text):
     )
 
 
-def words_of(name, structs):
-    """The words of a struct in their order: how each is reached, and its type."""
-    for member in filter(str.strip, structs[name].split(";")):
+def words_of(name, structs, without=None):
+    """The words of a struct in their order, but for those of structs `without`: how each is reached, and its type."""
+    for member in filter(str.strip, structs[name].split(";") if name != without else []):
         kind, names = member.split(None, 1)
         for path in (n.strip() for n in names.split(",")):
             if kind in structs:
-                yield from ((f"{path}.{inner}", k) for inner, k in words_of(kind, structs))
+                yield from ((f"{path}.{inner}", k) for inner, k in words_of(kind, structs, without))
             else:
                 yield path, kind
 
@@ -242,16 +242,19 @@ def add_struct_readers(text):
 
 
 def add_varyings(text):
-    """Puts a record's words into flat varyings of four: GLSL lets no fragment read structs of structs."""
+    """Puts a record's words into flat varyings of four: GLSL lets no fragment read structs of structs. No fragment reads
+    rg_planes, because the driver interpolates (kernels/dialect/draw/triangle.h)."""
     structs = dict(re.findall(r"\bstruct\s+(\w+)\s*\{([^}]*)\}", text))
     to = {"float": "floatBitsToUint(%s)", "int": "uint(%s)", "uint": "%s"}
     back = {"float": "uintBitsToFloat(%s)", "int": "int(%s)", "uint": "%s"}
 
     def words(name):
-        return [(path, kind, f"rg_words[{i // 4}].{'xyzw'[i % 4]}") for i, (path, kind) in enumerate(words_of(name, structs))]
+        sent = enumerate(words_of(name, structs, without="rg_planes"))
+        return [(path, kind, f"rg_words[{i // 4}].{'xyzw'[i % 4]}") for i, (path, kind) in sent]
 
     def varying(name, way):
-        return f"layout(location = 2) flat {way} uvec4 rg_words[{(len(words(name)) + 3) // 4}];\n"
+        count = (len(words(name)) + 3) // 4
+        return f"layout(location = 2) flat {way} uvec4 rg_words[{count}];\n" if count else ""
 
     def sends(match):
         puts = "".join(f"    {at} = {to[kind] % ('v.' + path)};\n" for path, kind, at in words(match.group(1)))
