@@ -24,7 +24,7 @@ void rg_room_count(struct rg_device *device)
 void rg_tally_begin(struct rg_device *device, struct rg_tally *tally)
 {
     const struct rg_work *work = device->work;
-    const int drawn = device->native ? -1 : 0; // only the driver knows what it draws of items
+    const int drawn = device->info.native ? -1 : 0; // only the driver knows what it draws of items
     *tally = (struct rg_tally){.runs = -work->runs,
                                .dispatches = -work->dispatches,
                                .items = -work->items,

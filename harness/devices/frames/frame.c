@@ -51,7 +51,7 @@ static bool compare_rain(struct rg_device *device, const struct rg_subject *subj
 
 bool rg_frame_scenes_differ(const struct rg_device_info *a, const struct rg_device_info *b)
 {
-    return (a->tier == RG_T2) != (b->tier == RG_T2);
+    return a->native != b->native;
 }
 
 bool rg_frame_compare(struct rg_device *device, const struct rg_subject *subject, int frames,
