@@ -107,8 +107,8 @@ static int lights_of(const struct rg_kernel *kernel, const struct rg_run *run)
 
 static void add(int64_t *sum, int64_t counted)
 {
-    if (counted >= 0)
-        *sum = (*sum < 0 ? 0 : *sum) + counted;
+    if (rg_is_counted(counted))
+        *sum = (rg_is_counted(*sum) ? *sum : 0) + counted;
 }
 
 bool rg_tally_run(struct rg_tally *tally, struct rg_pass *pass, const struct rg_run *run)
