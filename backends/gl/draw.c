@@ -150,5 +150,7 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
         return false;
     // The next run may overwrite what this run reads, and read its counts.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    return gl_check_reported(device, "glDrawArraysIndirect", "kernel", kernel->name);
+    return gl_check_reported(device,
+                             device->pub.info.native ? "glDrawArrays" : "glDrawArraysIndirect",
+                             "kernel", kernel->name);
 }
