@@ -173,6 +173,8 @@ struct rg_device *rg_device_open(const char *name)
     char plain[RG_DEVICE_NAME_SIZE];
     const size_t length = length_without_native(name);
     const bool native = name[length];
+    require_or_null(length < sizeof(plain), "device '%.60s...': a name has at most %d characters",
+                    name, RG_DEVICE_NAME_SIZE - 1);
     snprintf(plain, sizeof(plain), "%.*s", (int)length, name);
     struct rg_device_info infos[RG_MAX_DEVICES];
     const int index = find(backend, name, plain, infos);
