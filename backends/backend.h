@@ -49,8 +49,7 @@ struct rg_limits {
     char no_draws[120];               // why DRAW programs cannot run: "has no queue that draws"
     bool has_clock;                   // `time` works
     bool has_queries;                 // the API's own occlusion queries
-    bool has_fixed; // the API has a pipeline of its own: fixed_draw works, and native devices do
-    char no_native[120]; // why there is no native device: "lacks geometryShader"
+    char no_native[120]; // why neither fixed_draw nor native devices work: "lacks geometryShader"
 };
 
 // Sizes: a name with settings, which may include several paths; and the libraries of a driver's
@@ -69,6 +68,7 @@ struct rg_device_info {
     // API's driver; an empty path ends the list.
     struct rg_library libraries[RG_DRIVER_LIBRARIES];
     bool software; // runs on the CPU
+    bool native;   // filters, corners and depth are the driver's (docs/native.md)
     // How closely its pictures agree with cpu:reference's. T0: the driver computes as C does. T1:
     // it has a GPU's arithmetic. T2: the device draws in another way.
     enum rg_tier tier;
@@ -78,7 +78,6 @@ struct rg_device_info {
 struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
-    bool native;                // filters, corners and depth are the driver's (docs/native.md)
     bool rounds;                // programs round quotients and roots (backends/asked/rounding.h)
     bool blends;                // programs blend by themselves (backends/asked/blending.h)
     struct rg_work *work;       // core/device's counts; not for the backend
@@ -90,7 +89,7 @@ struct rg_device {
 static inline unsigned rg_device_ways(const struct rg_device *device,
                                       const struct rg_kernel *kernel)
 {
-    if (device->native && (kernel->draw || rg_kernel_samples(kernel)))
+    if (device->info.native && (kernel->draw || rg_kernel_samples(kernel)))
         return RG_CODE_NATIVE;
     return device->rounds ? RG_CODE_ROUNDS : 0;
 }
@@ -264,7 +263,7 @@ struct rg_backend {
 // Whether the device draws packed primitives.
 static inline bool rg_device_packs(const struct rg_device *device)
 {
-    return device->backend->packed && !device->native;
+    return device->backend->packed && !device->info.native;
 }
 
 // All backends, NULL-terminated; the build generates the list from backends/meson.build.

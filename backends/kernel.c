@@ -28,11 +28,10 @@ const struct rg_kernel *rg_kernel_find(const char *name)
 
 bool rg_kernel_samples(const struct rg_kernel *kernel)
 {
-    const bool has_form = kernel->draw || kernel->code[RG_CODE_NATIVE_GLSL].size;
     bool samples = false;
     for (int i = 0; i < kernel->slot_count; i++)
         samples = samples || kernel->slots[i].sampler != RG_TEXELS;
-    return has_form && samples;
+    return samples;
 }
 
 int rg_kernel_index(const struct rg_kernel *kernel)
@@ -66,43 +65,31 @@ static unsigned char *read_whole(FILE *file, size_t *size)
     return bytes;
 }
 
-static enum rg_code_kind native_kind_of(enum rg_code_kind kind)
-{
-    switch (kind) {
-    case RG_CODE_GLSL:
-        return RG_CODE_NATIVE_GLSL;
-    case RG_CODE_SPIRV:
-        return RG_CODE_NATIVE_SPIRV;
-    case RG_CODE_VERTEX_GLSL:
-        return RG_CODE_NATIVE_VERTEX_GLSL;
-    case RG_CODE_VERTEX_SPIRV:
-        return RG_CODE_NATIVE_VERTEX_SPIRV;
-    case RG_CODE_FRAGMENT_GLSL:
-        return RG_CODE_NATIVE_FRAGMENT_GLSL;
-    case RG_CODE_FRAGMENT_SPIRV:
-        return RG_CODE_NATIVE_FRAGMENT_SPIRV;
-    default:
-        return kind;
-    }
-}
-
+// The form of a kind for programs of these ways; one without a form of its own is the kind itself.
 static enum rg_code_kind kind_of(enum rg_code_kind kind, unsigned ways)
 {
-    const bool rounds = ways & RG_CODE_ROUNDS;
-    if (ways & RG_CODE_NATIVE)
-        return native_kind_of(kind);
-    switch (kind) {
-    case RG_CODE_SPIRV:
-        return rounds ? RG_CODE_ROUNDED_SPIRV : kind;
-    case RG_CODE_VERTEX_SPIRV:
-        return rounds ? RG_CODE_ROUNDED_VERTEX_SPIRV : kind;
-    case RG_CODE_FRAGMENT_SPIRV:
-        if (ways & RG_CODE_BLENDS)
-            return rounds ? RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV : RG_CODE_BLENDED_FRAGMENT_SPIRV;
-        return rounds ? RG_CODE_ROUNDED_FRAGMENT_SPIRV : kind;
-    default:
-        return kind;
-    }
+    enum { BOTH = RG_CODE_ROUNDS | RG_CODE_BLENDS };
+    static const struct {
+        enum rg_code_kind kind;
+        unsigned ways; // all of these
+        enum rg_code_kind form;
+    } forms[] = {
+        {RG_CODE_GLSL, RG_CODE_NATIVE, RG_CODE_NATIVE_GLSL},
+        {RG_CODE_SPIRV, RG_CODE_NATIVE, RG_CODE_NATIVE_SPIRV},
+        {RG_CODE_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_SPIRV},
+        {RG_CODE_VERTEX_GLSL, RG_CODE_NATIVE, RG_CODE_NATIVE_VERTEX_GLSL},
+        {RG_CODE_VERTEX_SPIRV, RG_CODE_NATIVE, RG_CODE_NATIVE_VERTEX_SPIRV},
+        {RG_CODE_VERTEX_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_VERTEX_SPIRV},
+        {RG_CODE_FRAGMENT_GLSL, RG_CODE_NATIVE, RG_CODE_NATIVE_FRAGMENT_GLSL},
+        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_NATIVE, RG_CODE_NATIVE_FRAGMENT_SPIRV},
+        {RG_CODE_FRAGMENT_SPIRV, BOTH, RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV},
+        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_BLENDS, RG_CODE_BLENDED_FRAGMENT_SPIRV},
+        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_FRAGMENT_SPIRV},
+    };
+    for (size_t i = 0; i < sizeof(forms) / sizeof(forms[0]); i++)
+        if (forms[i].kind == kind && (ways & forms[i].ways) == forms[i].ways)
+            return forms[i].form;
+    return kind;
 }
 
 // Inserts a line after the first one of GLSL, which is its version.
@@ -151,28 +138,10 @@ bool rg_embedded_code(const struct rg_embedded_code *embedded, const char *name,
 static bool read_code(const char *folder, const struct rg_kernel *kernel, enum rg_code_kind kind,
                       struct rg_kernel_code *code)
 {
-    static const char *const extensions[RG_CODE_COUNT] = {"glsl",
-                                                          "spv",
-                                                          "cl",
-                                                          "vert",
-                                                          "vert.spv",
-                                                          "frag",
-                                                          "frag.spv",
-                                                          "rounded.spv",
-                                                          "vert.rounded.spv",
-                                                          "frag.rounded.spv",
-                                                          "frag.blended.spv",
-                                                          "frag.rounded_blended.spv",
-                                                          "native.glsl",
-                                                          "native.spv",
-                                                          "native.vert",
-                                                          "native.vert.spv",
-                                                          "native.geom",
-                                                          "native.geom.spv",
-                                                          "native.frag",
-                                                          "native.frag.spv"};
+#define RG_CODE_ENDING(kind, ending) ending,
+    static const char *const endings[RG_CODE_COUNT] = {RG_CODE_KINDS(RG_CODE_ENDING)};
     char path[4096];
-    snprintf(path, sizeof(path), "%s/%s.%s", folder, kernel->name, extensions[kind]);
+    snprintf(path, sizeof(path), "%s/%s.%s", folder, kernel->name, endings[kind]);
     const char *why;
     FILE *file = rg_file_open(path, &why);
     code->bytes = file ? read_whole(file, &code->size) : NULL;

@@ -60,35 +60,37 @@ struct rg_embedded_code {
     size_t packed_size, size; // both 0 if the kernel has no such form
 };
 
-// A GRID kernel has the first three, a DRAW program OpenCL C and the four after it; both may have
-// some of the others.
-enum rg_code_kind {
-    RG_CODE_GLSL,
-    RG_CODE_SPIRV,
-    RG_CODE_OPENCL,
-    RG_CODE_VERTEX_GLSL,
-    RG_CODE_VERTEX_SPIRV,
-    RG_CODE_FRAGMENT_GLSL,
-    RG_CODE_FRAGMENT_SPIRV,
-    // For programs that round quotients and roots themselves (kernels/dialect/rounding.h). Their
-    // GLSL is the normal one with RG_ROUNDED defined.
-    RG_CODE_ROUNDED_SPIRV,
-    RG_CODE_ROUNDED_VERTEX_SPIRV,
-    RG_CODE_ROUNDED_FRAGMENT_SPIRV,
-    // For fragments that blend by themselves. Their GLSL is the normal one with RG_BLENDS defined.
-    RG_CODE_BLENDED_FRAGMENT_SPIRV,
-    RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV,
-    // For native devices (docs/native.md): GRID kernels that sample, and all DRAW programs.
-    RG_CODE_NATIVE_GLSL,
-    RG_CODE_NATIVE_SPIRV,
-    RG_CODE_NATIVE_VERTEX_GLSL,
-    RG_CODE_NATIVE_VERTEX_SPIRV,
-    RG_CODE_NATIVE_GEOMETRY_GLSL,
-    RG_CODE_NATIVE_GEOMETRY_SPIRV,
-    RG_CODE_NATIVE_FRAGMENT_GLSL,
-    RG_CODE_NATIVE_FRAGMENT_SPIRV,
-    RG_CODE_COUNT
-};
+// The kinds of code, and the endings of their files; kernels/build/embed.py reads this list. A GRID
+// kernel has the first three, a DRAW program OpenCL C and the four after it; both may have others:
+// - ROUNDED: for programs that round quotients and roots themselves (kernels/dialect/rounding.h).
+//   Their GLSL is the normal one with RG_ROUNDED defined.
+// - BLENDED: for fragments that blend by themselves. Their GLSL is the normal one with RG_BLENDS
+//   defined.
+// - NATIVE: for native devices (docs/native.md), of GRID kernels that sample and all DRAW programs.
+#define RG_CODE_KINDS(X)                                                                           \
+    X(GLSL, "glsl")                                                                                \
+    X(SPIRV, "spv")                                                                                \
+    X(OPENCL, "cl")                                                                                \
+    X(VERTEX_GLSL, "vert")                                                                         \
+    X(VERTEX_SPIRV, "vert.spv")                                                                    \
+    X(FRAGMENT_GLSL, "frag")                                                                       \
+    X(FRAGMENT_SPIRV, "frag.spv")                                                                  \
+    X(ROUNDED_SPIRV, "rounded.spv")                                                                \
+    X(ROUNDED_VERTEX_SPIRV, "vert.rounded.spv")                                                    \
+    X(ROUNDED_FRAGMENT_SPIRV, "frag.rounded.spv")                                                  \
+    X(BLENDED_FRAGMENT_SPIRV, "frag.blended.spv")                                                  \
+    X(ROUNDED_BLENDED_FRAGMENT_SPIRV, "frag.rounded_blended.spv")                                  \
+    X(NATIVE_GLSL, "native.glsl")                                                                  \
+    X(NATIVE_SPIRV, "native.spv")                                                                  \
+    X(NATIVE_VERTEX_GLSL, "native.vert")                                                           \
+    X(NATIVE_VERTEX_SPIRV, "native.vert.spv")                                                      \
+    X(NATIVE_GEOMETRY_GLSL, "native.geom")                                                         \
+    X(NATIVE_GEOMETRY_SPIRV, "native.geom.spv")                                                    \
+    X(NATIVE_FRAGMENT_GLSL, "native.frag")                                                         \
+    X(NATIVE_FRAGMENT_SPIRV, "native.frag.spv")
+
+#define RG_CODE_KIND(kind, ending) RG_CODE_##kind,
+enum rg_code_kind { RG_CODE_KINDS(RG_CODE_KIND) RG_CODE_COUNT };
 
 // The slots of a DRAW program's packing and drawing stages (kernels/dialect/draw/draw.h); the
 // program's other slots have lower numbers.

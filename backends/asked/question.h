@@ -22,7 +22,7 @@ bool rg_question_buf(struct rg_question *q, int i, const void *words, size_t siz
 // Waits, and destroys what was made.
 void rg_question_end(struct rg_question *q);
 
-// Notes in the name of the device's API that programs do something themselves: "own rounding".
+// Notes in the name of the device's API that it draws in another way: "own rounding", "native".
 void rg_question_note(struct rg_device *device, const char *own);
 
 #endif

@@ -63,6 +63,7 @@ static struct rg_limits limits_of_memory(void)
         .group_items = 1,
         .slot_count = any,
         .slot_end = any,
+        .no_native = "draws by its own programs",
         .has_clock = true,
     };
     rg_plain_formats(limits.formats, INT64_MAX);

@@ -33,7 +33,6 @@ static struct rg_limits read_limits(void)
                      .out_images = integer(GL_MAX_IMAGE_UNITS)},
         .has_clock = true,
         .has_queries = true,
-        .has_fixed = true,
     };
     // OpenGL 4.5 requires all formats for all uses.
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)

@@ -97,7 +97,7 @@ static struct gl_draw_state state_of(const struct gl_device *device, const struc
         .scissor = {draw->x0, draw->y0, draw->x1 - draw->x0, draw->y1 - draw->y0},
         .blend = device->pub.blends ? RG_BLEND_OFF : draw->blend,
         .depth = framebuffer->key.depth ? draw->depth_mode : RG_DEPTH_OFF,
-        .cull = device->pub.native ? draw->cull : RG_CULL_NONE, // packing has culled
+        .cull = device->pub.info.native ? draw->cull : RG_CULL_NONE, // packing has culled
     };
     if (!draw->x1) { // the whole target
         state.scissor[2] = state.width;
@@ -139,16 +139,18 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
         return false;
     struct gl_bound *bound = &device->bound;
     const struct gl_draw_state state = state_of(device, draw, framebuffer);
-    set_state(device->pub.native, &bound->draw, &state);
+    set_state(device->pub.info.native, &bound->draw, &state);
     gl_bind_framebuffer(bound, framebuffer->id);
     gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
     if (rg_draw_counts(draw))
         gl_slot_buffer(bound, RG_SLOT_SAMPLES, draw->samples);
-    if (device->pub.native)
+    if (device->pub.info.native)
         draw_items(run);
     else if (!draw_packed(device, kernel, run))
         return false;
     // The next run may overwrite what this run reads, and read its counts.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    return gl_check_reported(device, "glDrawArraysIndirect", "kernel", kernel->name);
+    return gl_check_reported(device,
+                             device->pub.info.native ? "glDrawArrays" : "glDrawArraysIndirect",
+                             "kernel", kernel->name);
 }

@@ -26,6 +26,7 @@ static struct rg_limits read_limits(cl_device_id id)
         .group_items = GROUP_ITEMS,
         .slot_count = any,
         .slot_end = any,
+        .no_native = "draws by its own programs",
         .has_clock = opencl_number(id, CL_DEVICE_PROFILING_TIMER_RESOLUTION, sizeof(size_t)) > 0,
     };
     rg_plain_formats(limits.formats, limits.max_buffer_bytes);

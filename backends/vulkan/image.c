@@ -7,7 +7,7 @@
 // Whether a native device may sample an image as a cube.
 static bool is_cube(const struct vk_device *device, const struct rg_image_desc *desc)
 {
-    return device->pub.native && desc->layers == 6 && desc->width == desc->height &&
+    return device->pub.info.native && desc->layers == 6 && desc->width == desc->height &&
            desc->format != RG_D32F;
 }
 

@@ -57,7 +57,7 @@ static bool create_drawing(struct vk_device *device, const struct rg_kernel *ker
 {
     struct vk_drawing *drawing = pass->drawing = rg_alloc(1, sizeof(*drawing), kernel->name);
     return drawing && create_module(device, kernel, RG_CODE_VERTEX_SPIRV, 0, &drawing->vertex) &&
-           (!device->pub.native ||
+           (!device->pub.info.native ||
             create_module(device, kernel, RG_CODE_NATIVE_GEOMETRY_SPIRV, 0, &drawing->geometry)) &&
            create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV, 0, &drawing->fragment) &&
            (!device->pub.blends || create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV,

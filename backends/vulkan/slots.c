@@ -17,7 +17,7 @@ static VkDescriptorType descriptor_type(enum rg_slot_kind kind)
 static VkShaderStageFlags block_stages(const struct vk_device *device,
                                        const struct rg_kernel *kernel)
 {
-    const VkShaderStageFlags native = device->pub.native ? VK_SHADER_STAGE_GEOMETRY_BIT : 0;
+    const VkShaderStageFlags native = device->pub.info.native ? VK_SHADER_STAGE_GEOMETRY_BIT : 0;
     return kernel->draw ? VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | native
                         : VK_SHADER_STAGE_COMPUTE_BIT;
 }
@@ -25,7 +25,7 @@ static VkShaderStageFlags block_stages(const struct vk_device *device,
 static VkShaderStageFlags slot_stages(const struct vk_device *device,
                                       const struct rg_kernel *kernel, int slot)
 {
-    const bool is_own = device->pub.native ? slot < RG_SLOT_PRIMS : slot == RG_SLOT_PRIMS;
+    const bool is_own = device->pub.info.native ? slot < RG_SLOT_PRIMS : slot == RG_SLOT_PRIMS;
     return kernel->draw && !is_own ? VK_SHADER_STAGE_FRAGMENT_BIT : block_stages(device, kernel);
 }
 

@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "backends/asked/blending.h"
+#include "backends/asked/question.h"
 #include "backends/asked/rounding.h"
 #include "core/base/alloc.h"
 #include "core/base/doing.h"
@@ -149,15 +150,17 @@ static struct rg_device *create(const struct rg_backend *backend, int index, boo
         device = NULL;
     }
     if (device)
-        device->native = native;
+        device->info.native = native;
     return device;
 }
 
 // Rounds and blends as the driver does; no program counts by the API's queries yet.
-static void tell_native(struct rg_device_info *info)
+static void tell_native(struct rg_device *device)
 {
+    struct rg_device_info *info = &device->info;
     const size_t length = strlen(info->name);
     snprintf(info->name + length, sizeof(info->name) - length, ":native");
+    rg_question_note(device, "native");
     info->tier = RG_T2;
     info->limits.has_queries = false;
 }
@@ -170,6 +173,8 @@ struct rg_device *rg_device_open(const char *name)
     char plain[RG_DEVICE_NAME_SIZE];
     const size_t length = length_without_native(name);
     const bool native = name[length];
+    require_or_null(length < sizeof(plain), "device '%.60s...': a name has at most %d characters",
+                    name, RG_DEVICE_NAME_SIZE - 1);
     snprintf(plain, sizeof(plain), "%.*s", (int)length, name);
     struct rg_device_info infos[RG_MAX_DEVICES];
     const int index = find(backend, name, plain, infos);
@@ -192,7 +197,7 @@ struct rg_device *rg_device_open(const char *name)
         return NULL;
     }
     if (native)
-        tell_native(&device->info);
+        tell_native(device);
     memcpy(device->info.full, device->info.name, RG_DEVICE_NAME_SIZE);
     return device;
 }

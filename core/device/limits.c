@@ -135,16 +135,13 @@ bool rg_limits_allow_time(const struct rg_device_info *info)
 
 bool rg_limits_allow_native(const char *name, const struct rg_device_info *info)
 {
-    if (!info->limits.has_fixed)
-        return rg_unsupported("device '%s': has no native way, for %s draws by its own programs",
-                              name, info->name);
-    return !*info->limits.no_native ||
-           rg_unsupported("device '%s': %s", name, info->limits.no_native);
+    return !*info->limits.no_native || rg_unsupported("device '%s': has no native way, for %s %s",
+                                                      name, info->name, info->limits.no_native);
 }
 
 bool rg_limits_allow_fixed(const struct rg_device_info *info)
 {
-    return info->limits.has_fixed ||
-           rg_unsupported("device '%s': has no fixed functions, for it draws by its own programs",
-                          info->name);
+    return !*info->limits.no_native ||
+           rg_unsupported("device '%s': has no fixed functions, for it %s", info->name,
+                          info->limits.no_native);
 }

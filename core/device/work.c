@@ -24,7 +24,7 @@ void rg_room_count(struct rg_device *device)
 void rg_tally_begin(struct rg_device *device, struct rg_tally *tally)
 {
     const struct rg_work *work = device->work;
-    const int drawn = device->native ? -1 : 0; // only the driver knows what it draws of items
+    const int drawn = device->info.native ? -1 : 0; // only the driver knows what it draws of items
     *tally = (struct rg_tally){.runs = -work->runs,
                                .dispatches = -work->dispatches,
                                .items = -work->items,
@@ -107,8 +107,8 @@ static int lights_of(const struct rg_kernel *kernel, const struct rg_run *run)
 
 static void add(int64_t *sum, int64_t counted)
 {
-    if (counted >= 0)
-        *sum = (*sum < 0 ? 0 : *sum) + counted;
+    if (rg_is_counted(counted))
+        *sum = (rg_is_counted(*sum) ? *sum : 0) + counted;
 }
 
 bool rg_tally_run(struct rg_tally *tally, struct rg_pass *pass, const struct rg_run *run)

@@ -40,6 +40,11 @@ struct rg_work {
 };
 
 // -1 marks a count that this device cannot take exactly.
+static inline bool rg_is_counted(int64_t count)
+{
+    return count >= 0;
+}
+
 struct rg_tally {
     int64_t runs;                      // pass runs asked for
     int64_t dispatches;                // the device's runs for them: split, packed, in batches

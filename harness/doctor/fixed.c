@@ -109,7 +109,7 @@ int rg_doctor_fixed(const char *name, struct rg_device_info *info, json_t *devic
         return failure.fault == RG_FAULT_INPUT ? RG_EXIT_USAGE : rg_exit_of(failure.outcome);
     }
     *info = device->info;
-    const int exit = device->info.limits.has_fixed ? draw_all(device, row) : tell_none(row);
+    const int exit = *device->info.limits.no_native ? tell_none(row) : draw_all(device, row);
     return rg_device_close(device) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 

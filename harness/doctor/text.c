@@ -220,7 +220,7 @@ static void print_device(const struct rg_examination *e, const json_t *passport)
         print_field("api", text);
         print_field("device", e->info.device);
         print_field("driver", e->info.driver);
-        if (e->info.tier == RG_T2)
+        if (e->info.native)
             print_native();
         print_limits(&e->info.limits);
         print_key(passport, &e->info);

@@ -33,7 +33,7 @@ json_t *rg_tally_json(const struct rg_tally *tally)
     for (int i = 0; i < RG_TALLY_FIELDS; i++) {
         const int64_t count = rg_tally_count(tally, i);
         json_object_set_new(json, rg_tally_fields[i].name,
-                            count < 0 ? json_null() : json_integer(count));
+                            rg_is_counted(count) ? json_integer(count) : json_null());
     }
     return json;
 }

@@ -12,7 +12,17 @@
 #define IMAGE(slot, F, name)     {#name, slot, RG_SLOT_IMAGE, 0, RG_##F, NULL, RG_TEXELS},
 #define OUT_IMAGE(slot, F, name) {#name, slot, RG_SLOT_OUT_IMAGE, 0, RG_##F, NULL, RG_TEXELS},
 #undef SAMPLED
-#define SAMPLED(slot, F, name, how) {#name, slot, RG_SLOT_IMAGE, 0, RG_##F, NULL, RG_SAMPLED_##how},
+#define SAMPLED(slot, F, name, how)                                                                \
+    {#name, slot, RG_SLOT_IMAGE, 0, RG_##F, NULL, RG_CAT(RG_SAMPLER_, RG_KERNEL_KIND)(how)},
+
+// Stages that pack sample nothing, and native devices run none.
+#define RG_SAMPLER_packer(how)   RG_TEXELS
+#define RG_SAMPLER_program(how)  RG_SAMPLED_##how
+#define RG_SAMPLER_lit(how)      RG_SAMPLED_##how
+#define RG_SAMPLER_sampling(how) RG_SAMPLED_##how
+#define RG_SAMPLER_grid(how)                                                                       \
+    _Pragma("GCC error \"a GRID kernel with a SAMPLED slot is listed in sampling_kernels\"")       \
+        RG_TEXELS
 
 // The kinds of a type's words (enum rg_word), after a comma; a type without a row here has NULL.
 // tests/structure/words.py compares them with the structs.

@@ -2,19 +2,18 @@
 """Puts code for drivers into the program: embed.py OUTPUT.c OUTPUT.S OUTPUT.bin NAME... -- FILE...
 
 The files are NAME.glsl, NAME.spv, NAME.cl and so on; each kernel gets `rg_code_NAME`, in the order of
-enum rg_code_kind, with nothing where it has no such file. They are compressed one by one, side by
-side in OUTPUT.bin, which the assembler reads: a compiler would need many seconds for its bytes.
+RG_CODE_KINDS in backends/kernel.h, with nothing where it has no such file. They are compressed one by
+one, side by side in OUTPUT.bin, which the assembler reads: a compiler would need many seconds for its bytes.
 OUTPUT.S holds their checksum, so that it changes with them.
 """
 import hashlib
 import multiprocessing
 import os
+import re
 import sys
 import zlib
 
-KINDS = ["glsl", "spv", "cl", "vert", "vert.spv", "frag", "frag.spv", "rounded.spv", "vert.rounded.spv", "frag.rounded.spv",
-         "frag.blended.spv", "frag.rounded_blended.spv", "native.glsl", "native.spv", "native.vert", "native.vert.spv", "native.geom",
-         "native.geom.spv", "native.frag", "native.frag.spv"]
+HEADER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../backends/kernel.h")
 
 
 def pack(path):
@@ -24,6 +23,8 @@ def pack(path):
 
 
 def main():
+    with open(HEADER, encoding="utf-8") as file:
+        kinds = re.findall(r'X\(\w+, "([\w.]+)"\)', file.read())
     c_path, s_path, bin_path, end = *sys.argv[1:4], sys.argv.index("--")
     paths = sys.argv[end + 1:]
     by_kernel = {name: {} for name in sys.argv[4:end]}
@@ -36,7 +37,7 @@ def main():
     packed = bytearray()
     for kernel, forms in by_kernel.items():
         entries = []
-        for kind in KINDS:
+        for kind in kinds:
             data, size = forms.get(kind, (b"", 0))
             entries.append(f"{{{symbol} + {len(packed)}, {len(data)}, {size}}}")
             packed += data

@@ -10,8 +10,8 @@ another the driver's own, and makes every float `precise`, which forbids a drive
 reorder: the two things that the dialect cannot say in C and OpenCL C alike. A text whose files are
 older than OUTPUT.d, which lists them, is not made; one that has not changed is not written again, so
 that the build does not make anew what depends on it. Texts NAME.native.* are those of native devices
-(RG_NATIVE in kernels/dialect/lang.h); one of a GRID kernel without samplers is empty. One process makes all texts, with a helper for
-each processor. A kernel with a name that another language reserves is refused.
+(RG_NATIVE in kernels/dialect/lang.h). One process makes all texts, with a helper for each
+processor. A kernel with a name that another language reserves is refused.
 """
 import multiprocessing
 import os
@@ -206,13 +206,13 @@ def make_precise(text):
     )
 
 
-def words_of(name, structs):
-    """The words of a struct in their order: how each is reached, and its type."""
-    for member in filter(str.strip, structs[name].split(";")):
+def words_of(name, structs, without=None):
+    """The words of a struct in their order, but for those of structs `without`: how each is reached, and its type."""
+    for member in filter(str.strip, structs[name].split(";") if name != without else []):
         kind, names = member.split(None, 1)
         for path in (n.strip() for n in names.split(",")):
             if kind in structs:
-                yield from ((f"{path}.{inner}", k) for inner, k in words_of(kind, structs))
+                yield from ((f"{path}.{inner}", k) for inner, k in words_of(kind, structs, without))
             else:
                 yield path, kind
 
@@ -242,16 +242,19 @@ def add_struct_readers(text):
 
 
 def add_varyings(text):
-    """Puts a record's words into flat varyings of four: GLSL lets no fragment read structs of structs."""
+    """Puts a record's words into flat varyings of four: GLSL lets no fragment read structs of structs. No fragment reads
+    rg_planes, because the driver interpolates (kernels/dialect/draw/triangle.h)."""
     structs = dict(re.findall(r"\bstruct\s+(\w+)\s*\{([^}]*)\}", text))
     to = {"float": "floatBitsToUint(%s)", "int": "uint(%s)", "uint": "%s"}
     back = {"float": "uintBitsToFloat(%s)", "int": "int(%s)", "uint": "%s"}
 
     def words(name):
-        return [(path, kind, f"rg_words[{i // 4}].{'xyzw'[i % 4]}") for i, (path, kind) in enumerate(words_of(name, structs))]
+        sent = enumerate(words_of(name, structs, without="rg_planes"))
+        return [(path, kind, f"rg_words[{i // 4}].{'xyzw'[i % 4]}") for i, (path, kind) in sent]
 
     def varying(name, way):
-        return f"layout(location = 2) flat {way} uvec4 rg_words[{(len(words(name)) + 3) // 4}];\n"
+        count = (len(words(name)) + 3) // 4
+        return f"layout(location = 2) flat {way} uvec4 rg_words[{count}];\n" if count else ""
 
     def sends(match):
         puts = "".join(f"    {at} = {to[kind] % ('v.' + path)};\n" for path, kind, at in words(match.group(1)))
@@ -290,11 +293,8 @@ def flatten(job):
         return needs, f"{header}: {refusal}"
     if language == "GLSL":
         try:
-            samples = re.search(r"\btexture(Lod|Grad)\(", text)
             text = add_varyings(add_struct_readers(make_precise(quotients.rewrite(text))))
             text = VERSION + (FRAGMENT if shell.endswith(".frag") and not is_native else "") + text
-            if is_native and shell.endswith("grid.glsl") and not samples:
-                text = ""
         except quotients.Refused as refused:
             return needs, f"{header}: {refused}"
     write_if_changed(output, text)

@@ -163,7 +163,7 @@ enum {
 
 static VkPipelineStageFlags draw_stages(const struct vk_device *device)
 {
-    return DRAW_STAGES | (device->pub.native ? VK_PIPELINE_STAGE_GEOMETRY_SHADER_BIT : 0);
+    return DRAW_STAGES | (device->pub.info.native ? VK_PIPELINE_STAGE_GEOMETRY_SHADER_BIT : 0);
 }
 
 void vk_barrier_before_draw(const struct vk_device *device, const struct vk_batch *batch)

@@ -103,12 +103,15 @@ bool vk_has_extension(VkPhysicalDevice physical, const char *name)
     return is_there;
 }
 
-// Whether a geometry stage can draw items, which native devices do not pack.
-static bool draws_items(VkPhysicalDevice device)
+// Says why no native device can be opened: its geometry stage draws items, which are not packed.
+static void say_no_native(VkPhysicalDevice device, bool draws, char *why, size_t size)
 {
     VkPhysicalDeviceFeatures able;
     vkGetPhysicalDeviceFeatures(device, &able);
-    return able.geometryShader;
+    if (!draws)
+        snprintf(why, size, "has no queue that draws");
+    else if (!able.geometryShader)
+        snprintf(why, size, "lacks geometryShader");
 }
 
 struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
@@ -137,9 +140,7 @@ struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *fami
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
         limits.formats[f] = format_limits(device, (enum rg_format)f, family->draws, result);
     limits.has_queries = family->draws && counts_exactly(device);
-    limits.has_fixed = family->draws;
-    if (!draws_items(device))
-        snprintf(limits.no_native, sizeof(limits.no_native), "its driver lacks geometryShader");
+    say_no_native(device, family->draws, limits.no_native, sizeof(limits.no_native));
     say_no_draws(device, l, family->draws, limits.no_draws, sizeof(limits.no_draws));
     return limits;
 }

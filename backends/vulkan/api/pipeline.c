@@ -16,7 +16,7 @@ static struct draw_state draw_state_of(const struct vk_device *device, const str
         .target = target,
         .blend = target.colour == RG_FORMAT_NONE ? RG_BLEND_OFF : draw->blend,
         .depth_mode = target.depth ? draw->depth_mode : RG_DEPTH_OFF,
-        .cull = device->pub.native ? draw->cull : RG_CULL_NONE,
+        .cull = device->pub.info.native ? draw->cull : RG_CULL_NONE,
     };
 }
 
@@ -98,7 +98,7 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
                             const struct draw_state *state, VkPipeline *pipeline)
 {
     const char *name = pass->pub.kernel->name;
-    const bool native = device->pub.native;
+    const bool native = device->pub.info.native;
     const VkPipelineShaderStageCreateInfo stages[] = {
         stage(VK_SHADER_STAGE_VERTEX_BIT, pass->drawing->vertex),
         stage(VK_SHADER_STAGE_FRAGMENT_BIT,

@@ -248,32 +248,46 @@ static void tell_failure(struct session *s, const struct shot *a, const struct s
     json_decref(accepts);
 }
 
-// Has T2 judged for a device whose scene differs from the other's, which `background` shows.
-static bool judge_native(const struct session *s, const struct shot *a, const struct shot *b,
-                         struct rg_comparison *c)
+// Takes from the comparison of a pair's rain what its mask decides: T1 and T2, which whole pictures
+// must hold too, and figures over the mask.
+static void take_rain(const struct rg_comparison *rain, struct rg_comparison *c)
+{
+    struct rg_tiers tiers = rain->tiers;
+    tiers.max_codes = c->tiers.max_codes;
+    tiers.of[RG_T0] = c->tiers.of[RG_T0];
+    if (!c->tiers.of[RG_T1].holds)
+        tiers.of[RG_T1] = c->tiers.of[RG_T1];
+    c->tiers = tiers;
+    c->flip.mask_mean = rain->flip.mask_mean;
+    c->flip.mask_p99 = rain->flip.mask_p99;
+    const int tier = rg_tiers_strictest(&tiers);
+    c->tier = tier < RG_TIER_COUNT ? rg_tier_name((enum rg_tier)tier) : "none";
+}
+
+// Judges the rain of a pair whose whole pictures hold T2, and of which one scene is drawn natively.
+static bool judge_rain(const struct session *s, const struct shot *a, const struct shot *b,
+                       struct rg_comparison *c)
 {
     const struct rg_diff_devices_request *r = s->asked;
-    const bool is_first = a->info->tier == RG_T2;
-    const struct shot *native = is_first ? a : b, *other = is_first ? b : a;
-    struct rg_comparison judged;
-    if (!rg_frame_scenes_differ(a->info, b->info) || rg_tiers_strictest(&c->tiers) < RG_T2)
-        return true;
-    if (!rg_frame_compare(native->device, &r->subject, r->frames, other->info, &other->picture,
-                          &s->background, &native->picture, &judged))
+    const struct shot *native = a->info->native ? a : b, *other = a->info->native ? b : a;
+    struct rg_comparison rain;
+    if (!rg_frame_compare_rain(native->device, &r->subject, r->frames, other->info, &other->picture,
+                               &s->background, &native->picture, exposure_of(s), &rain))
         return false;
-    c->tiers.of[RG_T2] = judged.tiers.of[RG_T2];
-    c->tier = judged.tiers.of[RG_T2].holds ? rg_tier_name(RG_T2) : "none";
-    rg_comparison_destroy(&judged);
+    take_rain(&rain, c);
+    rg_comparison_destroy(&rain);
     return true;
 }
 
 static int compare_pair(struct session *s, const struct shot *a, const struct shot *b)
 {
+    const bool differ = rg_frame_scenes_differ(a->info, b->info);
     struct rg_comparison c;
-    if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name, &s->background,
+    if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name,
+                    differ ? NULL : &s->background,
                     &(struct rg_compare_options){.exposure = exposure_of(s)}, &c))
         return rg_exit_of_error();
-    if (!judge_native(s, a, b, &c)) {
+    if (differ && c.tiers.of[RG_T2].holds && !judge_rain(s, a, b, &c)) {
         rg_comparison_destroy(&c);
         return rg_exit_of_error();
     }

@@ -152,7 +152,7 @@ static bool is_packer(const struct rg_kernel *kernel)
 static bool has_packers(const struct rg_device *device)
 {
     const struct rg_backend *backend = rg_backend_of(device->backend->name);
-    return backend && backend->packed && device->info.tier != RG_T2; // native ones pack nothing
+    return backend && backend->packed && !device->info.native;
 }
 
 static void tell_none(const struct pair *p, const struct rg_blame *blame,

@@ -30,11 +30,10 @@ bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subjec
     return ok;
 }
 
-// Compares the rain before the scene `dry`.
-static bool compare_rain(struct rg_device *device, const struct rg_subject *subject, int frames,
-                         const struct rg_device_info *other, const struct rg_picture *expected,
-                         const struct rg_picture *dry, const struct rg_picture *picture,
-                         struct rg_comparison *comparison)
+bool rg_frame_compare_rain(struct rg_device *device, const struct rg_subject *subject, int frames,
+                           const struct rg_device_info *other, const struct rg_picture *expected,
+                           const struct rg_picture *dry, const struct rg_picture *picture,
+                           float exposure, struct rg_comparison *comparison)
 {
     struct rg_picture changed = {0};
     bool ok = rg_frame_draw_dry(device, subject, frames, &changed);
@@ -44,14 +43,14 @@ static bool compare_rain(struct rg_device *device, const struct rg_subject *subj
         changed.texels[i] = light > 0 ? light : 0;
     }
     ok = ok && rg_compare(expected, other->name, &changed, device->info.name, dry,
-                          &(struct rg_compare_options){0}, comparison);
+                          &(struct rg_compare_options){.exposure = exposure}, comparison);
     rg_picture_destroy(&changed);
     return ok;
 }
 
 bool rg_frame_scenes_differ(const struct rg_device_info *a, const struct rg_device_info *b)
 {
-    return (a->tier == RG_T2) != (b->tier == RG_T2);
+    return a->native != b->native;
 }
 
 bool rg_frame_compare(struct rg_device *device, const struct rg_subject *subject, int frames,
@@ -66,7 +65,8 @@ bool rg_frame_compare(struct rg_device *device, const struct rg_subject *subject
     if (!differ || !dry || !comparison->tiers.of[RG_T2].holds)
         return true;
     rg_comparison_destroy(comparison);
-    return compare_rain(device, subject, frames, other, expected, dry, picture, comparison);
+    return rg_frame_compare_rain(device, subject, frames, other, expected, dry, picture, 1,
+                                 comparison);
 }
 
 static bool shows_rain(struct rg_device *device, const struct rg_subject *subject, int frames,

@@ -26,6 +26,12 @@ bool rg_frame_compare(struct rg_device *device, const struct rg_subject *subject
                       const struct rg_picture *dry, const struct rg_picture *picture,
                       struct rg_comparison *comparison);
 
+// The second half of this: compares the rain alone, by drawing the device's own scene without rain.
+bool rg_frame_compare_rain(struct rg_device *device, const struct rg_subject *subject, int frames,
+                           const struct rg_device_info *other, const struct rg_picture *expected,
+                           const struct rg_picture *dry, const struct rg_picture *picture,
+                           float exposure, struct rg_comparison *comparison);
+
 enum { RG_FRAME_DRY = 160 };
 // Writes a line saying that a subject shows no rain after this many frames, and which frame does,
 // if one is found. `option` is the option that sets the frame, such as "--frame".

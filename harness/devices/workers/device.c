@@ -60,7 +60,6 @@ static const struct rg_field limits_fields[] = {
     RG_FIELD_TEXT(struct rg_limits, no_draws),
     RG_FIELD_FLAG(struct rg_limits, has_clock),
     RG_FIELD_FLAG(struct rg_limits, has_queries),
-    RG_FIELD_FLAG(struct rg_limits, has_fixed),
     RG_FIELD_TEXT(struct rg_limits, no_native),
     RG_FIELDS_END,
 };
@@ -81,6 +80,7 @@ static const struct rg_field info_fields[] = {
     RG_FIELD_TEXT(struct rg_device_info, api),
     RG_FIELD_STRUCTS(struct rg_device_info, libraries, library_fields),
     RG_FIELD_FLAG(struct rg_device_info, software),
+    RG_FIELD_FLAG(struct rg_device_info, native),
     RG_FIELD_INTEGER(struct rg_device_info, tier, 0, RG_TIER_COUNT - 1),
     RG_FIELD_STRUCT(struct rg_device_info, limits, limits_fields),
     RG_FIELDS_END,

@@ -154,7 +154,7 @@ json_t *rg_fixed_hash(uint64_t hash)
 
 json_t *rg_fixed_digests(struct rg_device *device, int *failed)
 {
-    const int count = device->info.limits.has_fixed ? rg_fixed_count() : 0;
+    const int count = *device->info.limits.no_native ? 0 : rg_fixed_count();
     json_t *digests = NULL;
     *failed = 0;
     for (int i = 0; rg_fixed_goes_on(device, *failed, count - i) && i < count && !rg_interrupted();

@@ -88,16 +88,33 @@ static void add_row_columns(const struct rg_result *result, struct rg_place of,
         at->number = rg_sheet_column(sheet, "row");
 }
 
-static bool has_optional(const struct rg_result *result, const struct rg_record *first, int which)
+// A count of a row's work, which is one for all devices: native ones cannot take it.
+static int64_t counted(const struct rg_result *result, struct rg_place of, int which)
 {
+    int64_t most = -1;
+    for (of.device = 0; of.device < result->device_count; of.device++) {
+        const struct rg_record *record = rg_result_at(result, of);
+        const int64_t count = which == PACKED ? record->tally.records : record->tally.fragments;
+        if (record->has_tally && count > most)
+            most = count;
+    }
+    return most;
+}
+
+static bool has_optional(const struct rg_result *result, struct rg_place of, int which)
+{
+    const struct rg_record *first = rg_beside_first(result, of);
     const double *drawn = rg_named_number(first->facts, first->fact_count, "particles");
     const double *due = rg_named_number(first->published, first->published_count, "particles");
     if (which == DRAWN)
         return drawn && due;
     if (which == ERROR)
         return *result->truth != 0;
+    for (of.row = result->first_row; !rg_result_has(result, of.row);)
+        of.row++;
+    const int64_t count = counted(result, of, which);
     // A few items that fill the view tell nothing.
-    return first->has_tally && (which != PACKED || first->tally.records >= FEWEST_PACKED);
+    return which == PACKED ? count >= FEWEST_PACKED : rg_is_counted(count);
 }
 
 static bool is_reference(const struct rg_result *result, int device)
@@ -118,7 +135,7 @@ static void add_columns(const struct rg_result *result, struct rg_place of,
     if (isfinite(low) || result->is_of_textures)
         at->print = rg_sheet_column(sheet, "print");
     for (int i = 0; i < layout->optional; i++)
-        if (!result->is_of_textures && has_optional(result, first, i))
+        if (!result->is_of_textures && has_optional(result, of, i))
             at->optional[i] = rg_sheet_column(sheet, "%s", names[i]);
     for (int d = 0; d < result->device_count; d++)
         if (!layout->lacks_reference || !is_reference(result, d))
@@ -158,9 +175,10 @@ static void fill_print(char text[RG_SHEET_CELL], const struct rg_record *record)
         snprintf(text, RG_SHEET_CELL, "%s", from);
 }
 
-static void fill_optional(const struct columns *at, char (*cells)[RG_SHEET_CELL],
-                          const struct rg_record *record)
+static void fill_optional(const struct rg_result *result, struct rg_place of,
+                          const struct columns *at, char (*cells)[RG_SHEET_CELL])
 {
+    const struct rg_record *record = rg_result_at(result, of);
     const double *drawn = rg_named_number(record->facts, record->fact_count, "particles");
     const double *due = rg_named_number(record->published, record->published_count, "particles");
     if (at->optional[DRAWN] >= 0 && drawn && due)
@@ -168,12 +186,11 @@ static void fill_optional(const struct columns *at, char (*cells)[RG_SHEET_CELL]
     if (at->optional[ERROR] >= 0 && record->truth_error.outcome == RG_OK)
         snprintf(cells[at->optional[ERROR]], RG_SHEET_CELL, "%.3f",
                  record->truth_error.flip_mask_mean);
-    if (at->optional[PACKED] >= 0 && record->has_tally && record->tally.records >= 0)
-        rg_digits_rate((double)record->tally.records / 1000, cells[at->optional[PACKED]],
-                       RG_SHEET_CELL);
-    if (at->optional[SHADED] >= 0 && record->has_tally && record->tally.fragments >= 0)
-        rg_digits_rate((double)record->tally.fragments / 1000, cells[at->optional[SHADED]],
-                       RG_SHEET_CELL);
+    for (int i = PACKED; i <= SHADED; i++) {
+        const int64_t count = counted(result, of, i);
+        if (at->optional[i] >= 0 && rg_is_counted(count))
+            rg_digits_rate((double)count / 1000, cells[at->optional[i]], RG_SHEET_CELL);
+    }
 }
 
 // The ratio of a cell's rate to print, or, for a work that saves something, to the printed work; ""
@@ -267,7 +284,7 @@ static void add_row(const struct rg_result *result, struct rg_place of, const st
         fill_size(cells[at->print], record->published, record->published_count);
     else if (at->print >= 0)
         fill_print(cells[at->print], record);
-    fill_optional(at, cells, record);
+    fill_optional(result, of, at, cells);
     for (; of.device < result->device_count; of.device++) {
         if (at->device[of.device] < 0)
             continue;

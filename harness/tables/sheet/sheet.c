@@ -257,7 +257,7 @@ static void fill_ratio(const struct rg_record *record, char text[RG_SHEET_CELL])
 // A count of work; "" if the device cannot take it.
 static void put_count(int64_t count, char cell[RG_SHEET_CELL])
 {
-    if (count >= 0)
+    if (rg_is_counted(count))
         snprintf(cell, RG_SHEET_CELL, "%" PRId64, count);
 }
 

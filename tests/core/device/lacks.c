@@ -1,5 +1,6 @@
 // core/device refuses what a device lacks, as unsupported, from the limits and before it asks the
 // backend. Here limits say less than the device can do.
+#include "core/device/limits.h"
 #include "tests/core/device/suite.h"
 #include "tests/kernels/drawing/quads_params.h"
 
@@ -137,6 +138,17 @@ static void a_missing_clock_is_unsupported(void **state)
     given_back(state);
 }
 
+// Neither fixed functions nor the driver's own way of drawing are asked for where they are not.
+static void a_missing_pipeline_is_unsupported(void **state)
+{
+    struct rg_device *device = *state;
+    strcpy(taken(state)->no_native, "has no camera");
+    assert_lacks(rg_device_fixed_draw(device, "linear", NULL, NULL), "for it has no camera");
+    assert_lacks(rg_limits_allow_native("box:native", &device->info),
+                 "'box:native': has no native way, for");
+    given_back(state);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(objects_beyond_the_limits_are_unsupported),
     cmocka_unit_test(more_objects_than_the_limit_are_unsupported),
@@ -144,5 +156,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(programs_that_cannot_be_drawn_are_unsupported),
     cmocka_unit_test(targets_that_cannot_be_drawn_to_are_unsupported),
     cmocka_unit_test(a_missing_clock_is_unsupported),
+    cmocka_unit_test(a_missing_pipeline_is_unsupported),
 };
 const struct suite_tests lack_tests = {tests, COUNT_OF(tests)};

@@ -227,6 +227,19 @@ static void elements_must_be_whole(void **state)
     rg_buf_destroy(colours);
 }
 
+// A name that does not fit is not cut to one that is there.
+static void long_names_of_devices_are_refused(void **state)
+{
+    (void)state;
+    char name[2 * RG_DEVICE_NAME_SIZE];
+    memset(name, '0', sizeof(name));
+    memcpy(name, "cpu:", 4);
+    name[RG_DEVICE_NAME_SIZE] = 0;
+    assert_refused(rg_device_open(name), "has at most 511 characters");
+    strcpy(name + RG_DEVICE_NAME_SIZE, ":native");
+    assert_refused(rg_device_open(name), "has at most 511 characters");
+}
+
 static void unknown_devices_are_refused(void **state)
 {
     (void)state;
@@ -251,6 +264,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(runs_refuse_objects_of_other_devices),
     cmocka_unit_test(runs_refuse_bad_images),
     cmocka_unit_test(elements_must_be_whole),
+    cmocka_unit_test(long_names_of_devices_are_refused),
     cmocka_unit_test(unknown_devices_are_refused),
 };
 const struct suite_tests refusal_tests = {tests, COUNT_OF(tests)};

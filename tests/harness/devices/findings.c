@@ -54,9 +54,9 @@ struct damage {
 // The harness refuses each, except the last, which damages nothing.
 static const struct damage damages[] = {
     OF_INFO(RG_CALL_OPEN, software, 2),
+    OF_INFO(RG_CALL_OPEN, native, 2),
     OF_INFO(RG_CALL_OPEN, limits.has_clock, 255),
     OF_INFO(RG_CALL_OPEN, limits.has_queries, 3),
-    OF_INFO(RG_CALL_OPEN, limits.has_fixed, 2),
     OF_INFO(RG_CALL_OPEN, limits.max_buffer_bytes, -1),
     OF_INFO(RG_CALL_OPEN, limits.max_groups[1], INT32_MIN),
     OF_INFO(RG_CALL_OPEN, limits.slot_end.images, -1),

@@ -145,6 +145,22 @@ static void cells_are_beside_print(void **state)
     rg_result_free(&result);
 }
 
+// The first device is a native one, whose driver alone knows what it draws; the others count.
+static void counts_are_of_devices_that_can_count(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    make_of(&result, 2);
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);)
+        if (at.device == 0)
+            rg_result_at(&result, at)->tally.records = rg_result_at(&result, at)->tally.fragments =
+                -1;
+    const char *text = print(&result);
+    expect(text, "| packed, k | shaded, k |");
+    expect(text, "|      20.0 |      3457 |");
+    rg_result_free(&result);
+}
+
 // Noise and other processes' load are marked at the number: as text if the page has room, else as
 // one character.
 static void uncertain_numbers_are_marked(void **state)
@@ -341,6 +357,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cells_are_beside_print),
+        cmocka_unit_test(counts_are_of_devices_that_can_count),
         cmocka_unit_test(uncertain_numbers_are_marked),
         cmocka_unit_test(curves_are_those_of_print),
         cmocka_unit_test(lines_are_short),

@@ -41,6 +41,8 @@ ROWS = [
     Fault(LIMITS, "return «size <= most» ||\n           rg_unsupported(\"buffer", "true", "a buffer may be of any size"),
     Fault(LIMITS, "if (desc->width > most->max_px || «desc->height > most->max_px» ||", "false", "an image may be of any height"),
     Fault(LIMITS, "if («++*member_of(count, slot->kind) > allowed»)", "false", "a kernel may have any number of slots"),
+    Fault(LIMITS, "return «!*info->limits.no_native» ||\n           rg_unsupported(\"device '%s': has no fixed", "true", "fixed functions are drawn without a pipeline"),
+    Fault(DEVICE, "require_or_null(«length < sizeof(plain)»,", "true", "a name that is too long is cut to another's"),
     Fault(DEVICE, "return index >= 0 && «index < count» ? (int)index : -1;", "true", "a device behind the last may be asked for"),
     Fault(DEVICE, "return «a->tier > b->tier ? a->tier : b->tier»;", "a->tier", "the first of two devices says what tier is owed"),
     Fault(DEVICE, "!w->live_buffers && «!w->live_images» && !w->live_passes;", "true", "images may be left behind"),
