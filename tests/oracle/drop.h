@@ -16,6 +16,9 @@ struct oracle_drop {
 // One of the ten oscillations of a set at a part of the exposure: the database's, or the measured.
 struct oracle_drop oracle_drop_at(bool database, int oscillation, double part);
 
+// The distance of the surface from the drop's middle in the direction of a unit vector; y is up.
+double oracle_drop_radius(const struct oracle_drop *drop, const double n[3]);
+
 // The sources of the light on a ray from `start` in direction `ray`, against the light's way. Each
 // way of light (reflected; refracted; with one to three reflections inside) gets a unit vector
 // towards its source and its share. False if the ray misses the drop.

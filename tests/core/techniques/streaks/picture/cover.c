@@ -16,14 +16,6 @@ enum { MOMENTS = 32, GAIN = 1000, SKY = 16 };
 
 // --- cross-sections ---
 
-// The distance of a drop's surface from its middle, in radii (docs/atlas.md). `n` is a unit vector;
-// y is up.
-static double surface_at(const struct oracle_drop *drop, const double n[3])
-{
-    const double c = n[1], aside = n[0] * sin(drop->phi_drop) + n[2] * cos(drop->phi_drop);
-    return 1 + drop->a * (3 * c * c - 1) / 2 + drop->b * 1.5 * (5 * c * c - 1) * aside;
-}
-
 // The distance of a drop's outline from its middle, seen from an elevation, in a direction about
 // the view. It is the farthest that the surface reaches to that side.
 static double outline_at(const struct oracle_drop *drop, double elevation, double about)
@@ -33,7 +25,7 @@ static double outline_at(const struct oracle_drop *drop, double elevation, doubl
         const double ahead = sin(k * 0.06), beside = cos(k * 0.06), up = beside * cos(about);
         const double n[3] = {beside * sin(about), up * cos(elevation) + ahead * sin(elevation),
                              ahead * cos(elevation) - up * sin(elevation)};
-        farthest = fmax(farthest, surface_at(drop, n) * beside);
+        farthest = fmax(farthest, oracle_drop_radius(drop, n) * beside);
     }
     return farthest;
 }
