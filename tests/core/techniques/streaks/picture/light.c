@@ -63,6 +63,8 @@ static void test_day(void **state)
     expect_light("by day, 720p", "", 1280, 720);
     expect_light("drops of one size", "spectrum=off", 640, 360);
     expect_light("1/15 s", "exposure_s=0.0666667", 640, 360);
+    expect_light("every drop, at 20 mm/h",
+                 "rain_mm_h=20 kept_share=1 rain_width_m=150 rain_depth_m=150", 640, 360);
     expect_light("every drop, at 5 mm/h", "rain_mm_h=5 kept_share=1", 640, 360);
 }
 
