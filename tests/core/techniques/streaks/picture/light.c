@@ -1,7 +1,7 @@
-// The share of their light that rain's layers show at the default gains: light DEVICE. Rain adds
-// its gain times a constant to a picture. The light at a gain of 1 is thus due a hundredth of the
-// light at a gain of 100. tests/core/techniques/streaks/picture/cover.c and oracle.c check the
-// latter against optics.
+// The share of their light that rain's layers show at the default gains, and in small pictures:
+// light DEVICE. Rain adds its gain times a constant to a picture. The light at a gain of 1 is thus
+// due a hundredth of the light at a gain of 100. tests/core/techniques/streaks/picture/cover.c and
+// oracle.c check the latter against optics.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,8 +74,36 @@ static void test_night(void **state)
     expect_light("by night, eight lights", "time=night lights=8", 640, 360);
 }
 
+// A picture's light, in the mean of its pixels, at a gain of 100.
+static double mean_light(const char *settings, int width, int height)
+{
+    struct streaks *s = open_sized(settings, width, height);
+    rain_step(s, 30);
+    const double light = light_with(s, GAIN) - light_with(s, 0);
+    rain_close(s);
+    return light / (width * height);
+}
+
+#define FEW "lights=0 far_layers=0"
+
+// However small the picture, and however thin what is seen in it: most drops and splashes are
+// thinner than a pixel of the smaller one.
+static void test_small_pictures(void **state)
+{
+    (void)state;
+    static const char *const rains[] = {"drops=off splash_opacity=0 " FEW,
+                                        "splashes=off streak_opacity=0 " FEW};
+    for (int i = 0; i < 2; i++) {
+        const double small = mean_light(rains[i], 160, 90), large = mean_light(rains[i], 960, 540);
+        print_message("%s: a 36th of the pixels, %.4f of the light\n", rains[i], small / large);
+        assert_above(large, 0);
+        assert_below(fabs(small / large - 1), 0.01);
+    }
+}
+
 int main(int argc, char **argv)
 {
-    struct CMUnitTest tests[] = {cmocka_unit_test(test_day), cmocka_unit_test(test_night)};
+    struct CMUnitTest tests[] = {cmocka_unit_test(test_day), cmocka_unit_test(test_night),
+                                 cmocka_unit_test(test_small_pictures)};
     return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }
