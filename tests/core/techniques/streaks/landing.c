@@ -217,6 +217,7 @@ static void test_blocks_do_not_show(void **state)
         expect_no_blocks(views[i], SIZES "splash_width_mm=2000");
         expect_no_blocks(views[i], SIZES "splashes=off splash_s=0.001 exposure_s=0.25");
     }
+    expect_no_blocks(views[1], "spectrum=marshall-palmer kept_share=0.005 splash_width_mm=2000");
 }
 
 // Drops of one size, in blocks by how far they have fallen. A splash lasts as long as its drop
