@@ -8,8 +8,8 @@
 #include <math.h>
 
 #include "core/scene/atlas/optics/trace.h"
-#include "tests/oracle/drop.h"
-#include "tests/oracle/fresnel.h"
+#include "tests/oracle/optics/drop.h"
+#include "tests/oracle/optics/fresnel.h"
 #include "tests/tools/expect.h"
 
 #define PI    3.14159265358979323846

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "core/scene/atlas/splash.h"
-#include "tests/oracle/fresnel.h"
+#include "tests/oracle/optics/fresnel.h"
 #include "tests/tools/expect.h"
 
 static const double pi = 3.14159265358979323846, water_index = 1.333;

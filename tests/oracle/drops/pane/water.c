@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "tests/oracle/fresnel.h"
+#include "tests/oracle/optics/fresnel.h"
 
 // The cubic B-spline about 0, and its derivatives.
 static double basis(double t)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/oracle/drop.h"
+#include "tests/oracle/optics/drop.h"
 #include "tests/tools/expect.h"
 
 static const double pi = 3.14159265358979323846;

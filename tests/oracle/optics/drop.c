@@ -1,9 +1,9 @@
-#include "tests/oracle/drop.h"
+#include "tests/oracle/optics/drop.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "tests/oracle/fresnel.h"
+#include "tests/oracle/optics/fresnel.h"
 
 #define PI 3.14159265358979323846
 

@@ -1,7 +1,7 @@
 // Light through an oscillating drop, in double precision, by marching and bisection: slow and
 // plain. It shares nothing with core/scene/atlas.
-#ifndef RG_TESTS_ORACLE_DROP_H
-#define RG_TESTS_ORACLE_DROP_H
+#ifndef RG_TESTS_ORACLE_OPTICS_DROP_H
+#define RG_TESTS_ORACLE_OPTICS_DROP_H
 
 #include <stdbool.h>
 

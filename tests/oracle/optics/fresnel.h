@@ -1,6 +1,6 @@
 // Fresnel's law by sines and tangents, which the program's own code does without.
-#ifndef RG_TESTS_ORACLE_FRESNEL_H
-#define RG_TESTS_ORACLE_FRESNEL_H
+#ifndef RG_TESTS_ORACLE_OPTICS_FRESNEL_H
+#define RG_TESTS_ORACLE_OPTICS_FRESNEL_H
 
 #include <math.h>
 
