@@ -259,20 +259,24 @@ static void digests_are_the_same(void **state)
     close_pair(&pair);
 }
 
-// File names, choices and numbers reach the worker unchanged.
+// File names, choices and numbers reach the worker unchanged: of drops of one size, and of the
+// default spectrum.
 static void settings_arrive_as_they_are(void **state)
 {
     (void)state;
-    struct pair pair =
-        open_pair("streaks", "spectrum=off drops_m2_s=20 atlas=small city=small seed=7", FRAMES);
-    size_t sizes[2];
-    void *texels[2];
-    for (int i = 0; i < 2; i++)
-        texels[i] = rg_session_read(pair.sessions[i], &sizes[i]);
-    assert_memory_equal(texels[LOCAL], texels[REMOTE], sizes[LOCAL]);
-    free(texels[LOCAL]);
-    free(texels[REMOTE]);
-    close_pair(&pair);
+    static const char *const rains[] = {"spectrum=off drops_m2_s=20 atlas=small city=small seed=7",
+                                        "kept_share=0.001 atlas=small city=small seed=7"};
+    for (int rain = 0; rain < 2; rain++) {
+        struct pair pair = open_pair("streaks", rains[rain], FRAMES);
+        size_t sizes[2];
+        void *texels[2];
+        for (int i = 0; i < 2; i++)
+            texels[i] = rg_session_read(pair.sessions[i], &sizes[i]);
+        assert_memory_equal(texels[LOCAL], texels[REMOTE], sizes[LOCAL]);
+        free(texels[LOCAL]);
+        free(texels[REMOTE]);
+        close_pair(&pair);
+    }
 }
 
 static void what_the_worker_refuses_is_refused_here(void **state)

@@ -57,10 +57,12 @@ static double seen_from(double elevation, const double *first, int pitch)
     return first[lower * pitch] * (lower + 1 - view) + first[(lower + 1) * pitch] * (view - lower);
 }
 
-// Adds the radiance of the lights on drops at a place.
-static void add_lights(const struct streak_view *view, const struct streak_means *means,
+// Adds the radiance of the lights on drops at a place. Returns a number for the nearest cells of
+// all lights.
+static long add_lights(const struct streak_view *view, const struct streak_means *means,
                        const struct ray *ray, const double at[3], double share, double light[3])
 {
+    long nearest = 0;
     for (int i = 0; i < view->light_count; i++) {
         const struct streak_light *l = &view->lights[i];
         double to_light[3], shown = 0;
@@ -72,11 +74,13 @@ static void add_lights(const struct streak_view *view, const struct streak_means
                                                 STREAK_HEIGHTS * STREAK_AZIMUTHS);
         for (int c = 0; c < 3; c++)
             light[c] += share * pi * reached * shown * l->colour[c];
+        nearest = nearest * STREAK_HEIGHTS * STREAK_AZIMUTHS + cells.columns[0];
     }
+    return nearest;
 }
 
-// Draws a slab's part of a ray, in metres along it.
-static void draw_part(const struct streak_view *view, const struct streak_far *far,
+// Draws a slab's part of a ray, in metres along it. True if a light's nearest cell changes there.
+static bool draw_part(const struct streak_view *view, const struct streak_far *far,
                       const struct streak_means *means, const struct ray *ray, double first,
                       double last, double light[3])
 {
@@ -87,30 +91,36 @@ static void draw_part(const struct streak_view *view, const struct streak_far *f
                           (2 * far->radius_m * 32 / 23.744) / streak_atlas_share(shown);
     const double sky = covers * seen_from(ray->elevation, means->skies, 1);
     double added[3];
+    long nearest = 0;
+    bool changes = false;
     for (int c = 0; c < 3; c++)
         added[c] = sky * view->sky[c];
     for (int i = 0; i < PARTS; i++) {
         double at[3];
         add(view->eye, ray->of, first + (last - first) * (i + 0.5) / PARTS, at);
-        add_lights(view, means, ray, at, covers / PARTS, added);
+        const long here = add_lights(view, means, ray, at, covers / PARTS, added);
+        changes |= i > 0 && here != nearest;
+        nearest = here;
     }
     for (int c = 0; c < 3; c++)
         light[c] = added[c] * view->gain + (1 - fmin(sky * view->opacity, 1)) * light[c];
+    return changes;
 }
 
-int streak_far_draw(const struct streak_view *view, const struct streak_far *far,
-                    const struct streak_means *means, int x, int y, double light[3])
+bool streak_far_draw(const struct streak_view *view, const struct streak_far *far,
+                     const struct streak_means *means, int x, int y, double light[3])
 {
     struct ray ray;
     find_ray(view, far, x, y, &ray);
     const double steep = fabs(ray.per_m), eye = far->eye[ray.axis] * (ray.per_m < 0 ? -1 : 1);
     const int nearest = (int)floor((eye + far->nearest_m) / far->slab_m),
               farthest = (int)floor((eye + far->farthest_m) / far->slab_m);
+    bool changes = false;
     for (int slab = farthest; slab >= nearest; slab--) {
         const double first = fmax(slab * far->slab_m - eye, far->nearest_m),
                      last = fmin((slab + 1) * far->slab_m - eye, far->farthest_m);
         if (last > first)
-            draw_part(view, far, means, &ray, first / steep, last / steep, light);
+            changes |= draw_part(view, far, means, &ray, first / steep, last / steep, light);
     }
-    return farthest - nearest + 1;
+    return changes;
 }

@@ -24,8 +24,9 @@ struct streak_means {
 };
 void streak_means_find(const struct streak_atlas *atlas, struct streak_means *means);
 
-// Draws light over that of a pixel. Returns the number of slabs.
-int streak_far_draw(const struct streak_view *view, const struct streak_far *far,
-                    const struct streak_means *means, int x, int y, double light[3]);
+// Draws light over that of a pixel. Returns whether the cell of the atlas that is nearest to a
+// light changes within a slab.
+bool streak_far_draw(const struct streak_view *view, const struct streak_far *far,
+                     const struct streak_means *means, int x, int y, double light[3]);
 
 #endif

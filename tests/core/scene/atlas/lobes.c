@@ -89,7 +89,7 @@ static void test_radiance(void **state)
     for (int i = 0; i < 6; i++) {
         const float cosine = (float)cos(expected[i][0] * M_PI / 180);
         const double radiance = (double)(rg_lobe_radiance(&lobes, cosine) / lobes.peak);
-        assert_below(fabs(radiance - expected[i][1]), 2e-2);
+        assert_below(fabs(radiance - expected[i][1]), 1e-4);
     }
 }
 

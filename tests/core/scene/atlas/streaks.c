@@ -64,7 +64,8 @@ static void test_published_brightness(void **state)
         print_message("%.2f%s", exp(logs[i] - mean), i % 9 < 8 ? " " : "\n"); // for docs/atlas.md
     print_message("one of their units is %.4f/sr\n", exp(mean));
     for (int i = 0; i < 18; i++)
-        if (fabs(exp(logs[i] - mean) - 1) > 0.33)
+        // The sixth, at a scattering angle of 110 degrees, has 1.305, and no other more than 1.197.
+        if (fabs(exp(logs[i] - mean) - 1) > (i == 5 ? 0.31 : 0.2))
             fail_msg("light %d, azimuth %d: %.3f times the published brightness", i < 9 ? 10 : 50,
                      10 + 20 * (i % 9), exp(logs[i] - mean));
     assert_below(fabs(exp(mean) / (double)RG_CAVE_POINT_SCALE - 1), 0.01);
@@ -107,7 +108,8 @@ static void test_environment_is_the_chord(void **state)
 }
 
 // The heights of the five rows, and the ends of the streaks. A streak is in the middle of its cell.
-// It reaches half a diameter beyond each end of the fall, which is foreshortened.
+// It reaches half a drop's height beyond each end of the fall, which is foreshortened. Measured
+// drops are flat at rest: by P20 of the angle between the outline's end and the vertical.
 static void test_heights(void **state)
 {
     (void)state;
@@ -124,11 +126,11 @@ static void test_heights(void **state)
             first++;
         while (s.env[last * 32 + 15] <= 0)
             last--;
-        const double fall = FALL_PX * cos(20 * view * PI / 180);
-        const double wanted = 0.5 * (s.height - fall - DIAMETER_PX);
-        const double room = k % 2 ? 1.5 : 2.2; // a drop at rest is flat
-        assert_below(fabs(first - wanted), room);
-        assert_below(fabs(s.height - 1 - last - wanted), room);
+        const double up = cos(20 * view * PI / 180), flat = k % 2 ? 0 : 0.051;
+        const double tall = DIAMETER_PX * (1 - flat * (3 * up * up - 1) / 2);
+        const double wanted = 0.5 * (s.height - FALL_PX * up - tall);
+        assert_below(fabs(first - wanted), 1); // 0.85 at most
+        assert_below(fabs(s.height - 1 - last - wanted), 1);
         rg_streaks_free(&s);
     }
 }

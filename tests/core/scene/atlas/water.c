@@ -1,10 +1,11 @@
 // Splashed water against an oracle: paths of light that are followed one by one, in double
-// precision, through every surface that they meet. They share nothing with kernels/ or with the
-// tracer, which follows no light from one ball to the next.
+// precision, through every surface that they meet. They share the water itself with the tracer, its
+// balls, sheet and ring, and nothing of how light is followed.
 #include <math.h>
 #include <stdint.h>
 
 #include "core/scene/atlas/splash.h"
+#include "tests/oracle/optics/fresnel.h"
 #include "tests/tools/expect.h"
 
 static const double pi = 3.14159265358979323846, water_index = 1.333;
@@ -12,6 +13,7 @@ enum {
     WIDE = RG_SPLASH_WIDTH_PX,
     TALL = RG_SPLASH_HEIGHT_PX,
     TRIES = 1024,
+    FEWER = 64, // where the tracer sees no water
     EVENTS = 64,
     FIELDS = 3
 };
@@ -32,18 +34,6 @@ struct path {
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-// Fresnel's share by its sines and tangents, from an angle on the side of `from` to `to`.
-static double fresnel(double cosine, double from, double to)
-{
-    const double a = acos(fmin(cosine, 1)), sine = sin(a) * from / to;
-    if (sine >= 1)
-        return 1;
-    const double b = asin(sine);
-    if (a < 1e-6)
-        return pow((from - to) / (from + to), 2);
-    return 0.5 * (pow(sin(a - b) / sin(a + b), 2) + pow(tan(a - b) / tan(a + b), 2));
 }
 
 // --- what a path meets first ---
@@ -109,7 +99,7 @@ static void cross_ball(const struct rg_water *w, int ball, struct path *path)
         normal[i] = (path->at[i] - w->balls[ball].at[i]) / w->balls[ball].radius_m;
     const double from = leaves ? water_index : 1, to = leaves ? 1 : water_index;
     const double cosine = fabs(dot(path->way, normal)), side = leaves ? 1 : -1;
-    if (chance() < fresnel(cosine, from, to)) {
+    if (chance() < fresnel(acos(fmin(cosine, 1)), from / to)) {
         mirror(path, normal);
         return;
     }
@@ -125,7 +115,7 @@ static void cross_sheet(const struct rg_water *w, struct path *path)
     const double length = hypot(1, w->flare), radius = hypot(path->at[0], path->at[2]);
     const double normal[3] = {path->at[0] / radius / length, -w->flare / length,
                               path->at[2] / radius / length};
-    const double one = fresnel(fabs(dot(path->way, normal)), 1, water_index);
+    const double one = fresnel(acos(fmin(fabs(dot(path->way, normal)), 1)), 1 / water_index);
     if (chance() < 2 * one / (1 + one))
         mirror(path, normal);
 }
@@ -171,10 +161,11 @@ static int end_of(const struct rg_water *w, struct path path)
 }
 
 // Adds the shares of paths through a texel that end in each field.
-static void add_texel(const struct rg_water *w, int column, int row, double shares[FIELDS])
+static void add_texel(const struct rg_water *w, int column, int row, int tries,
+                      double shares[FIELDS])
 {
     const double tilt = 15 * pi / 180, texel = 0.06 / WIDE;
-    for (int k = 0; k < TRIES; k++) {
+    for (int k = 0; k < tries; k++) {
         const double x = (column + chance() - WIDE / 2.0) * texel;
         const double up = (TALL - row - chance()) * texel - 0.008;
         const struct path path = {
@@ -183,7 +174,7 @@ static void add_texel(const struct rg_water *w, int column, int row, double shar
             -1};
         const int field = end_of(w, path);
         if (field >= 0)
-            shares[field] += 1.0 / TRIES;
+            shares[field] += 1.0 / tries;
     }
 }
 
@@ -203,8 +194,9 @@ static void expect_fields(const struct rg_splash_light *light, const double due[
                      due[i] / sums[1]);
 }
 
-// The crowns are compared as a whole where the tracer sees water, texel by texel, and by where
-// their light comes from. The tracer's 64 rays a texel leave the smallest droplets to chance.
+// The crowns are compared as a whole, texel by texel where the tracer sees water, and by where
+// their light comes from. The tracer's 64 rays a texel leave the smallest droplets to chance: they
+// are 12 to 24 % of the light apart in the mean, and miss up to 1.4 % of it elsewhere.
 static void expect_crown(int material, double time_s)
 {
     struct rg_water water;
@@ -213,47 +205,63 @@ static void expect_crown(int material, double time_s)
     rg_splash_water(material, time_s, &water);
     water.ring_height_m = 0; // the wave has a test of its own
     assert_true(rg_splash_see(&water, texels, &light));
-    double is = 0, due = 0, apart = 0, fields[FIELDS] = {0};
+    double is = 0, due = 0, apart = 0, missed = 0, fields[FIELDS] = {0};
     int mask = 0;
     for (int i = 0; i < TALL * WIDE; i++) {
-        if (!(texels[i] > 0))
-            continue;
+        const bool is_seen = texels[i] > 0;
         double shares[FIELDS] = {0}, share = 0;
-        add_texel(&water, i % WIDE, i / WIDE, shares);
+        add_texel(&water, i % WIDE, i / WIDE, is_seen ? TRIES : FEWER, shares);
         for (int k = 0; k < FIELDS; k++) {
             share += shares[k];
             fields[k] += shares[k];
         }
         is += (double)texels[i];
-        due += share;
-        apart += fabs((double)texels[i] - share);
-        mask++;
+        *(is_seen ? &due : &missed) += share;
+        apart += is_seen ? fabs((double)texels[i] - share) : 0;
+        mask += is_seen;
     }
     print_message("material %d, %.0f ms: %d balls, %d texels, %.4f of the sky's light, %.4f due, "
-                  "%.1f %% apart in the mean\n",
+                  "%.1f %% apart in the mean, %.2f %% elsewhere\n",
                   material, 1000 * time_s, water.count, mask, is / mask, due / mask,
-                  100 * apart / due);
+                  100 * apart / due, 100 * missed / due);
     assert_at_least(mask, 60);
     assert_below(fabs(is / due - 1), 0.05);
-    assert_below(apart, 0.35 * due);
+    assert_below(apart, 0.26 * due);
+    assert_below(missed, 0.02 * due);
     expect_fields(&light, fields);
 }
 
-// A wave of one slope, seen from 15 degrees above: the side that is turned away mirrors as much
-// more of the sky as Fresnel says, and nothing shows in a furnace that is not mirrored.
+// The height of a ring's wave, as if all of it were as far from the impact as `away`. It falls off
+// with the root of that distance.
+static double wave_height(const struct rg_water *w, double radius, double away)
+{
+    const double across = (radius - w->ring_m) / w->ring_width_m;
+    return w->ring_height_m * (1 + cos(pi * across)) / sqrt(away / 0.01);
+}
+
+static double wave_slope(const struct rg_water *w, double away)
+{
+    const double step = 1e-7;
+    return (wave_height(w, away + step, away) - wave_height(w, away - step, away)) / (2 * step);
+}
+
+// The side of a wave that is turned away, seen from 15 degrees above, mirrors as much more of the
+// sky as Fresnel says, and nothing shows in a furnace that is not mirrored. The wave's slope is
+// that of its height, without its falling off, which would be 5 % of the slope here.
 static void test_waves(void **state)
 {
     (void)state;
     const double tilt = 15 * pi / 180, way[3] = {0, -sin(tilt), cos(tilt)};
     // A place half way up the ring's outer side, behind the impact.
     const struct rg_water water = {.ring_m = 0.01, .ring_width_m = 0.004, .ring_height_m = 0.0001};
-    const double away = 0.012, slope = -0.0001 * pi / 0.004 / sqrt(1.2);
+    const double away = 0.012, slope = wave_slope(&water, away);
     const double start[3] = {0, 0.1 * sin(tilt), away - 0.1 * cos(tilt)};
-    const double flat = fresnel(sin(tilt), 1, water_index);
+    const double flat = fresnel(pi / 2 - tilt, 1 / water_index);
     struct rg_water_light light;
     rg_water_see(&water, NULL, start, way, &light);
     assert_equals(light.count, 1);
-    const double turned = atan(-slope), due = fresnel(sin(tilt - turned), 1, water_index) - flat;
+    const double turned = atan(-slope),
+                 due = fresnel(pi / 2 - tilt + turned, 1 / water_index) - flat;
     assert_below(fabs(light.share[0] / due - 1), 1e-6);
     assert_below(fabs(asin(light.from[0][1]) - (tilt - 2 * turned)), 1e-6);
     const double before[3] = {0, 0.1 * sin(tilt), -away - 0.1 * cos(tilt)};
@@ -298,6 +306,7 @@ static void test_crowns_are_as_bright_as_paths_find(void **state)
     expect_crown(0, 0.015);
     expect_crown(0, 0.033);
     expect_crown(1, 0.021);
+    expect_crown(2, 0.006);
     expect_crown(3, 0.009);
 }
 

@@ -65,6 +65,7 @@ ROWS = [Row(*row) for row in (
     ("green's tint of five bits", "city_shade.h", "((tint >> 5) & 63u)", "((tint >> 5) & 31u)", LOOK),
     ("wet ground mirrors as much from above", "city_shade.h", "slant2 * slant2 * slant)", "slant2)", LOOK),
     ("dry and wet alike", "city_shade.h", "(1.0f - 0.45f * wet) * front", "front", LOOK),
+    ("wet ground hardly darker", "city_shade.h", "(1.0f - 0.45f * wet) * front", "(1.0f - 0.3f * wet) * front", LOOK),
     ("openness inside the walls", "city_shade.h", "#define SCENERY_BEFORE_M 3.0f", "#define SCENERY_BEFORE_M 0.0f", LOOK),
     ("no light from beside", "city_shade.h", "float beside = p.bounced * (1.0f - open)", "float beside = 0.0f * open", LOOK),
     ("windows do not glow", "city_shade.h", "float glow = p.glow * t.a +", "float glow =", LOOK),

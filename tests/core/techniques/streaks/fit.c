@@ -128,7 +128,8 @@ static void test_frames_are_as_set(void **state)
         "",
         ("depth_map=dynamic depth_map_period=5 far_layers=2 overlay=on packets=kd "
          "packet_size=200"),
-        "spectrum=best least_diameter_mm=1 kept_share=0.1"};
+        "spectrum=best least_diameter_mm=1 kept_share=0.1",
+        "spectrum=marshall-palmer kept_share=0.002"};
     for (size_t i = 0; i < sizeof(more) / sizeof(more[0]); i++) {
         char settings[256];
         snprintf(settings, sizeof(settings), "%s fit=on", more[i]);

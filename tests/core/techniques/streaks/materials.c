@@ -321,6 +321,9 @@ static void blank(struct streaks *s, int material)
 #define STREET NEAR "eye_x_m=1 eye_y_m=3 eye_z_m=1 target_x_m=1 target_y_m=0 target_z_m=2 "
 #define ROOF   NEAR "eye_x_m=-56 eye_y_m=73 eye_z_m=16 target_x_m=-56 target_y_m=70 target_z_m=17 "
 
+// As faint as water is.
+#define FAINT "splash_gain=4 splash_opacity=1 "
+
 static void expect_only(const struct streaks *s, int material)
 {
     int counts[MATERIALS];
@@ -356,6 +359,8 @@ static void crowns_are_of_the_material(void **state)
     check_crowns(*state, STREET "splash_materials=on", FILM);
     check_crowns(*state, ROOF "splash_materials=on", PUDDLE);
     check_crowns(*state, ROOF "splash_materials=off", FILM);
+    check_crowns(*state, STREET FAINT "splash_materials=on", FILM);
+    check_crowns(*state, ROOF FAINT "splash_materials=on", PUDDLE);
 }
 
 int main(int argc, char **argv)

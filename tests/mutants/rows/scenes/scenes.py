@@ -10,7 +10,7 @@ BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environmen
                          "core/scene/environment/environment.c")
 COLLAPSE, MERGE = "core/scene/mesh/resize/collapse.c", "core/scene/mesh/resize/merge.c"
 PARTS, LIGHTS_OF, STREET = ("core/scene/environment/%s.c" % name for name in ("parts", "lights", "street"))
-SIZES = "core/techniques/streaks/view/sizes.c"
+SIZES, PRESETS = "core/techniques/streaks/view/sizes.c", "core/techniques/scenery/lights/presets.c"
 BLOCKS, RAIN = "core/techniques/streaks/packets/blocks.c", "core/techniques/streaks/particles.c"
 GRID, DETAIL, LOOK = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c", "core/techniques/streaks/view/look.c"
 SPACE_OF_RAIN, VIEW = "core/techniques/cartoon/rain/space.c", "core/techniques/cartoon/scene/view.c"
@@ -84,6 +84,10 @@ ROWS = [
     Fault(SPECTRUM, "classes[k].drops_m3 *= «spectrum->amount»;", "1", "classes of a normalised spectrum are its authors'"),
     Fault(SPECTRUM, "return section_mm2_m3 * «1e-6 * 1000»;", "1e-6", "extinction is that of a metre"),
     Fault(SIZES, "set->drops_m2_s * rg_drop_volume_mm3(«2 *» radius_mm);", "1 *", "drops of one size have less water"),
+    Fault(SIZES, "«set->drops_m2_s» * rg_drop_volume_mm3(2 * radius_mm);", "2 * set->drops_m2_s", "drops of one size make twice their rain"),
+    Fault(SIZES, "const double section_mm2_m3 = «s->sizes.drops_m3» * M_PI * radius_mm * radius_mm;", "2 * s->sizes.drops_m3", "drops of one size block twice their light"),
+    Fault(PRESETS, "[SCENERY_DAY] = 1, [SCENERY_NIGHT] = «3»};", "1", "lamps are as bright by night as by day", tests=("streaks lights, cpu",)),
+    Fault(PRESETS, "[CITY_STREET_LAMP] = {{56, 41, 22}, 45, «78»},", "62", "street lamps light less of the street", tests=("streaks lights, cpu",)),
     Fault(SIZES, "left.section_mm2_m3 / («left.section_mm2_m3 + kept.section_mm2_m3»)", "kept.section_mm2_m3", "the light that is left out is over that which is not"),
     Fault(BLUR, "return diameter_rad * size / «(M_PI / 2)»;", "M_PI", "a face spans half a turn",
           lives="it says by how many places, and from which halved map, a disc is seen: half as many are within the bound that the test derives from their number"),

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "tests/oracle/optics/fresnel.h"
+
 // The cubic B-spline about 0, and its derivatives.
 static double basis(double t)
 {
@@ -64,9 +66,5 @@ double water_pass(const double d[3], const double normal[3], double n1, double n
     const double after = asin(sine_after), length = sqrt(sine);
     for (int i = 0; i < 3; i++)
         passed[i] = normal[i] * cos(after) + (length > 0 ? across[i] / length * sine_after : 0);
-    if (before < 1e-6)
-        return pow((n1 - n2) / (n1 + n2), 2);
-    return (pow(sin(before - after) / sin(before + after), 2) +
-            pow(tan(before - after) / tan(before + after), 2)) /
-           2;
+    return fresnel(before, n1 / n2);
 }

@@ -233,47 +233,12 @@ static void in_shadow(void **state)
     compare(*state, &(struct look_case){{.lights = 4}, 307, 200, 20});
 }
 
-// A wet road as those of measurements (CIE 47-1979; van Bommel, Road Lighting, 2015, table 12.3):
-// the specular factor S1 of classes W2 and W3, 4.5 to 9.8, and their mean luminance coefficients
-// Q0, 0.150 and 0.196, seen one degree from above. The road under the water is as dark as asphalt.
-static double luminance(double along, double across, double albedo)
-{
-    const double pi = 3.14159265358979323846, eye = pi / 180, normal[3] = {0, 1, 0};
-    const double way[3] = {0, -sin(eye), cos(eye)},
-                 length = sqrt(1 + along * along + across * across);
-    const double to[3] = {across / length, 1 / length, along / length};
-    return albedo / pi + scene_film(normal, way, to, 0.25) / pi * length;
-}
-
-static void wet_roads_are_as_measured(void **state)
-{
-    (void)state;
-    const double albedo = 0.06;
-    // r = q cos^3 of the light's angle; from straight ahead at tan 2, and from above.
-    const double s1 = luminance(2, 0, albedo) / pow(5, 1.5) / luminance(0, 0, albedo);
-    double sum = 0, solid = 0;
-    // From 4 lamp heights behind to 12 ahead, and 3 to either side.
-    for (int i = 0; i < 160; i++)
-        for (int k = 0; k < 60; k++) {
-            const double along = -4 + 16 * (i + 0.5) / 160, across = -3 + 6 * (k + 0.5) / 60;
-            const double seen = pow(1 + along * along + across * across, -1.5);
-            sum += luminance(along, across, albedo) * seen;
-            solid += seen;
-        }
-    print_message("a wet road: S1 %.2f, Q0 %.3f\n", s1, sum / solid);
-    assert_above(s1, 4.5);
-    assert_below(s1, 9.8);
-    assert_above(sum / solid, 0.150);
-    assert_below(sum / solid, 0.196);
-}
-
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(by_day),
         cmocka_unit_test(by_night_under_lamps),
         cmocka_unit_test(in_shadow),
-        cmocka_unit_test(wet_roads_are_as_measured),
     };
     return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }

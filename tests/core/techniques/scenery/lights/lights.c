@@ -1,4 +1,5 @@
 // The lights of a scene as streaks opens them: lights DEVICE.
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -102,6 +103,29 @@ static void no_lights_are_none(void **state)
     }
 }
 
+// As docs/lights.md has it: white ground 8 m below a street lamp has 2.6 by night, lamps are three
+// times as bright as by day, and a street lamp shines 78 degrees to either side.
+static void lamps_are_as_bright_and_as_wide_as_told(void **state)
+{
+    struct scenery_lights_settings settings = three_lights();
+    scenery_light lamp[2][2];
+    for (int night = 0; night < 2; night++) {
+        settings.time = night ? SCENERY_NIGHT : SCENERY_DAY;
+        struct scenery_lights *lights = scenery_lights_open(*state, &settings);
+        assert_non_null(lights);
+        memcpy(lamp[night], lights->world + 1 - night, sizeof(lamp[night])); // the sun is first
+        scenery_lights_close(lights);
+    }
+    assert_below(fabs((double)lamp[1][0].r / (8 * 8) - 2.6), 0.05);
+    for (int i = 0; i < 2; i++) {
+        assert_float_equal(lamp[1][i].r, 3 * lamp[0][i].r, 1e-5f);
+        assert_float_equal(lamp[1][i].g, 3 * lamp[0][i].g, 1e-5f);
+        assert_float_equal(lamp[1][i].b, 3 * lamp[0][i].b, 1e-5f);
+        assert_equals(lamp[1][i].cos_outer, lamp[0][i].cos_outer);
+    }
+    assert_float_equal(lamp[1][0].cos_outer, cos(78 * acos(-1) / 180), 1e-6f);
+}
+
 static void lights_that_cannot_be_are_refused(void **state)
 {
     struct scenery_lights_settings settings = three_lights();
@@ -127,6 +151,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(each_light_draws_its_own_layers),
         cmocka_unit_test(without_shadows_no_map_is_drawn),
         cmocka_unit_test(no_lights_are_none),
+        cmocka_unit_test(lamps_are_as_bright_and_as_wide_as_told),
         cmocka_unit_test(lights_that_cannot_be_are_refused),
     };
     return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

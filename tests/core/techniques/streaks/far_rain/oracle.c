@@ -37,9 +37,11 @@ static const double drops_m3 = 1e10;
     "eye_x_m=0.3 eye_y_m=40 eye_z_m=-0.5 target_x_m=0 target_y_m=40 target_z_m=40 "                \
     "view_angle_deg=20 "
 
+// Pixels in whose slabs a light's nearest cell changes are counted for themselves, if two taps show
+// the nearest cell alone.
 struct tally {
-    int pixels, off;
-    double due, is;
+    int pixels, off, changing, changing_off;
+    double due, is, most_off;
 };
 
 static void compare(const struct streak_view *view, const struct streak_far *far,
@@ -52,7 +54,7 @@ static void compare(const struct streak_view *view, const struct streak_far *far
         double was[3], due[3], most = 0, error = 0;
         for (int c = 0; c < 3; c++)
             due[c] = was[c] = rain_texel(dry, x, y, c);
-        streak_far_draw(view, far, &means, x, y, due);
+        const bool changes = streak_far_draw(view, far, &means, x, y, due) && view->taps == 2;
         for (int c = 0; c < 3; c++) {
             const double is = rain_texel(wet, x, y, c);
             most = fmax(most, fabs(due[c] - was[c]));
@@ -61,8 +63,11 @@ static void compare(const struct streak_view *view, const struct streak_far *far
             tally->is += is - was[c];
         }
         assert_above(most, 0);
-        tally->pixels++;
-        tally->off += error > 0.01 * most;
+        tally->pixels += !changes;
+        tally->changing += changes;
+        *(changes ? &tally->changing_off : &tally->off) += error > 0.01 * most;
+        if (changes)
+            tally->most_off = fmax(tally->most_off, error / most);
     }
 }
 
@@ -117,18 +122,18 @@ static void expect_equal(const char *about, int kinds, int taps)
     for (size_t i = 0; i < sizeof(views) / sizeof(views[0]); i++) {
         char settings[200];
         snprintf(settings, sizeof(settings), "taps=%d %s", taps, views[i]);
-        struct tally one = {0};
-        draw_both(kinds, settings, &one);
-        sum.pixels += one.pixels;
-        sum.off += one.off;
-        sum.due += one.due;
-        sum.is += one.is;
+        draw_both(kinds, settings, &sum);
     }
     const double bias = sum.is / sum.due - 1;
-    print_message("%s, %d taps: %d pixels, %d off, bias %.4f %%\n", about, taps, sum.pixels,
-                  sum.off, 100 * bias);
-    // Two taps take the nearest lamp, and where two are as near, either; they differ most.
-    assert_at_most(sum.off, (taps == 2 ? 0.003 : 0.001) * sum.pixels);
+    print_message("%s, %d taps: %d pixels, %d off; %d change, %d of them off, by %.3f at most; "
+                  "bias %.4f %%\n",
+                  about, taps, sum.pixels, sum.off, sum.changing, sum.changing_off, sum.most_off,
+                  100 * bias);
+    assert_at_most(sum.off, 0.001 * sum.pixels);
+    // There the program shares the drops of half a slab between two cells as if the light's angle
+    // went evenly along it: 0.12 % of these pixels are off under a lamp, 0.27 % under a spot.
+    assert_at_most(sum.changing_off, 0.003 * sum.changing);
+    assert_at_most(sum.most_off, 0.06);
     assert_at_most(fabs(bias), 0.002);
 }
 

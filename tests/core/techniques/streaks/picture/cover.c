@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/oracle/drop.h"
+#include "tests/oracle/optics/drop.h"
 #include "tests/tools/expect.h"
 
 static const double pi = 3.14159265358979323846;
@@ -15,14 +15,6 @@ static const double pi = 3.14159265358979323846;
 enum { MOMENTS = 32, GAIN = 1000, SKY = 16 };
 
 // --- cross-sections ---
-
-// The distance of a drop's surface from its middle, in radii (docs/atlas.md). `n` is a unit vector;
-// y is up.
-static double surface_at(const struct oracle_drop *drop, const double n[3])
-{
-    const double c = n[1], aside = n[0] * sin(drop->phi_drop) + n[2] * cos(drop->phi_drop);
-    return 1 + drop->a * (3 * c * c - 1) / 2 + drop->b * 1.5 * (5 * c * c - 1) * aside;
-}
 
 // The distance of a drop's outline from its middle, seen from an elevation, in a direction about
 // the view. It is the farthest that the surface reaches to that side.
@@ -33,34 +25,44 @@ static double outline_at(const struct oracle_drop *drop, double elevation, doubl
         const double ahead = sin(k * 0.06), beside = cos(k * 0.06), up = beside * cos(about);
         const double n[3] = {beside * sin(about), up * cos(elevation) + ahead * sin(elevation),
                              ahead * cos(elevation) - up * sin(elevation)};
-        farthest = fmax(farthest, surface_at(drop, n) * beside);
+        farthest = fmax(farthest, oracle_drop_radius(drop, n) * beside);
     }
     return farthest;
 }
 
 // The mean cross-section of an oscillation over an exposure, over that of a sphere.
-static double section_of(int oscillation, double elevation)
+static double section_of(bool database, int oscillation, double elevation)
 {
     enum { TIMES = 16, WAYS = 24 };
     double sum = 0;
     for (int time = 0; time < TIMES; time++) {
-        const struct oracle_drop drop = oracle_drop_at(false, oscillation, (time + 0.5) / TIMES);
+        const struct oracle_drop drop = oracle_drop_at(database, oscillation, (time + 0.5) / TIMES);
         for (int way = 0; way < WAYS; way++)
             sum += pow(outline_at(&drop, elevation, 2 * pi * (way + 0.5) / WAYS), 2);
     }
     return sum / (TIMES * WAYS);
 }
 
-enum { STEPS = 18 };
+enum { VIEWS = 5 };
 
-// The mean of all oscillations, which are equally frequent, at every 5 degrees.
-static double sections[STEPS + 1];
+// The mean of all oscillations of a set, which are equally frequent, in the atlas' views: at 0, 20,
+// ... 80 degrees.
+static double sections[2][VIEWS];
 
 static void find_sections(void)
 {
-    for (int step = 0; step <= STEPS; step++)
-        for (int oscillation = 0; oscillation < 10; oscillation++)
-            sections[step] += section_of(oscillation, step * pi / 2 / STEPS) / 10;
+    for (int database = 0; database < 2; database++)
+        for (int view = 0; view < VIEWS; view++)
+            for (int oscillation = 0; oscillation < 10; oscillation++)
+                sections[database][view] += section_of(database, oscillation, view * pi / 9) / 10;
+}
+
+// As the atlas is blended: evenly between two views, and the last one beyond it.
+static double section_at(bool database, double elevation)
+{
+    const double view = fmin(elevation * 9 / pi, VIEWS - 1), *of = sections[database];
+    const int lower = (int)fmin(view, VIEWS - 2);
+    return of[lower] + (of[lower + 1] - of[lower]) * (view - lower);
 }
 
 // --- the law ---
@@ -76,7 +78,8 @@ static double pixels_of(const struct streaks *s, double x, double y, double z, d
     const double across = hypot(x - (double)p->eye_x, y - (double)p->eye_y);
     const double down = z - (double)p->eye_s, away = hypot(across, down);
     const double cosine = (double)c.w / away, focal = (double)p->focal_px;
-    const double section = sections[lround(atan2(fabs(down), across) / (pi / 2) * STEPS)];
+    const double section =
+        section_at(s->settings.swings == RG_SWINGS_DATABASE, atan2(fabs(down), across));
     return section * pi * pow(radius_m / away * focal, 2) / pow(cosine, 3);
 }
 
@@ -148,15 +151,16 @@ struct cover {
     double is, due;
 };
 
-static struct cover cover_of(const char *about, const char *settings, int gain, float sky)
+static struct cover cover_of(const char *about, const char *settings, int gain, float sky,
+                             double room)
 {
     struct streaks *s = open_drops(settings, gain);
     const double lit = light_under(s, sky), dry = light_under(s, 0);
     int seen;
     const struct cover c = {(lit - dry) / (gain * (double)sky), pixels_due(s, &seen)};
     assert_above(seen, 2000);
-    // The atlas has views 20 degrees apart, between which the cross-section is not linear.
-    if (!(fabs(c.is / c.due - 1) < 0.02))
+    print_message("%s: %.4f of what is due\n", about, c.is / c.due);
+    if (!(fabs(c.is / c.due - 1) < room))
         fail_msg("%s: %d drops cover %.1f pixels, %.3f of their cross-sections", about, seen, c.is,
                  c.is / c.due);
     rain_close(s);
@@ -165,7 +169,7 @@ static struct cover cover_of(const char *about, const char *settings, int gain, 
 
 static void expect_cross_sections(const char *about, const char *settings)
 {
-    cover_of(about, settings, GAIN, SKY);
+    cover_of(about, settings, GAIN, SKY, 0.0125); // 1.2 % at most
 }
 
 // From so far away that all drops count about the same.
@@ -181,6 +185,11 @@ static void test_views(void **state)
     expect_cross_sections("from 60 degrees above",
                           "eye_y_m=60 eye_z_m=-26 target_y_m=17 target_z_m=-1 view_angle_deg=15 "
                           "local_height_m=110");
+    expect_cross_sections("of the database, from the side",
+                          BESIDE "swings=database view_angle_deg=30");
+    expect_cross_sections("of the database, from 40 degrees below",
+                          "swings=database eye_z_m=-26 target_y_m=25 target_z_m=0 "
+                          "view_angle_deg=20 local_height_m=100");
 }
 
 static void test_exposures(void **state)
@@ -219,33 +228,38 @@ static void expect_ratio(const char *about, const struct cover *c, const struct 
 {
     print_message("%s: %.4f of the light, %.4f of what is due\n", about, c->is / of->is,
                   c->is / c->due);
-    if (!(fabs(c->is / of->is / due - 1) < 0.02))
+    if (!(fabs(c->is / of->is / due - 1) < 0.015))
         fail_msg("%s: %.4f of the light, not %.2f", about, c->is / of->is, due);
 }
 
 // For the same number of drops, light does not depend on exposure or speed, and grows with the
-// square of the radius. The sky is as bright as by day, or a thirtieth of that.
+// square of the radius. The sky is as bright as by day, or a thirtieth of that. By night a quarter
+// of the light is 1.6 % above what is due, and with ten times the gain 0.5 %: halves round the
+// rest.
 static void test_faint_light(void **state)
 {
     (void)state;
+    enum { CASES = 5 };
     static const char *const times[] = {"time=day", "time=night"};
     for (int night = 0; night < 2; night++) {
         const float sky = night ? 0.02f : 0.64f;
-        char settings[4][200];
-        static const char *const others[4] = {
+        char settings[CASES][200];
+        static const char *const others[CASES] = {
             "drops_m2_s=535.5", "drops_m2_s=535.5 exposure_s=0.0666667",
-            "drops_m2_s=535.5 drop_radius_mm=0.8", "fall_speed_m_s=4 drops_m2_s=262.5"};
-        struct cover covers[4];
-        for (int i = 0; i < 4; i++) {
+            "drops_m2_s=535.5 drop_radius_mm=0.8", "fall_speed_m_s=4 drops_m2_s=262.5",
+            "drops_m2_s=2142 drop_radius_mm=0.8"};
+        struct cover covers[CASES];
+        for (int i = 0; i < CASES; i++) {
             snprintf(settings[i], sizeof(settings[i]),
                      "%s eye_z_m=-26 target_y_m=25 target_z_m=0 view_angle_deg=20 "
                      "local_height_m=100 %s",
                      times[night], others[i]);
-            covers[i] = cover_of(others[i], settings[i], 1, sky);
+            covers[i] = cover_of(others[i], settings[i], 1, sky, night && i == 2 ? 0.0175 : 0.0125);
         }
         expect_ratio("four times the exposure", &covers[1], &covers[0], 1);
         expect_ratio("half the radius", &covers[2], &covers[0], 0.25);
         expect_ratio("half the speed", &covers[3], &covers[0], 1);
+        expect_ratio("half the radius, four times as many", &covers[4], &covers[0], 1);
     }
 }
 

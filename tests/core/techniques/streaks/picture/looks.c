@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "tests/core/techniques/streaks/rig.h"
-#include "tests/oracle/drop.h"
+#include "tests/oracle/optics/drop.h"
 #include "tests/tools/expect.h"
 
 static const double pi = 3.14159265358979323846;
@@ -291,10 +291,10 @@ struct glow {
     double radiance, aside;
 };
 
-static struct glow glow_of(double elevation, double azimuth)
+static struct glow glow_of(bool database, double elevation, double azimuth)
 {
     enum { RAYS = 128 };
-    const struct oracle_drop rest = oracle_drop_at(false, 0, 0);
+    const struct oracle_drop rest = oracle_drop_at(database, 0, 0);
     const double level = cos(elevation * pi / 180), edge = cos(7.5 * pi / 180),
                  to[3] = {level * sin(azimuth * pi / 180), sin(elevation * pi / 180),
                           level * cos(azimuth * pi / 180)};
@@ -349,32 +349,44 @@ static struct lit lit_by(double elevation, double azimuth, const char *view, dou
     return lit;
 }
 
-// Bounds are wide: the oracle's rays are few for lamps of 7.5 degrees, and the atlas blends. Light
-// from behind is a hundred times light from beside. Both are off the middle by at least half a
-// radius.
-static void test_light_has_a_side(void **state)
+// The oracle's rays are few for lamps of 7.5 degrees, its drop does not swing, and the atlas
+// blends: the sides differ by 4.1 %, brightness by 7.2 %, and the middle by 0.26 radii of the
+// database's drops and 0.13 of measured ones. Light from behind is a hundred times light from
+// beside. Both are off the middle by at least half a radius.
+static void expect_sides(bool database)
 {
-    (void)state;
     static const double suns[][2] = {{10, 90}, {10, 150}, {-30, 130}, {50, 50}};
     struct lit first;
     struct glow of_first;
     for (size_t i = 0; i < sizeof(suns) / sizeof(suns[0]); i++) {
         double radius_px;
-        const struct lit right = lit_by(suns[i][0], suns[i][1], "", &radius_px),
-                         left = lit_by(suns[i][0], -suns[i][1], "", &radius_px);
-        const struct glow due = glow_of(suns[i][0], suns[i][1]);
+        const char *swings = database ? "swings=database" : "swings=measured";
+        const struct lit right = lit_by(suns[i][0], suns[i][1], swings, &radius_px),
+                         left = lit_by(suns[i][0], -suns[i][1], swings, &radius_px);
+        const struct glow due = glow_of(database, suns[i][0], suns[i][1]);
         if (i == 0) {
             first = right;
             of_first = due;
         }
         const double brighter = right.light / first.light / (due.radiance / of_first.radiance),
                      aside = (right.middle - left.middle) / 2 / radius_px;
-        if (!(fabs(left.light / right.light - 1) < 0.08 && brighter > 0.5 && brighter < 2 &&
-              fabs(aside - due.aside) < 0.3))
+        print_message("%s, sun at %g, %g: the left is %.3f of the right, %.3f as bright as due, at "
+                      "%.3f radii for %.3f\n",
+                      swings, suns[i][0], suns[i][1], left.light / right.light, brighter, aside,
+                      due.aside);
+        if (!(fabs(left.light / right.light - 1) < 0.05 && fabs(brighter - 1) < 0.08 &&
+              fabs(aside - due.aside) < (database ? 0.3 : 0.15)))
             fail_msg("sun at %g, %g: the left is %.2f of the right, %.2f as bright as due, at %.2f "
                      "radii for %.2f",
                      suns[i][0], suns[i][1], left.light / right.light, brighter, aside, due.aside);
     }
+}
+
+static void test_light_has_a_side(void **state)
+{
+    (void)state;
+    expect_sides(false);
+    expect_sides(true);
 }
 
 // Light goes ahead through drops: looking up, one sees a sun above and behind them; looking down,

@@ -463,7 +463,7 @@ static void test_lamberts_law(void **state)
     remove(path);
 }
 
-// Splashes of the default rain are many and faint, as water is: of a street's pixels by day, more
+// Splashes of the thesis's rain are many and faint, as water is: of a street's pixels by day, more
 // are seen than are bright. White crowns made a tenth of them half as bright again.
 static void test_splashes_are_faint(void **state)
 {

@@ -7,7 +7,8 @@ import subprocess
 import sys
 import tempfile
 
-LEAST, LARGEST, PARTS = 0.1, 6, 4000
+# The least diameter of all, the least that is kept unless set, and the largest, in mm.
+LEAST, KEPT, LARGEST, PARTS = 0.1, 0.3, 6, 4000
 
 # Diameters in mm and speeds in m/s (Gunn and Kinzer, 1949).
 SPEEDS = [(0, 0), (.1, .27), (.2, .72), (.3, 1.17), (.4, 1.62), (.5, 2.06), (.6, 2.47), (.7, 2.87), (.8, 3.27), (.9, 3.67), (1, 4.03), (1.2, 4.64),
@@ -33,17 +34,17 @@ def best(rate, d):
     return 67 * rate ** 0.846 * 2.25 / a * (d / a) ** 1.25 * math.exp(-(d / a) ** 2.25) / (math.pi / 6 * d ** 3)
 
 
-def integral(law, rate, of, least=LEAST):
-    step = (LARGEST - least) / PARTS
+def integral(law, rate, of, least=LEAST, most=LARGEST):
+    step = (most - least) / PARTS
     return sum(law(rate, d) * of(d) * step for d in (least + step * (i + 0.5) for i in range(PARTS)))
 
 
-def rain(law, rate, speed):
-    return integral(law, rate, lambda d: math.pi / 6 * d ** 3 * speed(d) * 3.6e-3)
+def rain(law, rate, speed, *bounds):
+    return integral(law, rate, lambda d: math.pi / 6 * d ** 3 * speed(d) * 3.6e-3, *bounds)
 
 
 def extinction(law, rate):
-    return integral(law, rate, lambda d: math.pi / 4 * d * d, 0.3) / 1000
+    return integral(law, rate, lambda d: math.pi / 4 * d * d, KEPT) / 1000
 
 
 def row_of(rate):
@@ -74,7 +75,8 @@ def told(raingauge, settings):
 def faults_of_facts(raingauge):
     for name, law, rate in (("marshall-palmer", marshall_palmer, 1), ("best", best, 100)):
         facts = told(raingauge, ["spectrum=" + name, "normalised=off", "terminal_speed=atlas", "rain_mm_h=%d" % rate])
-        for fact, due in (("extinction_per_km", extinction(law, rate)), ("rain_rate_mm_h", rain(law, rate, atlas) - facts["rain_left_out_mm_h"])):
+        for fact, due in (("extinction_per_km", extinction(law, rate)), ("rain_rate_mm_h", rain(law, rate, atlas, KEPT)),
+                          ("rain_left_out_mm_h", rain(law, rate, atlas, LEAST, KEPT))):
             if abs(facts[fact] / due - 1) > 0.002:
                 yield "%s, %d mm/h: %s is %g, not %g" % (name, rate, fact, facts[fact], due)
 

@@ -31,7 +31,7 @@ static int tall_at(int level)
     return CROWN_TALL >> level;
 }
 
-// The atlas stores opacities below the smallest normal half as 0.
+// The atlas stores shares below the smallest normal half as 0, but shrinks what they were.
 static double kept(double opacity)
 {
     return opacity < 1.0 / 16384 ? 0 : opacity;
@@ -57,7 +57,7 @@ void crown_halve(struct crown_film *film, int frame)
         for (int y = 0; y < tall_at(level); y++)
             for (int x = 0; x < wide_at(level); x++)
                 film->texels[frame][level][y * wide_at(level) + x] =
-                    kept(mean_of(film->texels[frame][level - 1], level, x, y));
+                    mean_of(film->texels[frame][level - 1], level, x, y);
 }
 
 // --- differences between splashes: docs/streaks.md ---
@@ -81,7 +81,7 @@ static double texel(const struct crown_film *film, int frame, int level, int x, 
     const int wide = wide_at(level), tall = tall_at(level);
     x = x < 0 ? 0 : x >= wide ? wide - 1 : x;
     y = y < 0 ? 0 : y >= tall ? tall - 1 : y;
-    return film->texels[frame][level][y * wide + x];
+    return kept(film->texels[frame][level][y * wide + x]);
 }
 
 // At a place from the upper left corner, 0 to 1.
@@ -174,7 +174,7 @@ bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, 
                 struct crown_pixel *pixel)
 {
     const uint32_t chance = chance_of(splash->number);
-    double wide = splash->wide * splash->size * differs(chance), lost = 1;
+    double wide = splash->wide * splash->size * differs(chance);
     const double tall = splash->wide * splash->size * differs(chance >> 22) * 2 / 3;
     double corner[3], from_eye[3], left[3], across[3], along[3], middle[3];
     for (int i = 0; i < 3; i++) {
@@ -187,7 +187,8 @@ bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, 
     double c[4], s[4], t[4], m[4];
     clip_of(eye, middle, 1, m);
     const double pixels = wide * eye->focal_px / m[3];
-    lost = enlarge(eye, middle, from_eye, left, m[3] / eye->focal_px, &wide, corner, along);
+    const double thinner =
+        enlarge(eye, middle, from_eye, left, m[3] / eye->focal_px, &wide, corner, along);
     for (int i = 0; i < 3; i++) {
         corner[i] += left[i] * wide / 2;
         across[i] = -left[i] * wide;
@@ -207,7 +208,7 @@ bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, 
     const double level = floor(log2(fmax(CROWN_WIDE / pixels, 1)) + 0.5);
     const bool mirrored = chance >> 10 & 1;
     memcpy(pixel->middle, middle, sizeof(middle));
-    pixel->cover = splash->drops * lost *
+    pixel->cover = splash->drops * thinner *
                    film_at(splash, (int)fmin(level, CROWN_LEVELS - 1), mirrored ? 1 - u : u, 1 - v);
     double towards[3], squared = 0;
     for (int i = 0; i < 3; i++) {

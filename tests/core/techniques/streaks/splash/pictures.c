@@ -334,14 +334,13 @@ static void judge(struct verdict *v, double is, double due, double peak, double 
     v->due += due;
 }
 
-// Splashes below a pixel's size are compared by their sum: halves round their faint late frames.
-static void expect(const struct verdict *v, const struct due *due, const char *what, bool sums)
+static void expect(const struct verdict *v, const struct due *due, const char *what)
 {
     print_message("%s: %d splashes, %d pixels, %d off, %d cut, bias %.3f %%\n", what, due->splashes,
                   v->seen, v->off, due->cut, 100 * (v->is / v->due - 1));
     assert_at_least(due->splashes, 5);
     assert_at_least(v->seen, 1000);
-    if (!((sums || v->off <= v->seen / 1000) && fabs(v->is / v->due - 1) <= 0.002))
+    if (!(v->off <= v->seen / 1000 && fabs(v->is / v->due - 1) <= 0.002))
         fail_msg("%s: %d of %d pixels are off, bias %g", what, v->off, v->seen, v->is / v->due - 1);
 }
 
@@ -380,7 +379,7 @@ static void expect_light(const struct view *view, const struct lamp *lamp, int w
     char what[128];
     snprintf(what, sizeof(what), "%s, %s%s, %d mm", view->name, lamp->type, matt ? ", matt" : "",
              width_mm);
-    expect(&v, due, what, width_mm < 100);
+    expect(&v, due, what);
     assert_true(!view->cut || due->cut > 100);
     free(wet);
     free(dry);
@@ -388,6 +387,7 @@ static void expect_light(const struct view *view, const struct lamp *lamp, int w
     rain_close(s);
 }
 
+// Crowns of clear water are small: 2 drops would light 663 pixels of 1,000.
 static void test_light_by_kind_and_view(void **state)
 {
     (void)state;
@@ -427,14 +427,15 @@ static void test_light_on_thirty_degrees(void **state)
     view.normal[2] = out / hypot(up, out);
     view.name = "on 30 degrees";
     for (int lamp = 0; lamp < LAMPS; lamp++)
-        expect_light(&view, &lamps[lamp], 1800, 3, true);
+        for (int matt = lamp == 0; matt < 2; matt++) // the sky shows on both alike
+            expect_light(&view, &lamps[lamp], 1800, 3, matt);
     memcpy(slope, before, sizeof(slope));
     unit_m = before[3];
 }
 
 static void expect_hidden(const struct view *view)
 {
-    const double opacity = 16, drops = view->cut ? 6 : 3;
+    const double opacity = 16, drops = view->cut ? 2 : 3;
     write_lights(&lamps[0]);
     struct streaks *s = open_view(view, 1800, drops, 0, 1, "day");
     s->params.splash_opacity = (float)opacity;
@@ -452,7 +453,7 @@ static void expect_hidden(const struct view *view)
     }
     char what[128];
     snprintf(what, sizeof(what), "%s, hidden, %.2f at most", view->name, due->most_hidden);
-    expect(&v, due, what, false);
+    expect(&v, due, what);
     free(wet);
     free(dry);
     free(due);

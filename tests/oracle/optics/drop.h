@@ -1,7 +1,7 @@
 // Light through an oscillating drop, in double precision, by marching and bisection: slow and
 // plain. It shares nothing with core/scene/atlas.
-#ifndef RG_TESTS_ORACLE_DROP_H
-#define RG_TESTS_ORACLE_DROP_H
+#ifndef RG_TESTS_ORACLE_OPTICS_DROP_H
+#define RG_TESTS_ORACLE_OPTICS_DROP_H
 
 #include <stdbool.h>
 
@@ -15,6 +15,9 @@ struct oracle_drop {
 
 // One of the ten oscillations of a set at a part of the exposure: the database's, or the measured.
 struct oracle_drop oracle_drop_at(bool database, int oscillation, double part);
+
+// The distance of the surface from the drop's middle in the direction of a unit vector; y is up.
+double oracle_drop_radius(const struct oracle_drop *drop, const double n[3]);
 
 // The sources of the light on a ray from `start` in direction `ray`, against the light's way. Each
 // way of light (reflected; refracted; with one to three reflections inside) gets a unit vector
