@@ -190,7 +190,7 @@ function viewTable(params) {
     table.isTimed && rates.length ? part(rates[0].name === "print" ? "Print and devices" : "Devices", el("p", {class: "story"}, axis ? story(rates) : ""),
       plot({lines, all: rates.map(l => l.name), hidden, axis: axis ? words(axis) : null, value: isBy ? "rate by that of the first row" : "frames a second", name: table.id, isLog: !isBy || d3.max(lines.flatMap(l => l.points), p => p.value / d3.max([1e-9, 1])) > 4}),
       note("Bars are intervals that hold the median with 95 % confidence. Print has none.")) : null,
-    part(table.printed && table.printed.is_published ? "The table, print beside ours" : "The table", sheet(table.isTimed ? `${table.id}, ${words(variant)}${work ? `, work ${work}` : ""}: frames a second, the interval that holds the median with 95 % confidence, and how many times print that is`
+    part(table.printed && table.printed.is_published ? "The table, print beside ours" : "The table", sheet(table.isTimed ? `${table.id}, ${words(variant)}${work ? `, work ${work}` : ""}: frames a second, the interval that holds the median with 95 % confidence, and the rate as a multiple of print`
       : `${table.id}: width and height in pixels`, beside.columns, beside.shown, "beside"),
       el("div", {class: "buttons"}, el("button", {type: "button", onclick: () => save(table.id + ".csv", "text/csv", csv([beside.columns.map(c => c.text || c), ...beside.plain]))}, "CSV"))),
     table.isTimed ? part("Where a frame's time goes", choice("choose-row", "Row", [...table.rows].map(([n, row]) => [String(n), rowText(row, keysOf(table))]), String(rowChoice), n => choose({row: n})),

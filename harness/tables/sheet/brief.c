@@ -102,12 +102,12 @@ static void print_drivers(const struct rg_result *result, FILE *out)
 static void print_head(const struct rg_result *result, FILE *out)
 {
     fprintf(out, "## %s\n\n", result->table);
-    rg_print_wrapped(out, "",
-                     result->is_of_textures
-                         ? "Sizes of textures in pixels, in print and on each device."
-                     : *result->hardware ? "Frames a second, in print and on each device, and how "
-                                           "many times print that is."
-                                         : "Frames a second on each device.");
+    rg_print_wrapped(
+        out, "",
+        result->is_of_textures ? "Sizes of textures in pixels, in print and on each device."
+        : *result->hardware    ? "Frames a second in the paper (print) and on each device, whose "
+                                 "rate is also told as a multiple of print."
+                               : "Frames a second on each device.");
     fprintf(out, "\n");
     if (has_sides(result))
         print_drivers(result, out);
