@@ -203,7 +203,7 @@ static void test_shipped(void **state)
 {
     (void)state;
     double whole[FIGURES] = {0}, ours[FIGURES] = {0};
-    add_ours(rg_streak_detail(RG_ATLAS_MEASURED), 0, 8, whole);
+    add_ours(rg_atlas_kinds[RG_ATLAS_MEASURED].detail, 0, 8, whole);
     add_ours(coarse(RG_SWINGS_MEASURED), 2, 8, ours);
     print_ratios("in its whole detail, over a coarse one", whole, ours);
     expect_near(whole, ours, 0.005); // 0.4 %
