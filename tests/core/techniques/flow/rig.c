@@ -12,17 +12,10 @@
 
 #include "core/techniques/flow/instance.h"
 #include "kernels/dialect/image/format.h"
+#include "tests/tools/instance.h"
 
 static const char *const cheap =
     "environment=sky environment_px=16 view=pane panes=mirror move=paper";
-
-static void set(struct flow_settings *settings, const char *assignments)
-{
-    char *copy = strdup(assignments), *rest = NULL;
-    for (char *one = strtok_r(copy, " ", &rest); one; one = strtok_r(NULL, " ", &rest))
-        assert_true(rg_params_set(&flow_param_table, settings, one));
-    free(copy);
-}
 
 // Devices stay open from one rig to the next, since a driver compiles the kernels again for each.
 static struct kept {
@@ -54,9 +47,9 @@ int rig_close_devices(void **state)
 void rig_open_sized(struct rig *rig, const char *device, const char *assignments, int width,
                     int height)
 {
-    rg_params_reset(&flow_param_table, &rig->settings);
-    set(&rig->settings, cheap);
-    set(&rig->settings, assignments);
+    struct flow_settings *settings = settings_of("flow", cheap, assignments);
+    rig->settings = *settings;
+    free(settings);
     rig->device = device_named(device);
     rig->width = width > 0 ? width : rig->settings.resolution_px * 3 / 2;
     rig->height = height > 0 ? height : rig->settings.resolution_px * 5 / 4;
@@ -75,7 +68,8 @@ void rig_open(struct rig *rig, const char *device, const char *assignments)
 
 void rig_set(struct rig *rig, const char *assignments)
 {
-    set(&((struct flow *)rig->instance)->settings, assignments);
+    struct flow *flow = (struct flow *)rig->instance;
+    assert_true(rg_params_set_all(&flow_param_table, &flow->settings, assignments));
 }
 
 void rig_close(struct rig *rig)
