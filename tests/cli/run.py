@@ -12,6 +12,7 @@
            clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
            farm     plans, shards and merges
+           shards   a plan, two shards and a merge
            befallen  the same, of records that are cut, copied, of another commit, or that a full disk loses
            losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
            long     what verify prints, tables that are counted, set in a row, begun or measured anew, an atlas that is not kept
@@ -95,6 +96,7 @@ SUITES = {
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(stored.CHECKS),
     "farm": lambda runner: runner.check_all(farm.CHECKS),
+    "shards": lambda runner: runner.check_all(farm.FEW),
     "befallen": lambda runner: runner.check_all(befallen.CHECKS),
     "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
     "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + atlases.LONG + limits.LONG + kept.LONG),

@@ -33,7 +33,8 @@ static double *shares_of(const double *column, int count)
     return shares;
 }
 
-// The excess of two columns' chi-square in 8 x 8 cells, or, with a third, in 4 x 4 x 4.
+// The excess of two columns' chi-square in 8 x 8 cells, or, with a third, in 4 x 4 x 4. Ranks fill
+// each column's classes evenly, which leaves 7 x 7 degrees of freedom, or 63 - 3 x 3.
 static double excess(const double *a, const double *b, const double *c, int count)
 {
     int counts[CELLS] = {0};
@@ -42,16 +43,18 @@ static double excess(const double *a, const double *b, const double *c, int coun
         const int cell = (int)(a[i] * sides) + sides * (int)(b[i] * sides);
         counts[cell + (c ? sides * sides * (int)(c[i] * sides) : 0)]++;
     }
-    const double due = (double)count / CELLS;
+    const double due = (double)count / CELLS, freedom = c ? 54 : 49;
     double chi_square = 0;
     for (int i = 0; i < CELLS; i++)
         chi_square += (counts[i] - due) * (counts[i] - due) / due;
-    return (chi_square - (CELLS - 1)) / sqrt(2.0 * (CELLS - 1));
+    return (chi_square - freedom) / sqrt(2 * freedom);
 }
 
 double oracle_dependence(const double *const *columns, int column_count, int count)
 {
     double *shares[ORACLE_COLUMNS] = {0}, most = 0;
+    if (column_count > ORACLE_COLUMNS)
+        return INFINITY;
     for (int i = 0; i < column_count; i++) {
         shares[i] = shares_of(columns[i], count);
         most = shares[i] ? most : INFINITY;

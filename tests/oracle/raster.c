@@ -1,6 +1,7 @@
 #include "tests/oracle/raster.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 // --- exact integers ---
 
@@ -72,6 +73,49 @@ double oracle_margin(const struct oracle_outline *outline, int px, int py)
             inside = !inside;
     }
     return inside ? least : -least;
+}
+
+// --- convex polygons ---
+
+static int by_x(const void *a, const void *b)
+{
+    const struct oracle_place *p = a, *q = b;
+    return p->x < q->x ? -1 : p->x > q->x ? 1 : p->y < q->y ? -1 : p->y > q->y;
+}
+
+static double turn_of(struct oracle_place a, struct oracle_place b, struct oracle_place c)
+{
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// Andrew's monotone chain: the upper chain, then the lower one.
+int oracle_hull(struct oracle_place *places, int count, struct oracle_place *corners)
+{
+    int n = 0;
+    qsort(places, (size_t)count, sizeof(*places), by_x);
+    for (int chain = 0; chain < 2; chain++) {
+        const int first = n;
+        for (int i = 0; i < count; i++) {
+            const struct oracle_place p = places[chain ? count - 1 - i : i];
+            while (n >= first + 2 && turn_of(corners[n - 2], corners[n - 1], p) <= 0)
+                n--;
+            corners[n++] = p;
+        }
+        n--;
+    }
+    return n;
+}
+
+double oracle_inside_px(const struct oracle_place *corners, int count, struct oracle_place at)
+{
+    double least = INFINITY, turn = 0;
+    for (int i = 2; i < count; i++)
+        turn += turn_of(corners[0], corners[i - 1], corners[i]);
+    for (int i = 0; i < count; i++) {
+        const struct oracle_place a = corners[i], b = corners[(i + 1) % count];
+        least = fmin(least, copysign(1, turn) * turn_of(a, b, at) / hypot(b.x - a.x, b.y - a.y));
+    }
+    return least;
 }
 
 // --- faces in clip space ---

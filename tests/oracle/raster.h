@@ -22,6 +22,19 @@ double oracle_outline_px(const struct oracle_point *corners, int count, int px, 
 // Twice the area, in 1/256 pixel squared; positive if the corners turn clockwise as seen.
 int64_t oracle_turn(const struct oracle_point corners[3]);
 
+// A place on the target, in pixels, y downwards.
+struct oracle_place {
+    double x, y;
+};
+
+// The convex hull of places, which it sorts. Writes its corners, clockwise as seen, and returns
+// their number. There must be room for twice as many corners as places.
+int oracle_hull(struct oracle_place *places, int count, struct oracle_place *corners);
+
+// How far a place is inside the line of the nearest edge of a convex polygon in either orientation,
+// in pixels; negative outside.
+double oracle_inside_px(const struct oracle_place *corners, int count, struct oracle_place at);
+
 // A face in clip space (x, y, z, w a corner; y downwards) on a target of this size.
 struct oracle_face {
     double corners[3][4];

@@ -102,11 +102,11 @@ TOWN = "spectrum=off atlas=small city=small depth_map_px=256 shadow_map_px=128 "
 # technique, name, settings, size, frames, file
 RENDERS = (
     ("flow", "box", "environment_px=64 resolution_px=96", "96x96", 20, "a.png"),
-    ("flow", "mirror", "panes=mirror environment=sky environment_px=64 resolution_px=128 run_on=on direction=split "
+    ("flow", "mirror", "move=paper panes=mirror environment=sky environment_px=64 resolution_px=128 run_on=on direction=split "
      "reach_texels=4 pane_roll_deg=20 spin_yaw_deg_s=30 reflectivity=0.7", "128x72", 30, "a.exr"),
-    ("flow", "pane", "view=pane environment_px=128 resolution_px=160 drops=400 rain_drops_s=900 noise_window=0.3 "
+    ("flow", "pane", "view=pane environment_px=128 resolution_px=160 drops=400 pane_rain_mm_h=500 contact_deg=75 "
      "refraction_strength=0.8 drop_radius_max_mm=6", "160x90", 25, "a.exr"),
-    ("flow", "normals", "view=pane panes=mirror stage=normals resolution_px=64 capacity=3 seed=7", "64x64", 15, "a.png"),
+    ("flow", "normals", "move=paper view=pane panes=mirror stage=normals resolution_px=64 capacity=3 seed=7", "64x64", 15, "a.png"),
     ("flow", "model", "model=armadillo model_faces=5000 model_sides=both model_size=0.8 drop_shadow=0.7 glow=0.4 "
      "glow_threshold=0.5 light=2 texels_a_pixel=1 resolution_px=256 environment_px=32 camera_azimuth_deg=-40 "
      "camera_elevation_deg=35 frame_mm=4", "100x100", 10, "a.exr"),

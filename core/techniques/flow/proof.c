@@ -119,10 +119,23 @@ static const struct rg_mutant mutants[] = {
     {NULL, NULL, 0, 0},
 };
 
+#define SLIDING "move=sliding view=pane panes=mirror resolution_px=128 environment_px=64 "
+
+static const struct rg_contrast contrasts[] = {
+    {"1 % less rain on sliding panes", SLIDING, "pane_rain_mm_h=30.69"},
+    {"water that levels 1 % slower", SLIDING, "levelling_mm_s=89.1"},
+    {"a contact angle 1 % larger", SLIDING, "contact_deg=60.6"},
+    {"drops that slide from 1 % more water on", SLIDING, "slide_above_mm3=5.05"},
+    {"drops that slide 1 % faster", SLIDING, "slide_most_mm_s=70.7"},
+    {"1 % more cohesion", SLIDING, "cohesion=1.515"},
+    {NULL, NULL, NULL},
+};
+
 const struct rg_proof flow_proof = {
     .poses = poses,
     .dry = "drops=0 rain_drops_s=0 pane_rain_mm_h=0",
     .mutant_scene = "move=paper resolution_px=160 environment_px=256",
     .laws = laws,
     .mutants = mutants,
+    .contrasts = contrasts,
 };

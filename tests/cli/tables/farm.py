@@ -220,4 +220,18 @@ def check_script(runner):
     return [] if done.returncode == 0 and there and there[1] == there[2] != "0" else [str(done)]
 
 
+def check_two_shards(runner):
+    """two shards of one table merge into it: what sanitizers look at, for four of two tables take them minutes"""
+    with tempfile.TemporaryDirectory() as tmp:
+        plan, records = tmp + "/plan.json", tmp + "/records"
+        runs = [runner.run(["plan", "raster-1", "--device", "cpu", "--quick", "--shards", "2", "-o", plan])]
+        runs += [runner.run(["table", "--plan", plan, "--shard", shard, "-o", records]) for shard in ("1/2", "2/2")]
+        runs += [runner.run(["merge", plan, records, "-o", tmp + "/merged"]), runner.run(["plan", "--missing", plan, records])]
+        problems = [str(run) for run in runs if run.returncode]
+        if "merged: 1 table, 4 cells of 4, key " not in runs[3].stdout or runs[4].stdout or len(os.listdir(records)) != 4:
+            problems.append("merged: %s, %s" % (runs[3], runs[4]))
+        return problems
+
+
+FEW = [check_two_shards]
 CHECKS = [check_plan, check_one_run, check_again, check_missing, check_refused, check_auto, check_script]

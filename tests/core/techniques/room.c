@@ -15,8 +15,8 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/image/files/io.h"
-#include "core/techniques/technique.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 // Settings that change the use of memory: images, buffers, textures and meshes. Scenes are small
 // and come last, since opening one takes seconds.
@@ -48,15 +48,6 @@ static void count_lines(enum rg_log_level level, const char *line, void *user)
     logged += level == RG_LOG_ERROR;
 }
 
-static void *settings_of(const struct rg_technique *technique, const char *set)
-{
-    void *defaults = rg_settings_create(technique);
-    void *settings = rg_settings_copy(technique, defaults, set);
-    assert_non_null(settings);
-    free(defaults);
-    return settings;
-}
-
 // The most bytes that one frame took on the device.
 static int64_t taken_by(const struct subject *s, struct rg_device *device, const void *settings)
 {
@@ -77,7 +68,7 @@ static void what_is_counted_is_what_is_taken(void **state)
     for (int i = 0; i < SUBJECTS; i++) {
         const struct subject *s = &subjects[i];
         const struct rg_technique *technique = rg_technique_find(s->technique);
-        void *settings = settings_of(technique, s->set);
+        void *settings = settings_of(s->technique, "", s->set);
         struct rg_device *device = rg_device_open("cpu");
         assert_non_null(device);
         const int64_t counted = rg_instance_bytes(technique, device, settings, s->width, s->height);
@@ -102,7 +93,7 @@ static void what_exceeds_what_is_allowed_is_refused(void **state)
     for (int i = 0; i < SUBJECTS - CITIES; i++) {
         const struct subject *s = &subjects[i];
         const struct rg_technique *technique = rg_technique_find(s->technique);
-        void *settings = settings_of(technique, s->set);
+        void *settings = settings_of(s->technique, "", s->set);
         struct rg_device *device = rg_device_open("cpu");
         char text[RG_MEMORY_TEXT];
         const int64_t needed = rg_instance_bytes(technique, device, settings, s->width, s->height);
@@ -136,7 +127,7 @@ static void large_pictures_are_refused_before_anything_is_taken(void **state)
 {
     (void)state;
     const struct rg_technique *technique = rg_technique_find("raster");
-    void *settings = settings_of(technique, "");
+    void *settings = settings_of(technique->name, "", "");
     struct rg_device *device = rg_device_open("cpu");
     const long before_kib = most_resident_kib();
     rg_memory_allow((int64_t)200 << 20); // the first image, of 128 MiB, would fit
@@ -157,7 +148,7 @@ static void files_take_what_they_are_said_to_take(void **state)
         if (strstr(s->set, "geometry=off"))
             continue; // nearly black
         const struct rg_technique *technique = rg_technique_find(s->technique);
-        void *settings = settings_of(technique, s->set);
+        void *settings = settings_of(s->technique, "", s->set);
         struct rg_device *device = rg_device_open("cpu");
         struct rg_instance *instance = rg_instance_open(technique, device, settings, 640, 480);
         struct rg_picture picture = {0};

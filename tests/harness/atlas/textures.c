@@ -16,6 +16,7 @@
 #include "core/image/files/io.h"
 #include "harness/atlas/textures.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 static char folder[] = "/tmp/raingauge-textures-XXXXXX";
 static struct rg_texture_rows rows;
@@ -23,15 +24,7 @@ static struct rg_device *device;
 
 static struct rg_instance *open_cartoon(const char *assignments)
 {
-    const struct rg_technique *technique = rg_technique_find("cartoon");
-    void *defaults = rg_settings_create(technique);
-    void *settings = rg_settings_copy(technique, defaults, assignments);
-    assert_non_null(settings);
-    struct rg_instance *instance = rg_instance_open(technique, device, settings, 16, 16);
-    assert_non_null(instance);
-    free(settings);
-    free(defaults);
-    return instance;
+    return instance_of(device, "cartoon", "", assignments, 16, 16);
 }
 
 // The texels of an image; the caller frees them.

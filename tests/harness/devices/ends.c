@@ -306,10 +306,15 @@ static void a_worker_that_is_killed_while_it_waits_crashed(void **state)
 // A crash leaves no core file, which would hold the driver's memory.
 static void a_crash_leaves_no_core_file(void **state)
 {
-    const struct rlimit large = {1 << 20, 1 << 20};
-    struct rlimit found = {1, 1};
+    struct rlimit most, found = {1, 1};
     int64_t process = 0;
-    setrlimit(RLIMIT_CORE, &large); // fails where the most is less
+    assert_int_equal(getrlimit(RLIMIT_CORE, &most), 0);
+    if (most.rlim_max == 0) {
+        print_message("no process here may leave a core file\n");
+        skip();
+    }
+    most.rlim_cur = most.rlim_max;
+    assert_int_equal(setrlimit(RLIMIT_CORE, &most), 0);
     assert_int_equal(ask(*state, RG_CALL_LIST, 0, &process), RG_OK);
     assert_int_equal(prlimit((pid_t)process, RLIMIT_CORE, NULL, &found), 0);
     assert_true(found.rlim_cur == 0 && found.rlim_max == 0);

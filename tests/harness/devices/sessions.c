@@ -18,6 +18,7 @@
 #include "harness/measure/serving/serving.h"
 #include "harness/devices/workers/device.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 enum { LOCAL, REMOTE, FRAMES = 5 };
 
@@ -42,10 +43,7 @@ struct pair {
 static struct pair open_pair(const char *technique, const char *set, int frames)
 {
     struct pair pair = {.subject = {rg_technique_find(technique), NULL, 48, 32}};
-    void *defaults = rg_settings_create(pair.subject.technique);
-    pair.settings = rg_settings_copy(pair.subject.technique, defaults, set);
-    pair.subject.settings = pair.settings;
-    free(defaults);
+    pair.subject.settings = pair.settings = settings_of(technique, "", set);
     rg_workers.program = "/proc/self/exe";
     pair.devices[REMOTE] = rg_devices_open_one("cpu");
     pair.devices[LOCAL] = rg_device_open("cpu");

@@ -13,23 +13,11 @@
 #include "core/scene/city/city.h"
 #include "core/techniques/streaks/packets/packets.h"
 #include "core/techniques/streaks/streaks.h"
-#include "core/techniques/technique.h"
 #include "harness/tables/papers/papers.h"
+#include "tests/tools/instance.h"
 
 // In the tables no particle's splash reaches farther than this across the fall.
 #define REACH_M 0.046
-
-static struct streaks_settings *settings_of(const struct rg_table *table, int row)
-{
-    const struct rg_technique *technique = rg_technique_find("streaks");
-    void *defaults = rg_settings_create(technique), *all, *settings;
-    assert_non_null(defaults);
-    assert_non_null(all = rg_settings_copy(technique, defaults, table->variants[0].set));
-    assert_non_null(settings = rg_settings_copy(technique, all, table->rows[row].set));
-    free(all);
-    free(defaults);
-    return settings;
-}
 
 static struct rg_rain_space space_of(const struct streaks_settings *set)
 {
@@ -95,7 +83,8 @@ static struct streaks_view view_of(const struct streaks_settings *set,
 
 static int64_t count_of(const struct rg_table *table, int row)
 {
-    struct streaks_settings *set = settings_of(table, row);
+    struct streaks_settings *set =
+        settings_of("streaks", table->variants[0].set, table->rows[row].set);
     struct streaks_selection selection = {0};
     const struct rg_rain_space space = space_of(set);
     const struct streaks_view view = view_of(set, &space, table);

@@ -14,6 +14,7 @@
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/table.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 static const char *folder;
 
@@ -130,20 +131,16 @@ static void check_cells(const struct rg_table *table, bool full)
     static struct rg_device device = {.info = {.name = "cpu"}};
     const struct rg_devices devices = {.count = 1, .devices = {&device}};
     const struct rg_table_part part = {.last_row = table->row_count - 1, .full = full};
-    const struct rg_technique *technique = rg_technique_find(table->technique);
     struct rg_result result = {0};
     rg_table_begin(&result, table, &part, &devices);
     assert_string_equal(result.note, table->note);
-    void *defaults = rg_settings_create(technique);
     for (int row = 0; row < table->row_count; row++)
         assert_true(rg_table_add_row(&result, table, row));
     for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);) {
         char *assignments = rg_table_assignments(&result, table, at);
         assert_string_equal(rg_result_at(&result, at)->set, assignments);
-        void *settings = rg_settings_copy(technique, defaults, assignments);
-        assert_non_null(settings);
-        void *truth = rg_settings_copy(technique, settings, table->truth ? table->truth : "");
-        assert_non_null(truth);
+        void *settings = settings_of(table->technique, "", assignments);
+        void *truth = settings_of(table->technique, assignments, table->truth ? table->truth : "");
         if (table->is_of_textures)
             assert_true(table->rows[at.row].name && rg_table_value(table, at.row, "level") >= 0);
         else if (rg_table_is_published(table))
@@ -154,7 +151,6 @@ static void check_cells(const struct rg_table *table, bool full)
         free(settings);
         free(assignments);
     }
-    free(defaults);
     rg_result_free(&result);
 }
 

@@ -13,19 +13,10 @@
 #include "harness/tables/runs/regenerate.h"
 #include "harness/tables/measuring/measure.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
-
-static void *settings_of(const char *assignments)
-{
-    const struct rg_technique *flow = rg_technique_find("flow");
-    void *defaults = rg_settings_create(flow);
-    void *settings = rg_settings_copy(flow, defaults, assignments);
-    assert_non_null(settings);
-    free(defaults);
-    return settings;
-}
 
 // --- a table ---
 
@@ -321,7 +312,8 @@ static void test_kept(void **state)
     struct rg_device *reference = rg_kept_device(&kept, "cpu:reference");
     assert_non_null(reference);
     assert_ptr_equal(rg_kept_device(&kept, "cpu:reference"), reference);
-    void *settings = settings_of(CHEAP " drops=20"), *others = settings_of(CHEAP " drops=30");
+    void *settings = settings_of("flow", CHEAP, "drops=20"),
+         *others = settings_of("flow", CHEAP, "drops=30");
     struct rg_subject subject = {rg_technique_find("flow"), settings, 32, 32};
     // Each device has one session, as long as the same subject is asked for.
     struct rg_session *first = rg_kept_open(&kept, cpu, &subject);

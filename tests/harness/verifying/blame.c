@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/techniques/technique.h"
 #include "harness/compare/blame/blame.h"
 #include "tests/harness/verifying/rig.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 enum { WORDS = 16 };
 
@@ -284,12 +284,10 @@ static bool step_off_on_cpu(struct rg_instance *instance)
 static void find(int frames, struct rg_blame *blame)
 {
     struct rg_device *truth = rg_device_open("cpu:reference"), *device = rg_device_open("cpu");
-    void *defaults = rg_settings_create(&rig_flow);
-    void *settings = rg_settings_copy(&rig_flow, defaults, RIG_CHEAP " drops=40");
+    void *settings = settings_of("flow", RIG_CHEAP, "drops=40");
     const struct rg_digest_run run = {{&rig_flow, settings, 16, 16}, frames};
     assert_true(rg_blame_find(&run, device, truth, blame));
     free(settings);
-    free(defaults);
     assert_true(rg_device_close(device));
     assert_true(rg_device_close(truth));
 }

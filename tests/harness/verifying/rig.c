@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "tests/tools/instance.h"
 
 const struct rg_pose rig_poses[] = {{.set = ""}, {.set = NULL}};
 const struct rg_law rig_no_laws[] = {{NULL, NULL}};
@@ -41,8 +42,7 @@ int rig_setup(void **state)
 void rig_verify(const char *assignments, enum rg_tier tier, int width, int height,
                 struct rg_checks *checks)
 {
-    void *defaults = rg_settings_create(&rig_flow);
-    void *settings = rg_settings_copy(&rig_flow, defaults, assignments);
+    void *settings = settings_of("flow", "", assignments);
     struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu")}};
     struct rg_device *reference = rg_device_open("cpu:reference");
     devices.devices[0]->info.tier = tier;
@@ -67,7 +67,6 @@ void rig_verify(const char *assignments, enum rg_tier tier, int width, int heigh
     assert_true(rg_device_close(reference));
     assert_true(rg_device_close(devices.devices[0]));
     free(settings);
-    free(defaults);
 }
 
 const struct rg_check *rig_check(const struct rg_checks *checks, const char *check,

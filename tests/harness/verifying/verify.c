@@ -322,7 +322,7 @@ static void a_mutant_is_judged_where_it_rains(void **state)
     (void)state;
     const struct rg_mutant mutants[] = {{"Fresnel bias a quarter higher", "fresnel_bias", 1.25, 0},
                                         {NULL, NULL, 0, 0}};
-    verify_mutants(RIG_CHEAP " pane_rain_mm_h=0 drops=200", mutants, RG_OK, "killed 1/1");
+    verify_mutants(RIG_CHEAP " move=paper rain_drops_s=0 drops=60", mutants, RG_OK, "killed 1/1");
 }
 
 // Whose error it was decides the exit status.

@@ -24,7 +24,17 @@ OF_FIXED_GL, OF_FIXED_VK = ("fixed functions, gl",), ("fixed functions, vulkan",
 GL_STATE, GL_TEXTURE, GL_TARGET = (f"backends/gl/api/fixed/{name}.c" for name in ("state", "texture", "target"))
 VK_PIPELINE, VK_TEXTURE, VK_RECORD = (f"backends/vulkan/api/fixed/{name}.c" for name in ("pipeline", "texture", "record"))
 
+# Native devices.
+GL_SAMPLER, VK_SAMPLER, VK_STATE = "backends/gl/api/sampler.c", "backends/vulkan/api/sampler.c", "backends/vulkan/api/pipeline.c"
+OF_NATIVE = ("command line, native",)
+
 ROWS = [
+    Fault(GL_SAMPLER, "GL_TEXTURE_COMPARE_FUNC, «GL_LEQUAL»", "GL_GREATER", "gl:native lights what is in shadow", tests=OF_NATIVE),
+    Fault(GL_SAMPLER, "wrap = «sampling == RG_SAMPLED_TILED» ?", "false", "gl:native repeats no texture", tests=OF_NATIVE),
+    Fault(GL, "glFrontFace(«GL_CW»);", "GL_CCW", "gl:native culls front for back", tests=OF_NATIVE),
+    Fault(VK_SAMPLER, ".compareOp = «VK_COMPARE_OP_LESS_OR_EQUAL»,", "VK_COMPARE_OP_GREATER", "vulkan:native lights what is in shadow", tests=OF_NATIVE),
+    Fault(VK_SAMPLER, "wrap = «sampling == RG_SAMPLED_TILED»", "false", "vulkan:native repeats no texture", tests=OF_NATIVE),
+    Fault(VK_STATE, ".frontFace = «VK_FRONT_FACE_COUNTER_CLOCKWISE»,", "VK_FRONT_FACE_CLOCKWISE", "vulkan:native culls front for back", tests=OF_NATIVE),
     Fault(MANIFESTS, "return walk->is_failing ? RG_LIST_FAILED : «RG_LIST_BROKEN»;", "RG_LIST_FAILED", "a file that is broken is the driver's fault", tests=OF_FAILING),
     Fault(MANIFESTS, "name another\", walk->named_by);\n        return «RG_LIST_BROKEN»;", "RG_LIST_FAILED", "a variable that names a driver without a device is the driver's fault", tests=OF_FAILING),
     Fault("backends/opencl/api/search.c", "        note(search, «RG_MANIFEST_BROKEN»,\n             \"no OpenCL device: PoCL cannot", "RG_MANIFEST_FAILED", "a cache that takes no files is PoCL's fault", tests=OF_FAILING),

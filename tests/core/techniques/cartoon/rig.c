@@ -12,18 +12,12 @@
 #include <string.h>
 
 #include "kernels/dialect/image/format.h"
+#include "tests/tools/instance.h"
 
 struct cartoon *rig_draw(struct rg_device *device, const char *assignments, int width, int height)
 {
-    const struct rg_technique *technique = rg_technique_find("cartoon");
-    void *defaults = rg_settings_create(technique);
-    void *settings = rg_settings_copy(technique, defaults, assignments);
-    assert_non_null(settings);
-    struct rg_instance *instance = rg_instance_open(technique, device, settings, width, height);
-    assert_non_null(instance);
-    assert_true(technique->draw(instance));
-    free(settings);
-    free(defaults);
+    struct rg_instance *instance = instance_of(device, "cartoon", "", assignments, width, height);
+    assert_true(instance->technique->draw(instance));
     return (struct cartoon *)instance;
 }
 

@@ -44,7 +44,7 @@ static void drops_land_anywhere(void **state)
     int count;
     drops_drop *all = rig_drops(d, &count);
     assert_int_equal(count, MANY);
-    double x = 0, y = 0, xx = 0, yy = 0, mg = 0, spread = 0;
+    double x = 0, y = 0, xx = 0, yy = 0, xy = 0, mg = 0, spread = 0;
     static double of[3][MANY];
     for (int i = 0; i < MANY; i++) {
         const double mass = all[i].mass / (double)DROPS_QUANTA_MG, middle = 0.25 + 99.75 / 5;
@@ -58,6 +58,7 @@ static void drops_land_anywhere(void **state)
         y += (double)all[i].y;
         xx += pow((double)all[i].x - WIDE_MM / 2, 2);
         yy += pow((double)all[i].y - HIGH_MM / 2, 2);
+        xy += ((double)all[i].x - WIDE_MM / 2) * ((double)all[i].y - HIGH_MM / 2);
         mg += mass;
         spread += pow(mass - middle, 2);
         of[0][i] = (double)all[i].x;
@@ -66,6 +67,7 @@ static void drops_land_anywhere(void **state)
     }
     expect_even("x", x, xx, WIDE_MM / 2, WIDE_MM);
     expect_even("y", y, yy, HIGH_MM / 2, HIGH_MM);
+    expect_mean("x with y", xy, 0, WIDE_MM * HIGH_MM / 12);
     expect_mean("mass", mg, 0.25 + 99.75 / 5, 1.5);
     expect_mean("variance of mass", spread, 2.25, 2.25 * sqrt(2));
     const double *const columns[3] = {of[0], of[1], of[2]};

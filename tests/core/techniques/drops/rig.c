@@ -1,33 +1,16 @@
 #include "tests/core/techniques/drops/rig.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include "tests/tools/instance.h"
 
 struct drops *rig_open_sized(struct rg_device *device, const char *assignments, int width,
                              int height)
 {
-    const struct rg_technique *technique = rg_technique_find("drops");
-    void *defaults = rg_settings_create(technique);
-    void *settings = rg_settings_copy(technique, defaults, assignments);
-    assert_non_null(settings);
-    struct rg_instance *instance = rg_instance_open(technique, device, settings, width, height);
-    assert_non_null(instance);
-    free(settings);
-    free(defaults);
-    return (struct drops *)instance;
+    return (struct drops *)instance_of(device, "drops", "", assignments, width, height);
 }
 
 struct drops *rig_open(struct rg_device *device, const char *assignments)
 {
-    char of_maps[1024];
-    snprintf(of_maps, sizeof(of_maps), "view=height %s", assignments);
-    return rig_open_sized(device, of_maps, 32, 32);
+    return (struct drops *)instance_of(device, "drops", "view=height", assignments, 32, 32);
 }
 
 void rig_close(struct drops *d)
@@ -43,12 +26,7 @@ void rig_step(struct drops *d, int steps)
 
 void *rig_words(struct drops *d, const char *name)
 {
-    const struct rg_asset *asset = rg_asset_find(&d->base, name);
-    assert_non_null(asset);
-    void *words = malloc(asset->buf->size);
-    assert_non_null(words);
-    assert_true(rg_buf_read(asset->buf, 0, words, (int64_t)asset->buf->size));
-    return words;
+    return asset_words(&d->base, name);
 }
 
 uint32_t rig_tally(struct drops *d, int word)

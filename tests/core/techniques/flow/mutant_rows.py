@@ -7,6 +7,7 @@ SLIDING = ("sliding",)
 MOVEMENT = ("movement",)
 ORACLE = ("oracle",)
 PICTURE = ("picture",)
+CAPS = ("pane/caps", "sliding")
 
 ROWS = [Row(*row) for row in (
     # drying
@@ -76,6 +77,10 @@ ROWS = [Row(*row) for row in (
     ("glass above does not count", "levelling/wet_columns.h",
      "wet_rows_at(rg, above) + wet_rows_at(rg, below)", "2.0f * wet_rows_at(rg, below)", SLIDING),
     ("water levels across dry glass", "levelling/relax_far.h", "> p.joined ? whole", ">= 0.0f ? whole", SLIDING),
+    ("water levels across dry glass beyond half of the way", "levelling/relax_far.h",
+     "rg_min(far, water_at(rg, i + step * p.reach))", "near", SLIDING),
+    ("water levels twice as fast", "levelling/exchange.h",
+     "rg_abs(above) * p.levelling * layer", "rg_abs(above) * 2.0f * p.levelling * layer", CAPS),
     ("far texels are neighbours", "levelling/relax_far.h",
      "int i = here + step * p.reach;", "int i = here + step;", SLIDING),
     ("a drop's flanks stay behind", "sliding/spread.h", "> p.joined ? around", "> 1e6f ? around", SLIDING),

@@ -1,5 +1,6 @@
 #include "tests/core/techniques/flow/rig.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,17 +12,10 @@
 
 #include "core/techniques/flow/instance.h"
 #include "kernels/dialect/image/format.h"
+#include "tests/tools/instance.h"
 
 static const char *const cheap =
     "environment=sky environment_px=16 view=pane panes=mirror move=paper";
-
-static void set(struct flow_settings *settings, const char *assignments)
-{
-    char *copy = strdup(assignments), *rest = NULL;
-    for (char *one = strtok_r(copy, " ", &rest); one; one = strtok_r(NULL, " ", &rest))
-        assert_true(rg_params_set(&flow_param_table, settings, one));
-    free(copy);
-}
 
 // Devices stay open from one rig to the next, since a driver compiles the kernels again for each.
 static struct kept {
@@ -53,9 +47,9 @@ int rig_close_devices(void **state)
 void rig_open_sized(struct rig *rig, const char *device, const char *assignments, int width,
                     int height)
 {
-    rg_params_reset(&flow_param_table, &rig->settings);
-    set(&rig->settings, cheap);
-    set(&rig->settings, assignments);
+    struct flow_settings *settings = settings_of("flow", cheap, assignments);
+    rig->settings = *settings;
+    free(settings);
     rig->device = device_named(device);
     rig->width = width > 0 ? width : rig->settings.resolution_px * 3 / 2;
     rig->height = height > 0 ? height : rig->settings.resolution_px * 5 / 4;
@@ -74,7 +68,8 @@ void rig_open(struct rig *rig, const char *device, const char *assignments)
 
 void rig_set(struct rig *rig, const char *assignments)
 {
-    set(&((struct flow *)rig->instance)->settings, assignments);
+    struct flow *flow = (struct flow *)rig->instance;
+    assert_true(rg_params_set_all(&flow_param_table, &flow->settings, assignments));
 }
 
 void rig_close(struct rig *rig)
@@ -105,7 +100,7 @@ int rig_texel(const struct rig *rig, int pane, int x, int y)
     return (pane * rig->size + y) * rig->size + x;
 }
 
-static int64_t droplets_of(float water, int pane, int x, int y)
+static int64_t whole_droplets(float water, int pane, int x, int y)
 {
     const double droplets = (double)water * 65536;
     const int64_t whole = (int64_t)droplets;
@@ -123,7 +118,7 @@ int64_t *rig_water(const struct rig *rig)
         for (int y = -m; y < n + m; y++) {
             for (int x = -m; x < n + m; x++) {
                 const int64_t droplets =
-                    droplets_of(maps[flow_pane_index(n, pane, x, y)], pane, x, y);
+                    whole_droplets(maps[flow_pane_index(n, pane, x, y)], pane, x, y);
                 if (flow_on_pane(n, x, y))
                     water[rig_texel(rig, pane, x, y)] = droplets;
                 else if (droplets)
@@ -168,6 +163,30 @@ void rig_put_one(struct rig *rig, int x, int y, int64_t droplets)
 {
     int64_t *water = calloc((size_t)(rig->panes * rig->size * rig->size), sizeof(*water));
     water[y * rig->size + x] = droplets;
+    rig_put(rig, water);
+    free(water);
+}
+
+double rig_mm(const struct rig *rig, int64_t droplets)
+{
+    return (double)droplets / 65536 * rig->settings.relief;
+}
+
+int64_t rig_droplets(const struct rig *rig, double mm)
+{
+    return (int64_t)(mm / rig->settings.relief * 65536);
+}
+
+void rig_put_drop(struct rig *rig, double x_mm, double y_mm, double radius_mm, double height_mm)
+{
+    const double texel_mm = rig->settings.pane_mm / rig->size;
+    int64_t *water = calloc((size_t)(rig->panes * rig->size * rig->size), sizeof(*water));
+    for (int i = 0; i < rig->size * rig->size; i++) {
+        const double x = (i % rig->size + 0.5) * texel_mm - x_mm;
+        const double y = ((double)(i / rig->size) + 0.5) * texel_mm - y_mm;
+        const double inside = 1 - (x * x + y * y) / (radius_mm * radius_mm);
+        water[i] = rig_droplets(rig, height_mm * sqrt(fmax(inside, 0)));
+    }
     rig_put(rig, water);
     free(water);
 }

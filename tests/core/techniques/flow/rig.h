@@ -40,6 +40,11 @@ uint32_t rig_ledger(const struct rig *rig, int word);
 
 // Dries all panes except for one texel of the first.
 void rig_put_one(struct rig *rig, int x, int y, int64_t droplets);
+// The same except for a round drop on the first pane, with the profile of a half ellipse.
+void rig_put_drop(struct rig *rig, double x_mm, double y_mm, double radius_mm, double height_mm);
+// Heights of water on a texel: a droplet is 2^-16 of a unit, and a unit is `relief` millimetres.
+double rig_mm(const struct rig *rig, int64_t droplets);
+int64_t rig_droplets(const struct rig *rig, double mm);
 // Fails the test unless a texel of the first pane holds this many droplets.
 void rig_expect(const struct rig *rig, int x, int y, int64_t droplets);
 

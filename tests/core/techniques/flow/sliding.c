@@ -18,18 +18,6 @@
 static const char *device = "cpu:reference";
 
 static const double PI = 3.14159265358979323846;
-// The rig's water is in droplets of 2^-16 of a unit; a unit is `relief` millimetres high.
-static const double DROPLETS_A_UNIT = 65536;
-
-static double mm_of(const struct rig *rig, int64_t droplets)
-{
-    return (double)droplets / DROPLETS_A_UNIT * rig->settings.relief;
-}
-
-static int64_t droplets_of(const struct rig *rig, double mm)
-{
-    return (int64_t)(mm / rig->settings.relief * DROPLETS_A_UNIT);
-}
 
 // 64 texels of 1.5 mm unless the assignments say otherwise; no rain.
 static void open_sliding(struct rig *rig, const char *assignments)
@@ -84,8 +72,10 @@ static struct slide_oracle oracle_of(const struct rig *rig, int cells, int runs)
     return o;
 }
 
-// Runs both from the same water, one frame after the other, and adds up `off` over all frames.
-static void compare(const char *assignments, int cells, int runs)
+// Runs both from the same water, one frame after the other, and adds up `off` over all frames: at
+// most the share `most_off` of wet texels, because single precision now and then puts a cell on the
+// other side of a pace.
+static void compare(const char *assignments, int cells, int runs, double most_off)
 {
     enum { FRAMES = 12 };
     struct rig rig;
@@ -104,7 +94,7 @@ static void compare(const char *assignments, int cells, int runs)
     for (int frame = 0; frame < FRAMES; frame++) {
         int64_t *water = rig_water(&rig);
         for (int i = 0; i < texels; i++)
-            o.mm[i] = mm_of(&rig, water[i]);
+            o.mm[i] = rig_mm(&rig, water[i]);
         free(water);
         for (int run = 0; run < runs; run++) {
             set_ways(&o, frame * runs + run);
@@ -113,7 +103,7 @@ static void compare(const char *assignments, int cells, int runs)
         rig_step(&rig, 1);
         water = rig_water(&rig);
         for (int i = 0; i < texels; i++) {
-            const double apart = fabs(o.mm[i] - mm_of(&rig, water[i]));
+            const double apart = fabs(o.mm[i] - rig_mm(&rig, water[i]));
             wet += water[i] > 0 || o.mm[i] > 0;
             off += apart > 2e-3;
             most = fmax(most, apart);
@@ -123,8 +113,7 @@ static void compare(const char *assignments, int cells, int runs)
     print_message("%s: %lld of %lld wet texels off, %.2g mm at most\n", assignments, (long long)off,
                   (long long)wet, most);
     assert_above(wet, FRAMES * texels / 20);
-    // Now and then single precision puts a cell on the other side of a pace.
-    if ((double)off > 0.002 * (double)wet)
+    if ((double)off > most_off * (double)wet)
         fail_msg("%s: %lld of %lld wet texels off, %g mm at most", assignments, (long long)off,
                  (long long)wet, most);
     rig_close(&rig);
@@ -132,35 +121,27 @@ static void compare(const char *assignments, int cells, int runs)
     free(beads_mm);
 }
 
+// Drops of 3 mm at most lie near a pace: at the defaults 0.71 % of wet texels are off, with calmer
+// water 0.15 %.
+#define SMALL                                                                                      \
+    "seed=5 drops=60 resolution_px=96 pane_mm=48 drop_radius_max_mm=3 pane_roll_deg=-120 "         \
+    "step_s=0.05"
+
 static void test_water_moves_as_in_the_model(void **state)
 {
     (void)state;
-    compare("seed=3 drops=90", 64, 1);
-    compare("seed=4 drops=70 pane_roll_deg=30 pane_pitch_deg=40 slide_above_mm3=5", 64, 1);
-    compare("seed=5 drops=60 resolution_px=96 pane_mm=48 drop_radius_max_mm=3 levelling_mm_s=40 "
-            "slide_above_mm3=8 pane_roll_deg=-120 step_s=0.05",
-            32, 3);
+    compare("seed=3 drops=90", 64, 1, 0.002);
+    compare("seed=4 drops=70 pane_roll_deg=30 pane_pitch_deg=40 slide_above_mm3=5", 64, 1, 0.002);
+    compare(SMALL, 32, 3, 0.008);
+    compare(SMALL " levelling_mm_s=40 slide_above_mm3=8", 32, 3, 0.002);
+    compare("seed=7 drops=30 resolution_px=160 pane_mm=48", 40, 1, 0.002);
     compare("seed=7 drops=30 resolution_px=160 pane_mm=48 levelling_mm_s=150 slide_above_mm3=8", 40,
-            1);
-    compare("seed=6 drops=60 pane_roll_deg=180 bead_mm=0 cohesion=1.5 contact_slope=0.3", 64, 1);
+            1, 0.002);
+    compare("seed=6 drops=60 pane_roll_deg=180 bead_mm=0 cohesion=1.5 contact_slope=0.3", 64, 1,
+            0.002);
 }
 
 // --- closed cases ---
-
-// A round drop with the profile of a half ellipse.
-static void put_drop(struct rig *rig, double x_mm, double y_mm, double radius_mm, double height_mm)
-{
-    const double texel_mm = rig->settings.pane_mm / rig->size;
-    int64_t *water = calloc((size_t)(rig->panes * rig->size * rig->size), sizeof(*water));
-    for (int i = 0; i < rig->size * rig->size; i++) {
-        const double x = (i % rig->size + 0.5) * texel_mm - x_mm;
-        const double y = ((double)(i / rig->size) + 0.5) * texel_mm - y_mm;
-        const double inside = 1 - (x * x + y * y) / (radius_mm * radius_mm);
-        water[i] = droplets_of(rig, height_mm * sqrt(fmax(inside, 0)));
-    }
-    rig_put(rig, water);
-    free(water);
-}
 
 // The centre of the water, in millimetres from the upper left corner.
 static void middle_of(const struct rig *rig, double middle_mm[2])
@@ -199,7 +180,7 @@ static void test_a_drop_slides_at_its_speed(void **state)
         struct rig rig;
         open_sliding(&rig, text);
         double before[2], after[2];
-        put_drop(&rig, 48, 20, 4, 4);
+        rig_put_drop(&rig, 48, 20, 4, 4);
         middle_of(&rig, before);
         const int64_t sum = rig_sum(&rig);
         rig_step(&rig, (int)(cases[i].seconds / rig.settings.step_s + 0.5));
@@ -222,7 +203,7 @@ static bool does_slide(const char *assignments)
     struct rig rig;
     double before[2], after[2];
     open_sliding(&rig, text);
-    put_drop(&rig, 48.75, 48.75, 3, 3); // in the middle of a cell
+    rig_put_drop(&rig, 48.75, 48.75, 3, 3); // in the middle of a cell
     middle_of(&rig, before);
     rig_step(&rig, 30);
     middle_of(&rig, after);
@@ -277,10 +258,10 @@ static void test_water_dries_evenly(void **state)
                  "drops=0 bead_mm=0 levelling_mm_s=0 drying_mm2_s=0.02 step_s=%.17g", step_s[i]);
         struct rig rig;
         open_sliding(&rig, text);
-        rig_put_one(&rig, 32, 32, droplets_of(&rig, 0.5));
+        rig_put_one(&rig, 32, 32, rig_droplets(&rig, 0.5));
         const int64_t before = rig_sum(&rig);
         rig_step(&rig, (int)(2 / step_s[i] + 0.5)); // 0.25 - 2 * 0.02 * 2 mm2 are left
-        const double left_mm = mm_of(&rig, rig_sum(&rig));
+        const double left_mm = rig_mm(&rig, rig_sum(&rig));
         if (fabs(left_mm - sqrt(0.17)) > 5e-4)
             fail_msg("%s: %g mm left, not %g", text, left_mm, sqrt(0.17));
         assert_int_equal(rig_ledger(&rig, FLOW_LEDGER_DRAINED), (uint32_t)(before - rig_sum(&rig)));

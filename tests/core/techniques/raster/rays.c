@@ -267,59 +267,23 @@ static void rays_leave_what_they_enter(void **state)
 // The convex hull of a mesh's corners on the screen.
 struct hull {
     int count;
-    struct point {
-        double x, y;
-    } * corners;
+    struct oracle_place *corners;
 };
 
-static int by_x(const void *a, const void *b)
-{
-    const struct point *p = a, *q = b;
-    return p->x < q->x ? -1 : p->x > q->x ? 1 : p->y < q->y ? -1 : p->y > q->y;
-}
-
-static double turn_of(struct point a, struct point b, struct point c)
-{
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-// Andrew's monotone chain: the upper chain, then the lower one.
 static struct hull hull_of(const struct view *view)
 {
     const int count = 3 * view->faces->face_count;
-    struct point *points = malloc((size_t)count * sizeof(*points));
-    struct hull hull = {0, malloc(2 * (size_t)count * sizeof(*points))};
+    struct oracle_place *places = malloc((size_t)count * sizeof(*places));
+    struct hull hull = {0, malloc(2 * (size_t)count * sizeof(*places))};
     for (int i = 0; i < count; i++) {
         const struct oracle_face face = face_of(view, i / 3);
         const double *c = face.corners[i % 3];
-        points[i] = (struct point){(c[0] / c[3] + 1) / 2 * WIDTH, (c[1] / c[3] + 1) / 2 * HEIGHT};
+        places[i] =
+            (struct oracle_place){(c[0] / c[3] + 1) / 2 * WIDTH, (c[1] / c[3] + 1) / 2 * HEIGHT};
     }
-    qsort(points, (size_t)count, sizeof(*points), by_x);
-    for (int chain = 0; chain < 2; chain++) {
-        const int first = hull.count;
-        for (int i = 0; i < count; i++) {
-            const struct point p = points[chain ? count - 1 - i : i];
-            while (hull.count >= first + 2 &&
-                   turn_of(hull.corners[hull.count - 2], hull.corners[hull.count - 1], p) <= 0)
-                hull.count--;
-            hull.corners[hull.count++] = p;
-        }
-        hull.count--;
-    }
-    free(points);
+    hull.count = oracle_hull(places, count, hull.corners);
+    free(places);
     return hull;
-}
-
-// How far a pixel's centre is inside the line of the nearest edge; negative outside.
-static double hull_margin(const struct hull *hull, int px, int py)
-{
-    double least = INFINITY;
-    for (int i = 0; i < hull->count; i++) {
-        const struct point a = hull->corners[i], b = hull->corners[(i + 1) % hull->count];
-        const double length = hypot(b.x - a.x, b.y - a.y);
-        least = fmin(least, turn_of(a, b, (struct point){px + 0.5, py + 0.5}) / length);
-    }
-    return least;
 }
 
 // Faces on the rim are seen from the side, and snapping may fold them over.
@@ -334,7 +298,9 @@ static void a_ball_covers_its_disc_once(void **state)
     int *layers = faces_layers(&on, &view.params, WIDTH, HEIGHT, RG_CULL_BACK);
     int on_rim = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        const double margin = hull_margin(&hull, i % WIDTH, i / WIDTH);
+        const double margin =
+            oracle_inside_px(hull.corners, hull.count,
+                             (struct oracle_place){i % WIDTH + 0.5, (double)(i / WIDTH) + 0.5});
         const int due = margin > 0;
         on_rim += fabs(margin) < 2 * snap_px;
         if (fabs(margin) >= 2 * snap_px && layers[i] != due)

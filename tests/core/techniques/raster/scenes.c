@@ -9,11 +9,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/techniques/stages/assets.h"
-#include "core/techniques/technique.h"
 #include "tests/core/techniques/rigs/scene.h"
 #include "tests/oracle/chance.h"
+#include "tests/oracle/raster.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 enum { WIDTH = 224, HEIGHT = 126 };
 
@@ -22,15 +22,7 @@ enum { WIDTH = 224, HEIGHT = 126 };
 
 static struct rg_instance *open_scene(struct rg_device *device, const char *assignments)
 {
-    const struct rg_technique *technique = rg_technique_find("raster");
-    void *defaults = rg_settings_create(technique);
-    void *settings = rg_settings_copy(technique, defaults, assignments);
-    assert_non_null(settings);
-    struct rg_instance *instance = rg_instance_open(technique, device, settings, WIDTH, HEIGHT);
-    assert_non_null(instance);
-    free(settings);
-    free(defaults);
-    return instance;
+    return instance_of(device, "raster", "", assignments, WIDTH, HEIGHT);
 }
 
 static void draw_frame(struct rg_instance *instance, int frame)
@@ -40,37 +32,16 @@ static void draw_frame(struct rg_instance *instance, int frame)
     assert_true(instance->technique->draw(instance));
 }
 
-static void *words_of(struct rg_instance *instance, const char *name)
-{
-    const struct rg_asset *asset = rg_asset_find(instance, name);
-    assert_non_null(asset);
-    void *words = malloc(asset->buf->size);
-    assert_non_null(words);
-    assert_true(rg_buf_read(asset->buf, 0, words, (int64_t)asset->buf->size));
-    return words;
-}
-
 // --- polygons ---
 
 struct quad {
-    double x[4], y[4]; // pixels, y downwards
+    struct oracle_place at[4];
 };
 
-// How far a pixel's centre is inside a convex quad, in pixels; negative outside.
+// How far a pixel's centre is inside a quad.
 static double inside_px(const struct quad *q, int px, int py)
 {
-    double least = INFINITY, turn = 0;
-    for (int i = 0; i < 4; i++) {
-        const int n = (i + 1) % 4;
-        turn += q->x[i] * q->y[n] - q->x[n] * q->y[i];
-    }
-    for (int i = 0; i < 4; i++) {
-        const int n = (i + 1) % 4;
-        const double dx = q->x[n] - q->x[i], dy = q->y[n] - q->y[i];
-        const double off = dx * (py + 0.5 - q->y[i]) - dy * (px + 0.5 - q->x[i]);
-        least = fmin(least, copysign(1, turn) * off / hypot(dx, dy));
-    }
-    return least;
+    return oracle_inside_px(q->at, 4, (struct oracle_place){px + 0.5, py + 0.5});
 }
 
 // Expects the samples of an item: all centres that are surely inside, and no more than may be.
@@ -100,8 +71,8 @@ static struct quad pane_of(const float *words, int frame)
     struct quad q;
     for (int i = 0; i < 4; i++) {
         const double u = signs[i][0] * along, v = signs[i][1] * across;
-        q.x[i] = ((double)words[0] + 1) / 2 * WIDTH + u * cos(angle) - v * sin(angle);
-        q.y[i] = ((double)words[1] + 1) / 2 * HEIGHT + u * sin(angle) + v * cos(angle);
+        q.at[i].x = ((double)words[0] + 1) / 2 * WIDTH + u * cos(angle) - v * sin(angle);
+        q.at[i].y = ((double)words[1] + 1) / 2 * HEIGHT + u * sin(angle) + v * cos(angle);
     }
     return q;
 }
@@ -128,8 +99,8 @@ static void panes_are_rectangles_that_turn(void **state)
     struct rg_instance *instance =
         open_scene(*state, "scene=quads quads=150 turn_deg=3 count=on format=rgba32f");
     draw_frame(instance, FRAME);
-    float *panes = words_of(instance, "quads");
-    uint32_t *samples = words_of(instance, "samples");
+    float *panes = asset_words(instance, "quads");
+    uint32_t *samples = asset_words(instance, "samples");
     for (int i = 0; i < PANES; i++) {
         const struct quad q = pane_of(panes + (size_t)i * RASTER_QUAD_WORDS, FRAME);
         expect_samples("pane", i, &q, samples[i]);
@@ -188,7 +159,7 @@ static struct quad streak_of(const struct raster_settings *s, const double head[
         double at[3];
         for (int k = 0; k < 3; k++)
             at[k] = head[k] - corners[i][0] * length * way[k] + corners[i][1] * wide * side[k];
-        project(s, at, &q.x[i], &q.y[i]);
+        project(s, at, &q.at[i].x, &q.at[i].y);
     }
     return q;
 }
@@ -203,8 +174,8 @@ static void streaks_trail_their_drops(void **state)
     mesh_scene_set(&scene, STREAKS);
     const struct raster_settings *s = &scene.settings;
     draw_frame(instance, FRAME);
-    float *drops = words_of(instance, "drops");
-    uint32_t *samples = words_of(instance, "samples");
+    float *drops = asset_words(instance, "drops");
+    uint32_t *samples = asset_words(instance, "samples");
     int64_t seen = 0;
     for (int i = 0; i < DROPS; i++) {
         const double seconds = FRAME * s->step_s;
@@ -230,7 +201,7 @@ static void drops_fill_the_air(void **state)
 {
     enum { MANY = 20000 };
     struct rg_instance *instance = open_scene(*state, "scene=billboards billboards=20000");
-    float *drops = words_of(instance, "drops");
+    float *drops = asset_words(instance, "drops");
     static double of[3][MANY];
     const double *const columns[3] = {of[0], of[1], of[2]};
     for (int k = 0; k < 3; k++) {

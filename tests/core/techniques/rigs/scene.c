@@ -1,24 +1,13 @@
 #include "core/base/log.h"
 #include "tests/core/techniques/rigs/scene.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
-#include <stdlib.h>
-
 #include "core/base/outcome.h"
-#include "core/techniques/technique.h"
+#include "tests/tools/instance.h"
 
 void mesh_scene_set(struct mesh_scene *scene, const char *assignments)
 {
-    const struct rg_technique *technique = rg_technique_find("raster");
-    void *defaults = rg_settings_create(technique);
-    void *settings = rg_settings_copy(technique, defaults, assignments);
-    assert_non_null(settings);
-    scene->settings = *(struct raster_settings *)settings;
-    free(defaults);
+    struct raster_settings *settings = settings_of("raster", "", assignments);
+    scene->settings = *settings;
     free(settings);
 }
 

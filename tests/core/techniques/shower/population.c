@@ -168,7 +168,8 @@ static void expect_region(const struct birth_case *c)
     const double phi_high = phi_low + c->phi_high * r.beta,
                  theta_low = r.heading - pi - r.alpha / 2;
     struct oracle_drop *drops = pour_read(s);
-    struct spread by_r = {0}, by_phi = {0}, by_theta = {0};
+    struct spread by_r = {0}, by_phi = {0}, by_theta = {0}, by_sum = {0}, by_difference = {0},
+                  by_all = {0};
     static double of[3][BORN];
     for (int i = 0; i < BORN; i++) {
         const struct oracle_sphere at = oracle_sphere_of(&r, &drops[i]);
@@ -183,6 +184,10 @@ static void expect_region(const struct birth_case *c)
         add(&by_r, u);
         add(&by_phi, v);
         add(&by_theta, w);
+        // Modulo 1, sums and differences of independent uniform numbers are uniform.
+        add(&by_sum, fmod(u + v + 2, 1));
+        add(&by_difference, fmod(u - v + 2, 1));
+        add(&by_all, fmod(u - v + 2 * w + 2, 1));
         of[0][i] = u;
         of[1][i] = v;
         of[2][i] = w;
@@ -190,6 +195,9 @@ static void expect_region(const struct birth_case *c)
     expect_even("distance", &by_r);
     expect_even("angle from upright", &by_phi);
     expect_even("angle about the upright", &by_theta);
+    expect_even("distance and angle", &by_sum);
+    expect_even("distance less angle", &by_difference);
+    expect_even("distance and both angles", &by_all);
     const double *const columns[3] = {of[0], of[1], of[2]};
     assert_below(oracle_dependence(columns, 3, BORN), 5);
     free(drops);

@@ -4,22 +4,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "tests/tools/instance.h"
+
 static const char *device_name = "cpu";
 struct rg_device *pour_device;
 
 struct shower *pour_open(const char *settings, int width, int height)
 {
-    const struct rg_technique *technique = rg_technique_find("shower");
-    char all[1024];
-    assert_in_range(snprintf(all, sizeof(all), "geometry=off %s", settings), 0, sizeof(all) - 1);
-    void *defaults = rg_settings_create(technique);
-    void *copy = rg_settings_copy(technique, defaults, all);
-    assert_non_null(copy);
-    struct rg_instance *instance = rg_instance_open(technique, pour_device, copy, width, height);
-    assert_non_null(instance);
-    free(copy);
-    free(defaults);
-    return (struct shower *)instance;
+    return (struct shower *)instance_of(pour_device, "shower", "geometry=off", settings, width,
+                                        height);
 }
 
 void pour_close(struct shower *s)
@@ -35,12 +28,7 @@ void pour_step(struct shower *s, int steps)
 
 void *pour_words(struct shower *s, const char *name)
 {
-    const struct rg_asset *asset = rg_asset_find(&s->base, name);
-    assert_non_null(asset);
-    void *words = malloc(asset->buf->size);
-    assert_non_null(words);
-    assert_true(rg_buf_read(asset->buf, 0, words, (int64_t)asset->buf->size));
-    return words;
+    return asset_words(&s->base, name);
 }
 
 struct oracle_drop *pour_read(struct shower *s)

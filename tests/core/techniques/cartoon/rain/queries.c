@@ -13,6 +13,8 @@
 
 #include "core/base/log.h"
 #include "tests/core/techniques/cartoon/rain/rig.h"
+#include "tests/oracle/raster.h"
+#include "tests/tools/instance.h"
 
 static struct rg_device *device;
 
@@ -105,65 +107,23 @@ static void rasterised_spheres_have_their_facets_samples(void **state)
 
 // --- a sphere in front of nothing, behind everything, and cut by a wall ---
 
-struct place {
-    double x, y;
-};
-
-static double turn_of(struct place a, struct place b, struct place c)
-{
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-// The corners of the outline of points on the screen. The next corner is the point with all others
-// on one side of the line to it.
-static int outline_of(const struct place *points, int count, struct place *outline)
-{
-    int first = 0, corners = 0;
-    for (int i = 1; i < count; i++)
-        if (points[i].x < points[first].x)
-            first = i;
-    int at = first;
-    do {
-        int next = -1;
-        outline[corners++] = points[at];
-        for (int i = 0; i < count; i++) {
-            const struct place *a = &points[at], *b = &points[i];
-            if (hypot(a->x - b->x, a->y - b->y) > 1e-9 &&
-                (next < 0 || turn_of(*a, points[next], *b) < 0))
-                next = i;
-        }
-        at = next;
-    } while (hypot(points[at].x - points[first].x, points[at].y - points[first].y) > 1e-9);
-    return corners;
-}
-
-// How far a place is inside an outline, in pixels.
-static double inside_px(const struct place *outline, int corners, struct place p)
-{
-    double least = INFINITY;
-    for (int i = 0; i < corners; i++) {
-        const struct place a = outline[i], b = outline[(i + 1) % corners];
-        least = fmin(least, turn_of(a, b, p) / hypot(b.x - a.x, b.y - a.y));
-    }
-    return least;
-}
-
 // The samples of a sphere's outline from column `from_x` on. Corners are snapped to 1/256 pixel.
 static struct rainfall_samples outline_samples(const struct rainfall_eye *eye,
                                                struct rainfall_vector middle, double radius,
                                                int from_x)
 {
-    struct place points[30], outline[30];
+    struct oracle_place points[30], outline[60];
     for (int i = 0; i < 30; i++) {
         const struct rainfall_spot s =
             rainfall_spot_of(eye, corner_of(middle, radius, i / 6, i % 6));
-        points[i] = (struct place){s.x_px, s.y_px};
+        points[i] = (struct oracle_place){s.x_px, s.y_px};
     }
-    const int corners = outline_of(points, 30, outline);
+    const int corners = oracle_hull(points, 30, outline);
     struct rainfall_samples n = {0, 0};
     for (int y = 0; y < eye->height; y++)
         for (int x = from_x; x < eye->width; x++) {
-            const double px = inside_px(outline, corners, (struct place){x + 0.5, y + 0.5});
+            const double px =
+                oracle_inside_px(outline, corners, (struct oracle_place){x + 0.5, y + 0.5});
             n.least += px > 0.01;
             n.most += px > -0.01;
         }
@@ -298,15 +258,12 @@ static void expect_same_rain(const char *settings)
 
 static void expect_refused(void)
 {
-    const struct rg_technique *technique = rg_technique_find("cartoon");
-    void *defaults = rg_settings_create(technique);
-    void *settings = rg_settings_copy(technique, defaults, "collide=faithful query=api");
-    assert_null(rg_instance_open(technique, device, settings, 32, 32));
+    void *settings = settings_of("cartoon", "", "collide=faithful query=api");
+    assert_null(rg_instance_open(rg_technique_find("cartoon"), device, settings, 32, 32));
     assert_int_equal(rg_failure_take().fault, RG_FAULT_NONE);
     assert_non_null(strstr(rg_last_error(), device->info.name));
     assert_non_null(strstr(rg_last_error(), "no occlusion queries of its own; set query=spheres"));
     free(settings);
-    free(defaults);
 }
 
 static void the_apis_queries_count_what_spheres_do(void **state)

@@ -10,18 +10,11 @@
 #include <stdlib.h>
 
 #include "backends/formats.h"
+#include "tests/tools/instance.h"
 
 struct cartoon *rig_open(struct rg_device *device, const char *assignments, int width, int height)
 {
-    const struct rg_technique *technique = rg_technique_find("cartoon");
-    void *defaults = rg_settings_create(technique);
-    void *settings = rg_settings_copy(technique, defaults, assignments);
-    assert_non_null(settings);
-    struct rg_instance *instance = rg_instance_open(technique, device, settings, width, height);
-    assert_non_null(instance);
-    free(settings);
-    free(defaults);
-    return (struct cartoon *)instance;
+    return (struct cartoon *)instance_of(device, "cartoon", "", assignments, width, height);
 }
 
 void rig_close(struct cartoon *c)
@@ -37,12 +30,7 @@ void rig_step(struct cartoon *c, int steps)
 
 void *rig_words(struct cartoon *c, const char *name)
 {
-    const struct rg_asset *asset = rg_asset_find(&c->base, name);
-    assert_non_null(asset);
-    void *words = malloc(asset->buf->size);
-    assert_non_null(words);
-    assert_true(rg_buf_read(asset->buf, 0, words, (int64_t)asset->buf->size));
-    return words;
+    return asset_words(&c->base, name);
 }
 
 void *rig_texels(struct cartoon *c, const char *name, int layer, int level)

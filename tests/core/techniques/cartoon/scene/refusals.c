@@ -14,6 +14,7 @@
 #include "tests/core/folder.h"
 #include "tests/core/techniques/cartoon/rig.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 static int lines;
 
@@ -26,20 +27,17 @@ static void count_line(enum rg_log_level level, const char *line, void *user)
 
 static void expect_refused(struct rg_device *device, const char *settings, const char *why)
 {
-    const struct rg_technique *technique = rg_technique_find("cartoon");
-    void *defaults = rg_settings_create(technique);
-    void *set = rg_settings_copy(technique, defaults, settings);
-    assert_non_null(set);
+    void *set = settings_of("cartoon", "", settings);
     lines = 0;
     rg_log_listen(count_line, NULL);
-    struct rg_instance *instance = rg_instance_open(technique, device, set, 32, 32);
+    struct rg_instance *instance =
+        rg_instance_open(rg_technique_find("cartoon"), device, set, 32, 32);
     rg_log_listen(NULL, NULL);
     assert_null(instance);
     assert_int_equal(lines, 1);
     if (!strstr(rg_last_error(), why))
         fail_msg("%s: \"%s\" does not say \"%s\"", settings, rg_last_error(), why);
     free(set);
-    free(defaults);
 }
 
 static void cameras_are_refused(void **state)

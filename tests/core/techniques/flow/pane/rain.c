@@ -18,34 +18,107 @@
 
 static const double PI = 3.14159265358979323846;
 
-// --- what lands ---
+// --- a model of its own ---
 
-static double landed_mm3(const struct flow_settings *s, int pane, int64_t frames)
+// Lacy, 1965 (the formula of ISO 15927-3): an upright wall gets 0.222 R^0.88 mm/h for each metre a
+// second of wind, R being the rate on level ground. Wind of 10 m/s makes 2.22 R^0.88 of it. Drops
+// have the sizes of Marshall and Palmer's rain of R, from 0.5 to 6 mm.
+static const double LEAST_MM = 0.5, MOST_MM = 6;
+// Sizes are floats, so that panes are the same with every C library: half a step of 2^-24, thrice
+// in a volume, twice for sizes and their law.
+static const double ROUNDED = 6.0 / (1 << 24);
+
+static double ground_mm_h(double pane_mm_h)
+{
+    return pow(pane_mm_h / 2.22, 1 / 0.88);
+}
+
+static double slope_of(double pane_mm_h)
+{
+    return 4.1 * pow(ground_mm_h(pane_mm_h), -0.21);
+}
+
+// The share of drops whose diameter is below d.
+static double share_below(double slope, double d)
+{
+    return (exp(-slope * LEAST_MM) - exp(-slope * d)) /
+           (exp(-slope * LEAST_MM) - exp(-slope * MOST_MM));
+}
+
+static double sphere_mm3(double diameter_mm)
+{
+    return PI / 6 * pow(diameter_mm, 3);
+}
+
+// The diameter below which this share of drops is.
+static double quantile_mm(double slope, double share)
+{
+    double low = LEAST_MM, high = MOST_MM;
+    for (int i = 0; i < 60; i++) {
+        const double d = (low + high) / 2;
+        *(share_below(slope, d) < share ? &low : &high) = d;
+    }
+    return low;
+}
+
+static double mean_mm3(double slope)
+{
+    enum { STEPS = 20000 };
+    double sum = 0, all = 0;
+    for (int i = 0; i < STEPS; i++) {
+        const double d = LEAST_MM + (i + 0.5) * (MOST_MM - LEAST_MM) / STEPS;
+        sum += sphere_mm3(d) * exp(-slope * d);
+        all += exp(-slope * d);
+    }
+    return sum / all;
+}
+
+// A cap by the radius of its contact: its height is radius tan(angle / 2).
+static double cap_mm3(double contact_deg, double radius_mm)
+{
+    const double high_mm = radius_mm * tan(contact_deg * PI / 360);
+    return PI / 6 * high_mm * (3 * radius_mm * radius_mm + high_mm * high_mm);
+}
+
+// What lands on a pane within these seconds: the initial caps, and drops whose shares follow the
+// first one's by the golden ratio.
+static double due_mm3(const struct flow_settings *s, int pane, double seconds)
 {
     const struct flow_rain rain = flow_rain_of(s);
-    double sum = 0;
+    const double slope = slope_of(s->pane_rain_mm_h);
+    const double rain_mm3 = s->pane_rain_mm_h / 3600 * s->pane_mm * s->pane_mm * seconds;
+    const double count = floor(rain_mm3 / mean_mm3(slope) + 1e-6);
+    const double first_mm = cbrt(flow_falling_drop(&rain, pane, 0).volume_mm3 * 6 / PI);
+    const double start = share_below(slope, first_mm);
+    double sum = 0, whole;
     for (int i = 0; i < s->drops; i++)
-        sum += flow_initial_drop(&rain, pane, i).volume_mm3;
-    for (int64_t number = 0; number < flow_fallen_before(&rain, frames); number++)
-        sum += flow_falling_drop(&rain, pane, number).volume_mm3;
+        sum += cap_mm3(s->contact_deg, flow_initial_drop(&rain, pane, i).radius_mm);
+    for (int i = 0; i < count; i++)
+        sum += sphere_mm3(quantile_mm(slope, modf(start + i * (sqrt(5) - 1) / 2, &whole)));
     return sum;
 }
 
-// The ledger counts droplets modulo 2^32; their volume is that of the drops that were drawn.
+// --- what lands ---
+
+// The ledger counts droplets modulo 2^32. Their volume is that of the drops, less a part of a
+// droplet that the next drop brings.
 static void test_the_ledger_has_what_landed(void **state)
 {
     (void)state;
-    static const char *const cases[] = {
-        "resolution_px=512", "resolution_px=96 seed=2",
-        "resolution_px=64 pane_rain_mm_h=400 seed=3",
-        "resolution_px=128 contact_deg=90 drop_radius_max_mm=12 seed=4"};
+    static const struct {
+        const char *set;
+        double mm3; // of this seed
+    } cases[] = {{"resolution_px=512", 1691.473},
+                 {"resolution_px=96 seed=2", 1654.520},
+                 {"resolution_px=64 pane_rain_mm_h=400 seed=3", 6310.784},
+                 {"resolution_px=128 contact_deg=90 drop_radius_max_mm=12 seed=4", 37008.539}};
     for (int i = 0; i < 4; i++) {
         char text[192];
-        snprintf(text, sizeof(text), "move=sliding view=pane %s", cases[i]);
+        snprintf(text, sizeof(text), "move=sliding view=pane %s", cases[i].set);
         struct rig rig;
         rig_open(&rig, "cpu", text);
         const double texel_mm = rig.settings.pane_mm / rig.size;
-        const double droplet_mm3 = texel_mm * texel_mm * rig.settings.relief / 65536;
+        const double droplet_mm3 = texel_mm * texel_mm * rig_mm(&rig, 1);
         uint32_t before = 0;
         int64_t sourced = 0;
         for (int frame = 0; frame <= 120; frame++) {
@@ -54,57 +127,81 @@ static void test_the_ledger_has_what_landed(void **state)
             before = now;
             rig_step(&rig, frame < 120);
         }
-        const double due = landed_mm3(&rig.settings, 0, 120);
-        print_message("%s: %.9g mm3 of %.9g\n", cases[i], (double)sourced * droplet_mm3, due);
-        assert_below(fabs((double)sourced * droplet_mm3 / due - 1), 1e-6);
+        const double due = due_mm3(&rig.settings, 0, 2), landed = (double)sourced * droplet_mm3;
+        print_message("%s: %.9g mm3 of %.9g\n", cases[i].set, landed, due);
+        assert_below(fabs(due - cases[i].mm3), 1e-3);
+        assert_above(due - landed, -ROUNDED * due);
+        assert_below(due - landed, droplet_mm3 + ROUNDED * due);
         rig_close(&rig);
     }
 }
 
-// A minute of 64 seeds; a single one is right too, because sizes are spread evenly.
+static double fallen_mm3(const struct flow_settings *s, int pane, int64_t frames)
+{
+    const struct flow_rain rain = flow_rain_of(s);
+    double sum = 0;
+    for (int64_t number = 0; number < flow_fallen_before(&rain, frames); number++)
+        sum += flow_falling_drop(&rain, pane, number).volume_mm3;
+    return sum;
+}
+
+// A minute of 64 seeds: their mean is 0.07 % off at most. A single one is right too, because sizes
+// are spread evenly: 2.01 % off at most, where it rains least.
 static void test_it_rains_as_much_as_is_set(void **state)
 {
     (void)state;
     struct flow_settings s;
     rg_params_reset(&flow_param_table, &s);
-    s.drops = 0;
     static const double rates[] = {5, 31, 120};
     for (int i = 0; i < 3; i++) {
         double sum = 0, worst = 0;
         s.pane_rain_mm_h = rates[i];
         for (s.seed = 1; s.seed <= 64; s.seed++) {
             const double due = rates[i] / 60 * s.pane_mm * s.pane_mm;
-            const double share = landed_mm3(&s, s.seed % 6, 3600) / due;
+            const double share = fallen_mm3(&s, s.seed % 6, 3600) / due;
             sum += share / 64;
             worst = fmax(worst, fabs(share - 1));
         }
         print_message("%g mm/h: %.5f of it, a seed %.2f %% off at most\n", rates[i], sum,
                       100 * worst);
-        assert_below(fabs(sum - 1), 0.01);
-        assert_below(worst, 0.03);
+        assert_below(fabs(sum - 1), 0.002);
+        assert_below(worst, 0.025);
     }
 }
 
-// Marshall and Palmer's exponent of 20 mm/h, which wind of 10 m/s drives to 31 on the pane: counted
-// by diameter, above the least of 0.5 mm.
+// 20 mm/h are 31 on the pane. Drops are counted by diameter.
 static void test_sizes_are_of_the_spectrum(void **state)
 {
     (void)state;
     struct flow_settings s;
     rg_params_reset(&flow_param_table, &s);
-    const double rain_mm_h = pow(s.pane_rain_mm_h / 2.22, 1 / 0.88);
-    const double slope = 4.1 * pow(rain_mm_h, -0.21), least = 0.5, most = 6;
     const struct flow_rain rain = flow_rain_of(&s);
+    const double slope = slope_of(s.pane_rain_mm_h);
     enum { DROPS = 4000 };
-    assert_below(fabs(rain_mm_h - 20), 0.1);
+    assert_below(fabs(ground_mm_h(s.pane_rain_mm_h) - 20), 0.1);
     for (double d = 0.6; d < 4; d += 0.2) {
         int below = 0;
         for (int i = 0; i < DROPS; i++)
             below += cbrt(flow_falling_drop(&rain, 0, i).volume_mm3 * 6 / PI) < d;
-        const double due =
-            (exp(-slope * least) - exp(-slope * d)) / (exp(-slope * least) - exp(-slope * most));
-        assert_below(fabs((double)below / DROPS - due), 2e-3);
+        assert_below(fabs((double)below / DROPS - share_below(slope, d)), 2e-3);
     }
+}
+
+// The largest drop is one of 6 mm, or an initial one: it sets the room for texels that drops cover.
+static void test_the_largest_radius_is_known(void **state)
+{
+    (void)state;
+    struct flow_settings s;
+    rg_params_reset(&flow_param_table, &s);
+    s.drop_radius_min_mm = s.drop_radius_max_mm = 0.5;
+    for (s.contact_deg = 20; s.contact_deg <= 90; s.contact_deg += 35) {
+        const struct flow_rain rain = flow_rain_of(&s);
+        const double largest_mm = flow_largest_radius_mm(&rain);
+        assert_below(fabs(cap_mm3(s.contact_deg, largest_mm) / sphere_mm3(MOST_MM) - 1), ROUNDED);
+    }
+    s.drop_radius_max_mm = 40;
+    const struct flow_rain rain = flow_rain_of(&s);
+    assert_equals(flow_largest_radius_mm(&rain), 40);
 }
 
 static double told(const struct rig *rig, const char *name)
@@ -123,7 +220,7 @@ static void test_the_rate_is_told(void **state)
     rig_open(&rig, "cpu", "move=sliding resolution_px=64 pane_rain_mm_h=12.5");
     assert_equals(told(&rig, "pane_rain_mm_h"), 12.5);
     rig_step(&rig, 30);
-    assert_below(fabs(told(&rig, "landed_mm3") / landed_mm3(&rig.settings, 0, 30) - 1), 1e-12);
+    assert_below(fabs(told(&rig, "landed_mm3") / due_mm3(&rig.settings, 0, 0.5) - 1), ROUNDED);
     rig_close(&rig);
 }
 
@@ -144,6 +241,7 @@ static void test_drops_land_as_caps(void **state)
             volume += 2 * PI * d * step * flow_cap_height_mm(&rain, r, d * d);
         const double rim = flow_cap_height_mm(&rain, r, (r - step) * (r - step)) / step;
         assert_below(fabs(volume / drop.volume_mm3 - 1), 1e-5);
+        assert_below(fabs(cap_mm3(s.contact_deg, r) / drop.volume_mm3 - 1), ROUNDED);
         if (s.contact_deg < 90)
             assert_below(fabs(atan(rim) * 180 / PI - s.contact_deg), 0.1);
         assert_equals(flow_cap_height_mm(&rain, r, r * r * 1.001), 0);
@@ -192,6 +290,7 @@ int main(void)
         cmocka_unit_test(test_the_ledger_has_what_landed),
         cmocka_unit_test(test_it_rains_as_much_as_is_set),
         cmocka_unit_test(test_sizes_are_of_the_spectrum),
+        cmocka_unit_test(test_the_largest_radius_is_known),
         cmocka_unit_test(test_the_rate_is_told),
         cmocka_unit_test(test_drops_land_as_caps),
         cmocka_unit_test(test_hulls_are_measured),

@@ -32,18 +32,6 @@ static struct pane pane_of(const struct rig *rig)
     return (struct pane){wet / n / n, down / sum};
 }
 
-// The wet share of all panes.
-static double wet_share_of(const struct rig *rig)
-{
-    int64_t *water = rig_water(rig);
-    const int texels = rig->panes * rig->size * rig->size;
-    double wet = 0;
-    for (int i = 0; i < texels; i++)
-        wet += (double)water[i] >= rig->settings.wet_height * 65536;
-    free(water);
-    return wet / texels;
-}
-
 // A pane after a second, by its texels and steps a second.
 static struct pane pane_after_a_second(const char *resolution, int steps_s)
 {
@@ -82,8 +70,8 @@ static void test_resolution_and_step_change_little(void **state)
     }
 }
 
-// From 10 s to 120 s of rain a pane's wet share stays within 10 % of its mean, and the water is no
-// film.
+// From 10 s to 120 s of rain a pane's wet share stays within 10 % of its mean (7.6 % was measured),
+// which is 10.2 %.
 static void test_steady_rain_leaves_a_steady_pane(void **state)
 {
     (void)state;
@@ -93,7 +81,7 @@ static void test_steady_rain_leaves_a_steady_pane(void **state)
     rig_open_sized(&rig, "cpu", "move=sliding resolution_px=256 step_s=0.05", 64, 64);
     for (int look = 0; look < LOOKS; look++) {
         rig_step(&rig, 200);
-        wet[look] = wet_share_of(&rig);
+        wet[look] = pane_of(&rig).wet;
         mean += wet[look] / LOOKS;
     }
     rig_close(&rig);
@@ -101,8 +89,8 @@ static void test_steady_rain_leaves_a_steady_pane(void **state)
         print_message("%.2f %% wet after %d s\n", 100 * wet[look], 10 * (look + 1));
     for (int look = 0; look < LOOKS; look++)
         assert_below(fabs(wet[look] / mean - 1), 0.1);
-    assert_above(mean, 0.05);
-    assert_below(mean, 0.3);
+    assert_above(mean, 0.098);
+    assert_below(mean, 0.107);
 }
 
 int main(void)
