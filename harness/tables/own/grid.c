@@ -32,8 +32,8 @@ static bool add_columns(struct rg_grid *grid, const struct rg_technique *techniq
                                 axis->name);
         // A preset has to be the first axis, because it overwrites parameters that are set before.
         if (i && technique->params->preset && !strcmp(axis->name, technique->params->preset))
-            return rg_error("%s %s: stands for other parameters; name it before %s", axis->word,
-                            axis->name, grid->axes[0].name);
+            return rg_error("%s %s: stands for other parameters; name it before %s %s", axis->word,
+                            axis->name, axis->word, grid->axes[0].name);
         if (has_column(technique, axis))
             table->columns[table->key_count++] = axis->name;
         else if (table->names)
