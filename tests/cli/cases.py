@@ -307,7 +307,7 @@ COMMANDS = [
     Case("verify flow --set nonsense=1 --device cpu", 2, r"parameter 'nonsense': flow has none"),
     Case("verify flow --device nonsense", 2, UNKNOWN_DEVICE),
     # A cause that affects each cell is reported once.
-    Case("verify flow --quick --frame 2 --device cpu --set model={tmp}/none.obj " + SMALL, 2, r"none\.obj: No such file or directory; check the name"),
+    Case("verify raster --quick --frame 1 --size 32x32 --device cpu --set scene=mesh --set model={tmp}/none.obj", 2, r"none\.obj: No such file or directory; check the name"),
     Case("verify flow --quick --full", 2, r"--quick and --full: choose one"),
     Case("verify flow --frame -1", 2, r"--frame -1: must be 0 to 10000000"),
 ]

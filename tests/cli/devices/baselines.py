@@ -16,7 +16,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.a
 KEPT = os.path.join(ROOT, "results", "baseline.json")
 CELLS = os.path.join(ROOT, "harness", "compare", "gate", "cells", "cells.txt")
 
-PANE = "flow/pane flow 64x48 2 view=pane resolution_px=64\n"
+PANE = "flow/pane flow 64x48 2 view=pane resolution_px=64 environment_px=16\n"
 CPU = ["--device", "cpu"]
 QUICK = ["--launches", "8"]
 

@@ -17,7 +17,7 @@ TORUS = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
 # Extra loops per frame for runner.slower: many times the frame's own work, even on a busy machine.
 EXTRA = "RG_EXTRA_LOOPS=1000000"
 AT_ONCE = ["--margin", "100"]  # decided at the first look, unless the machine is very busy
-QUICK = TORUS + "flow/pane flow 64x48 2 view=pane resolution_px=64\n"
+QUICK = TORUS + "flow/pane flow 64x48 2 view=pane resolution_px=64 environment_px=16\n"
 
 
 class Files:
@@ -358,7 +358,7 @@ def check_miscompiled(runner):
 
 def check_cached(runner):
     """code from a cache of more cells is the same as newly compiled code, though Mesa numbered its programs otherwise"""
-    with Files("flow/pane flow 64x48 2 view=pane resolution_px=64\n" + TORUS) as files:
+    with Files("flow/pane flow 64x48 2 view=pane resolution_px=64 environment_px=16\n" + TORUS) as files:
         env = {"XDG_CACHE_HOME": files.path("cache")}
         alone = files.path("alone.txt", TORUS)
         runner.run(["gate", "gl", "gl@RG_X=1", "--cells", files.cells, "--pictures"], env)

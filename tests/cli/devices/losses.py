@@ -152,7 +152,7 @@ def check_held(runner):
         fcntl.flock(folder, fcntl.LOCK_EX)
         for says in (r"raingauge: .*/raingauge: another raingauge that measures keeps its rows there; this one keeps none: .*\n",
                      r"raingauge: .*stuppacher-2-quick\.journal: line 1 is no JSON: .*; remove it; the table begins anew\n"):
-            result = runner.run("table stuppacher-2 --rows 1-1 --device cpu".split(), {"XDG_STATE_HOME": state})
+            result = runner.run(ROW.split(), {"XDG_STATE_HOME": state})
             if result.returncode or not re.fullmatch(says, result.stderr):
                 problems.append("exit status %d, %s" % (result.returncode, result.stderr))
             fcntl.flock(folder, fcntl.LOCK_UN)

@@ -18,8 +18,8 @@
 #include "tests/tools/expect.h"
 #include "tests/tools/instance.h"
 
-// Settings that change the use of memory: images, buffers, textures and meshes. Scenes are small
-// and come last, since opening one takes seconds.
+// Settings that change the use of memory: images, buffers, textures and meshes. Environments are
+// small, and so are scenes, which come last, since opening one takes seconds.
 static const struct subject {
     const char *technique, *set;
     int width, height;
@@ -28,8 +28,8 @@ static const struct subject {
     {"raster", "scene=mesh", 640, 480},
     {"cartoon", "style=gooch", 64, 64},
     {"cartoon", "", 512, 256},
-    {"flow", "resolution_px=64", 64, 64},
-    {"flow", "resolution_px=512 move=paper direction=texel", 320, 200},
+    {"flow", "resolution_px=64 environment_px=32", 64, 64},
+    {"flow", "resolution_px=512 move=paper direction=texel environment_px=64", 320, 200},
     {"drops", "", 64, 64},
     {"drops", "columns=64 rows=64 max_drops=500", 256, 256},
     {"shower", "geometry=off particles=1000", 64, 64},

@@ -177,7 +177,7 @@ static void test_looser_is_no_larger(void **state)
 static void test_least_height_of_sizes(void **state)
 {
     (void)state;
-    struct streaks *s = open_rain(device, "fit=on fit_error=0.2 spectrum=best kept_share=0.5 "
+    struct streaks *s = open_rain(device, "fit=on fit_error=0.2 spectrum=best kept_share=0.02 "
                                           "rain_mm_h=100 splash_s=3 fall_speed_m_s=2");
     const double height_m = fact(s, "local_height_m");
     assert_below(fabs(height_m - 9.17 * (1.0 / 60 + 3)), 0.02);

@@ -12,6 +12,7 @@
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/core/techniques/streaks/splash/crown.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/sanitized.h"
 
 enum { MATERIALS = 4 };
 
@@ -393,7 +394,8 @@ static void test_light_by_kind_and_view(void **state)
     (void)state;
     for (int view = 0; view < VIEWS; view++)
         for (int lamp = 0; lamp < LAMPS; lamp++)
-            expect_light(&views[view], &lamps[lamp], 1800, 6, false);
+            if (!IS_SANITIZED || view == lamp) // each view and each lamp
+                expect_light(&views[view], &lamps[lamp], 1800, 6, false);
 }
 
 static void test_light_of_small_ones(void **state)
@@ -403,7 +405,8 @@ static void test_light_of_small_ones(void **state)
     expect_light(&views[0], &lamps[3], 300, 40, false);
     // Thinner than a pixel, and drawn one pixel wide.
     expect_light(&views[0], &lamps[0], 40, 300, false);
-    expect_light(&views[2], &lamps[0], 40, 300, false);
+    if (!IS_SANITIZED)
+        expect_light(&views[2], &lamps[0], 40, 300, false);
 }
 
 static void test_matt_ones(void **state)
