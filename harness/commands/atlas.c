@@ -31,19 +31,19 @@ struct atlas_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to make"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
-     .about = "a technique whose textures to make, such as cartoon; without one, the streak "
-              "atlas",
+     .about =
+         "a technique whose textures to make, such as cartoon; without a name, the streak atlas",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_FLAG, "measured",
-     .about = "of drops that swing as in wind tunnels, not as in the original database",
+     .about = "draws drops that oscillate as in wind tunnels, not as in the original database",
      .offset = AT(measured), .excludes = "from"},
     {RG_OPTION_TEXT, "from", .argument = "DIR",
-     .about = "packs the original streak database in this folder, and generates nothing",
+     .about = "packs the original streak database of this folder, and generates nothing",
      .offset = AT(from), .names = RG_NAMES_FOLDER},
     {RG_OPTION_TEXT, "compare", .argument = "DIR",
-     .about = "compares the atlas with pictures of the original database in this folder, and "
-              "prints how alike they are",
+     .about = "compares the atlas with the original database's pictures in this folder, and prints "
+              "how similar they are",
      .offset = AT(compare), .names = RG_NAMES_FOLDER},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",

@@ -34,18 +34,18 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     {RG_OPTION_TEXT, "kernels", .argument = "NAMES",
-     .about = "compiles each of these kernels by itself instead, and runs one item where a "
-              "kernel needs no input. Names them with commas, or all. Prints those that a driver "
-              "cannot compile",
+     .about = "instead compiles each of these kernels by itself, and runs one item of a kernel "
+              "that needs no input. NAMES: names with commas, or all. Prints the kernels that a "
+              "driver cannot compile",
      .offset = AT(kernels)},
     {RG_OPTION_FLAG, "fixed-function", .excludes = "kernels",
-     .about = "draws one fixed function after the other instead, through each driver's own "
-              "pipeline, and prints a digest of each",
+     .about = "instead draws one fixed function after the other through each driver's own graphics "
+              "pipeline, and prints a digest of each draw",
      .offset = AT(fixed_function)},
     {RG_OPTION_FLAG, "prologue",
-     .about = "prints no report, and ends with status 75 and one line if this machine should "
-              "measure nothing now: others use its processors, they are slowed for heat, or a "
-              "device is not well",
+     .about =
+         "prints no report. Ends with status 75 and one line if this machine should measure "
+         "nothing now: others use its processors, heat throttles them, or a device is not healthy",
      .offset = AT(prologue), .excludes = "kernels json fixed-function"},
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),

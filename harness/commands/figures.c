@@ -23,8 +23,8 @@ struct figures_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to draw"),
     {RG_OPTION_OPERAND, .argument = "ID...",
-     .about = "figures to draw, all if none is named; `raingauge list figures` prints the "
-              "names",
+     .about = "figures to draw; `raingauge list figures` prints the names, and no name means all "
+              "figures",
      .names = RG_NAMES_FIGURE, .first = 1},
     RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     RG_GROUP("Devices"),
@@ -102,7 +102,7 @@ const struct rg_command rg_command_figures = {
     .name = "figures",
     .reader = RG_FOR_PAPERS,
     .usage = "[ID...] [--device D] [--size WxH] [-o DIR]",
-    .about = "redraws figures of the papers, with captions",
+    .about = "redraws the papers' figures, with captions",
     .options = options,
     .options_size = sizeof(struct figures_options),
     .run = figures_command,

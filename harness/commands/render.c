@@ -43,8 +43,8 @@ static const struct rg_option options[] = {
     RG_GROUP("What to draw"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
      .about = "the technique to draw; `raingauge list techniques` prints the names. Without --set, "
-              "--size, --frame and --frames, the picture that shows it best; with one of them, "
-              "512x512 pixels of frame 60",
+              "--size, --frame and --frames: the picture that shows the technique best. With one "
+              "of these options: frame 60 in 512x512 pixels",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_frame_option, AT(frame), NULL),
@@ -53,7 +53,7 @@ static const struct rg_option options[] = {
      .offset = AT(frames), .least = 0, .most = 1e7, .excludes = "frame"},
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     {RG_OPTION_TEXT, "case", .argument = "FILE",
-     .about = "replays a case of `raingauge shrink`: says whether the device leaves the "
+     .about = "replays a reproducer of `raingauge shrink`: says whether the device gives the "
               "expected bits, and writes no picture",
      .offset = AT(replayed), .names = RG_NAMES_FILE,
      .excludes = "set frame frames size output fps exposure json"},
@@ -65,10 +65,9 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "FILE",
-     .about =
-         "the picture (default TECHNIQUE.png): .png, .exr, .hdr, .tif or .tiff. For "
-         "several frames a clip (default TECHNIQUE.webm), or pictures, with %04d in their name "
-         "for the frame's number",
+     .about = "the picture file (default TECHNIQUE.png): .png, .exr, .hdr, .tif or .tiff. For "
+              "several frames: a clip (default TECHNIQUE.webm), or numbered pictures, whose name "
+              "has %04d for the frame's number",
      .offset = AT(output), .letter = 'o', .names = RG_NAMES_FILE},
     {RG_OPTION_INT, "fps", .argument = "N",
      .about = "frames a second of a clip (default 60, real time for steps of 1/60 s)",

@@ -30,7 +30,7 @@ def sources(root):
 
 def problems(root):
     page = read(root, "docs/environment.md")
-    of_drivers, said = page.split("## Variables that drivers read")[1].split("\n## ")[0].split("Of the variables of this section")
+    of_drivers, said = page.split("## Variables that drivers read")[1].split("\n## ")[0].split("The passport holds the variables of this section")
     held = set(HELD.findall(read(root, "harness/record/passport/variables.c")))
     read_by_us = {name for text in sources(root) for name in READ.findall(text)}
     for name in sorted((read_by_us | held) - set(NAMED.findall(page))):

@@ -6,7 +6,7 @@
 
 static const struct rg_option help_rows[] = {
     RG_GROUP("Help"),
-    {RG_OPTION_HELP, "help", .letter = 'h', .about = "prints this"},
+    {RG_OPTION_HELP, "help", .letter = 'h', .about = "prints this help"},
     {RG_OPTION_END},
 };
 

@@ -4,8 +4,8 @@
 
 const struct rg_option rg_timeout_option[] = {
     {RG_OPTION_INT, "timeout", .argument = "S",
-     .about = "gives up a device, or the encoder of a clip, that does nothing for so many "
-              "seconds",
+     .about =
+         "kills a device's worker, or a clip's encoder, that does nothing for this many seconds",
      .least = 1, .most = 86400, .initial = "120"},
     {RG_OPTION_END},
 };
@@ -13,8 +13,8 @@ const struct rg_option rg_timeout_option[] = {
 const struct rg_option rg_devices_option[] = {
     {RG_OPTION_TEXT, "device", .argument = "D,...|all",
      .about = "devices to use; `raingauge list devices` prints their names. "
-              "gl@LP_NUM_THREADS=1;KEY=VALUE is one with an environment of its own, "
-              "gl:native one that draws by its driver's own pipeline",
+              "gl@LP_NUM_THREADS=1;KEY=VALUE sets environment variables for the device; gl:native "
+              "draws through the driver's own graphics pipeline",
      .names = RG_NAMES_DEVICES},
     {RG_OPTION_END},
 };
@@ -23,7 +23,7 @@ const struct rg_option rg_devices_option[] = {
 
 const struct rg_option rg_asked_options[] = {
     {RG_OPTION_TEXT, "require", .argument = "D,...",
-     .about = "fails unless these devices or APIs are there", .offset = AT(require),
+     .about = "fails if one of these devices or APIs is missing", .offset = AT(require),
      .names = RG_NAMES_DEVICES},
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     {RG_OPTION_END},
@@ -33,8 +33,8 @@ const struct rg_option rg_asked_options[] = {
 
 const struct rg_option rg_settings_option[] = {
     {RG_OPTION_TEXTS, "set", .argument = "KEY=VALUE",
-     .about = "sets a parameter; give it again for another. `raingauge list params TECHNIQUE` "
-              "prints them",
+     .about = "sets a parameter; repeat the option for further ones. `raingauge list params "
+              "TECHNIQUE` prints all parameters",
      .names = RG_NAMES_PARAMETER},
     {RG_OPTION_END},
 };
@@ -46,14 +46,14 @@ const struct rg_option rg_size_option[] = {
 
 const struct rg_option rg_memory_option[] = {
     {RG_OPTION_BYTES, "memory", .argument = "SIZE",
-     .about = "refuses work that needs more memory, as 512M or 4G. Without it: nine tenths of "
-              "the free memory"},
+     .about = "refuses work that needs more memory than this, such as 512M or 4G. Default: nine "
+              "tenths of the free memory"},
     {RG_OPTION_END},
 };
 
 const struct rg_option rg_frame_option[] = {
-    {RG_OPTION_INT, "frame", .argument = "N", .about = "frames to simulate before drawing",
-     .least = 0, .most = 1e7},
+    {RG_OPTION_INT, "frame", .argument = "N",
+     .about = "number of frames to simulate before drawing", .least = 0, .most = 1e7},
     {RG_OPTION_END},
 };
 
@@ -64,7 +64,7 @@ const struct rg_option rg_exposure_option[] = {
 };
 
 const struct rg_option rg_json_option[] = {
-    {RG_OPTION_FLAG, "json", .about = "prints JSON for programs (docs/records.md)"},
+    {RG_OPTION_FLAG, "json", .about = "prints machine-readable JSON (docs/records.md)"},
     {RG_OPTION_END},
 };
 

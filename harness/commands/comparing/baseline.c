@@ -26,14 +26,14 @@ struct baseline_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to keep"),
     {RG_OPTION_TEXT, "cells", .argument = "FILE",
-     .about = "a file of cells to run, one a line (docs/expectations.md); without it, the "
-              "built-in ones",
+     .about = "a file of cells to run, one a line (docs/expectations.md); without this option, the "
+              "built-in cells",
      .offset = AT(cells), .names = RG_NAMES_FILE},
     {RG_OPTION_INT, "launches", .argument = "N",
-     .about = "how many times to start each device anew and time each cell", .offset = AT(launches),
+     .about = "how many times to restart each device and time each cell", .offset = AT(launches),
      .initial = "24", .least = 8, .most = RG_BASELINE_LAUNCHES},
     {RG_OPTION_FLAG, "pictures",
-     .about = "keeps digests of pictures, states and counters, and times nothing",
+     .about = "keeps only digests of pictures, states and counters, and times nothing",
      .offset = AT(pictures_only), .excludes = "launches"},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
@@ -41,11 +41,11 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "FILE",
-     .about = "the baseline, which `raingauge gate --baseline FILE` reads", .offset = AT(output),
+     .about = "the baseline file, for `raingauge gate --baseline FILE`", .offset = AT(output),
      .letter = 'o', .names = RG_NAMES_FILE},
     {RG_OPTION_FLAG, "update",
-     .about = "replaces an existing FILE that differs; without it, the differences are only "
-              "printed",
+     .about = "replaces an existing FILE that differs; without this option, the command only "
+              "prints the differences",
      .offset = AT(update)},
     {RG_OPTION_END},
 };
@@ -224,8 +224,8 @@ const struct rg_command rg_command_baseline = {
     .name = "baseline",
     .reader = RG_FOR_DRIVERS,
     .usage = "-o FILE [--device D,...] [--cells FILE] [--launches N] [--update]",
-    .about = "records what each cell of a gate draws and how fast, for `raingauge gate "
-             "--baseline`",
+    .about =
+        "records what each cell of a gate draws, and how fast, for `raingauge gate --baseline`",
     .options = options,
     .options_size = sizeof(struct baseline_options),
     .run = baseline,

@@ -28,33 +28,35 @@ static const char *const crashes[] = {"skip", "bad", NULL};
 static const struct rg_option options[] = {
     RG_GROUP("What to search"),
     {RG_OPTION_OPERAND, .argument = "CANDIDATE",
-     .about = "what to try, in order: devices with their environments, folders of builds, or "
-              "any words",
+     .about =
+         "what to try, in order: devices with their variables, folders of builds, or any words",
      .names = RG_NAMES_FILE, .first = 1},
     {RG_OPTION_TEXT, "list", .argument = "FILE",
-     .about = "a file with a candidate a line; empty lines and lines that begin with # are "
-              "ignored",
+     .about =
+         "a file with one candidate a line; empty lines and lines that begin with # are ignored",
      .offset = AT(list), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXT, "good", .argument = "A",
-     .about = "the candidate known to be good; if neither end is among the candidates, they "
-              "lie between the two",
+     .about = "the candidate known to be good; if neither A nor B is among the candidates, the "
+              "candidates lie between A and B",
      .offset = AT(good), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXT, "bad", .argument = "B", .about = "the candidate known to be bad",
      .offset = AT(bad), .names = RG_NAMES_FILE},
-    RG_GROUP("How one is judged"),
+    RG_GROUP("How to judge a candidate"),
     {RG_OPTION_TEXT, "run", .argument = "COMMAND",
-     .about = "a command for the shell, in which \"$RG_CANDIDATE\" is the candidate, "
-              "\"$RG_GOOD\" the good end, and \"$RG_BUDGET\" a time. Its exit status is the "
-              "verdict: 0 good; 1 bad; 3 again; 4, 77 and 125 skip; any other stops (docs/ci.md)",
+     .about = "a shell command that judges one candidate: \"$RG_CANDIDATE\" is the candidate, "
+              "\"$RG_GOOD\" the good end, \"$RG_BUDGET\" a time. The command's exit status is the "
+              "verdict: 0 good; 1 bad; 3 try again; 4, 77 and 125 skip; any other status stops the "
+              "search (docs/ci.md)",
      .offset = AT(line)},
     {RG_OPTION_INT, "tries", .argument = "N",
-     .about = "how many times to try a candidate whose status is 3, before it is skipped",
+     .about = "how many times to try a candidate whose status is 3, before skipping it",
      .offset = AT(tries), .initial = "3", .least = 1, .most = 16},
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "RG_BUDGET of the first try; each further try gets twice as much",
+     .about = "RG_BUDGET of the first try; each further try gets twice the time of the last",
      .offset = AT(budget), .initial = "2m"},
-    {RG_OPTION_CHOICE, "crash", .about = "the verdict on a candidate whose command a signal ends",
-     .offset = AT(crash), .initial = "skip", .choices = crashes},
+    {RG_OPTION_CHOICE, "crash",
+     .about = "the verdict on a candidate whose command ends by a signal", .offset = AT(crash),
+     .initial = "skip", .choices = crashes},
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -150,7 +152,8 @@ const struct rg_command rg_command_bisect = {
     .name = "bisect",
     .reader = RG_FOR_DRIVERS,
     .usage = "[--good A --bad B] --run COMMAND [--list FILE | CANDIDATE...] [--json]",
-    .about = "finds the first bad driver or build of several, or judges for `git bisect run`",
+    .about = "finds the first bad one of several drivers or builds, or judges a commit for `git "
+             "bisect run`",
     .options = options,
     .options_size = sizeof(struct bisect_options),
     .run = bisect,

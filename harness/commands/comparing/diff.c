@@ -26,15 +26,15 @@ struct diff_options {
 static const struct rg_option options[] = {
     RG_GROUP_OF(1, "What to compare: a technique on devices"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
-     .about = "draws one frame on every pair of devices; `raingauge list techniques` prints "
-              "the names",
+     .about = "the technique whose frame each pair of devices draws; `raingauge list techniques` "
+              "prints the names",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_frame_option, AT(frames), "60"),
     RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     {RG_OPTION_FLAG, "mutants", .offset = AT(mutants),
-     .about = "for a pair that misses its tier, names the mutants of `raingauge verify` that "
-              "the tier it reaches would let pass"},
+     .about = "for a pair that misses its tier, names the mutants (deliberate faults) of "
+              "`raingauge verify` that the tier it reaches would accept"},
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_GROUP_OF(2, "What to compare: two files"),
@@ -43,14 +43,14 @@ static const struct rg_option options[] = {
     {RG_OPTION_OPERAND, .argument = "A B", .about = "picture files of one size; A is the reference",
      .names = RG_NAMES_FILE, .first = 1},
     {RG_OPTION_TEXT, "background", .argument = "FILE",
-     .about = "the picture without rain: only differences where it rains count",
+     .about = "the picture without rain; only differences where it rains count",
      .offset = AT(background), .names = RG_NAMES_FILE},
-    RG_GROUP("Either"),
+    RG_GROUP("For both"),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "PREFIX",
      .about = "writes heat maps, and each device's picture as EXR, into files whose names begin "
-              "with this",
+              "with PREFIX",
      .offset = AT(heatmap_prefix), .letter = 'o', .names = RG_NAMES_FILE},
     RG_INCLUDE(rg_exposure_option, AT(exposure), "1"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
@@ -116,8 +116,8 @@ const struct rg_command rg_command_diff = {
     .name = "diff",
     .reader = RG_FOR_DRIVERS,
     .usage = "TECHNIQUE [--device A,B,...]  |  A.exr B.exr [--background FILE]",
-    .about = "compares pictures of devices in pairs, or two files; -o PREFIX writes heat "
-             "maps",
+    .about = "compares the pictures of devices pair by pair, or two picture files; -o PREFIX "
+             "writes heat maps",
     .options = options,
     .options_size = sizeof(struct diff_options),
     .run = diff,

@@ -43,59 +43,62 @@ struct gate_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to compare"),
     {RG_OPTION_OPERAND, .argument = "A B",
-     .about = "two devices; B is judged against A. Each may have an environment, as in "
-              "'new=vulkan@DRIVER=PREFIX'",
+     .about = "two devices; the gate judges B against A. A device may have its own environment "
+              "variables or driver, such as 'new=vulkan@DRIVER=PREFIX'",
      .names = RG_NAMES_DEVICE, .first = 1, .last = 2},
     {RG_OPTION_TEXT, "against", .argument = "BINARY",
-     .about = "judges this build's devices against those of another raingauge, instead of A "
-              "and B",
+     .about = "judges this build's devices against the same devices under another raingauge build, "
+              "instead of A and B",
      .offset = AT(against), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXT, "baseline", .argument = "FILE",
-     .about = "judges devices against what `raingauge baseline -o` wrote, instead of A and B",
+     .about =
+         "judges devices against a baseline that `raingauge baseline -o` wrote, instead of A and B",
      .offset = AT(baseline), .names = RG_NAMES_FILE, .excludes = "against"},
     RG_INCLUDE(rg_devices_option, AT(devices.names), NULL),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     {RG_OPTION_TEXT, "cells", .argument = "FILE",
-     .about = "a file of cells to run, one a line (docs/expectations.md); without it, the "
-              "built-in ones",
+     .about = "a file of cells to run, one a line (docs/expectations.md); without this option, the "
+              "built-in cells",
      .offset = AT(cells), .names = RG_NAMES_FILE},
     {RG_OPTION_FACTOR, "margin", .argument = "PERCENT",
-     .about = "how much longer B's frames may take. Without it 5, or 10 against a baseline, "
-              "since whole runs differ in speed",
+     .about = "how much longer B's frames may take. Default: 5, or 10 against a baseline, because "
+              "whole runs differ in speed",
      .offset = AT(margin_percent), .most = 100},
     {RG_OPTION_FLAG, "pictures",
-     .about = "compares pictures, states and counters, and times nothing",
+     .about = "compares only pictures, states and counters, and times nothing",
      .offset = AT(pictures_only), .excludes = "margin budget"},
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "ends within this time of its start, as 90s or 4m. Cells that are undecided by "
-              "then are inconclusive; a time too short for any verdict is refused",
+     .about =
+         "ends the gate this long after its start, such as 90s or 4m. Cells that are undecided by "
+         "then are inconclusive; the gate refuses a time too short for any verdict",
      .offset = AT(budget)},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
-    RG_GROUP("What is known"),
+    RG_GROUP("Known failures"),
     {RG_OPTION_TEXTS, "expectations", .argument = "FILE",
      .about = "a file of expected failures, flakes and skips (docs/expectations.md)",
      .offset = AT(known[RG_FORM_OWN]), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXTS, "fails", .argument = "FILE",
-     .about = "expected failures, as Mesa's *-fails.txt has them",
+     .about = "a file of expected failures, in the format of Mesa's *-fails.txt",
      .offset = AT(known[RG_FORM_FAILS]), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXTS, "flakes", .argument = "FILE",
-     .about = "expected flakes, as Mesa's *-flakes.txt has them",
+     .about = "a file of expected flakes, in the format of Mesa's *-flakes.txt",
      .offset = AT(known[RG_FORM_FLAKES]), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXTS, "skips", .argument = "FILE",
-     .about = "cells to skip, as Mesa's *-skips.txt has them", .offset = AT(known[RG_FORM_SKIPS]),
-     .names = RG_NAMES_FILE},
+     .about = "a file of cells to skip, in the format of Mesa's *-skips.txt",
+     .offset = AT(known[RG_FORM_SKIPS]), .names = RG_NAMES_FILE},
     {RG_OPTION_FLAG, "update",
-     .about = "rewrites the files of --expectations and --fails to fit this run; `git diff` "
-              "shows what changed",
+     .about = "rewrites the files of --expectations and --fails to match this run; `git diff` "
+              "shows the changes",
      .offset = AT(update), .excludes = "gtest_filter gtest_list_tests"},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
-     .about = "writes differing pictures of A and B with heat maps, and every launch, into "
-              "this folder. After Ctrl-C the same command goes on there. Without it, --junit FILE "
-              "puts pictures into FILE-pictures",
+     .about = "writes differing pictures of A and B with heat maps, and every launch, into this "
+              "folder. After Ctrl-C the same command continues from there. Without this option, "
+              "--junit FILE puts pictures into FILE-pictures",
      .offset = AT(pictures), .letter = 'o', .names = RG_NAMES_FOLDER},
     {RG_OPTION_FLAG, "fresh",
-     .about = "begins anew, and ignores launches that the folder of -o keeps", .offset = AT(fresh)},
+     .about = "begins anew, and ignores the launches stored in the folder of -o",
+     .offset = AT(fresh)},
     RG_INCLUDE(rg_report_options, AT(reports), NULL),
     RG_INCLUDE(rg_gtest_options, AT(gtest), NULL),
     {RG_OPTION_END},
@@ -370,7 +373,8 @@ const struct rg_command rg_command_gate = {
     .usage = "{A B | {--against BINARY | --baseline FILE} [--device D,...|all]} [--require D,...] "
              "[--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--expectations "
              "FILE]... [--update] [--junit FILE] [--bmf FILE] [--github] [--json]",
-    .about = "tells whether device B draws otherwise or slower than A, or than a baseline",
+    .about =
+        "tells whether device B draws different pictures from device A or a baseline, or is slower",
     .options = options,
     .options_size = sizeof(struct gate_options),
     .run = gate,

@@ -8,20 +8,20 @@
 #include "core/base/log.h"
 
 #define AT(field) offsetof(struct rg_gtest_asked, field)
-#define NOTHING   "changes nothing here; runners pass it"
+#define NOTHING   "accepted because runners pass it; has no effect"
 
 const struct rg_option rg_gtest_options[] = {
     RG_GROUP("googletest's protocol"),
-    {RG_OPTION_FLAG, "gtest_list_tests", .about = "prints the names of the cases, and runs none",
+    {RG_OPTION_FLAG, "gtest_list_tests", .about = "prints the names of the cases, and runs no case",
      .offset = AT(list), .excludes = "json github"},
     {RG_OPTION_TEXT, "gtest_filter", .argument = "FILTER",
-     .about = "runs these cases, and prints as googletest does", .offset = AT(filter),
+     .about = "runs only these cases, and prints in googletest's format", .offset = AT(filter),
      .excludes = "json github"},
     {RG_OPTION_TEXT, "gtest_output", .argument = "xml:FILE",
-     .about = "writes JUnit's XML, and prints as googletest does", .offset = AT(output),
+     .about = "writes JUnit XML, and prints in googletest's format", .offset = AT(output),
      .excludes = "json github junit"},
     {RG_OPTION_INT, "gtest_repeat", .argument = "N",
-     .about = "only 1 is accepted: the gate itself plans how often it measures a case",
+     .about = "must be 1: the gate itself decides how often it measures a case",
      .offset = AT(repeat), .least = 1, .most = 1},
     {RG_OPTION_TEXT, "gtest_color", .argument = "WHEN", .about = NOTHING, .offset = AT(color)},
     {RG_OPTION_TEXT, "gtest_random_seed", .argument = "N", .about = NOTHING, .offset = AT(seed)},

@@ -31,7 +31,7 @@ static const struct rg_option options[] = {
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     {RG_OPTION_INT, "count", .argument = "N",
-     .about = "frames to time whole, and as many again that wait after each pass",
+     .about = "number of frames to time without waits; as many more frames wait after each pass",
      .offset = AT(frames), .least = 1, .most = 1000, .initial = "10"},
     RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     RG_GROUP("Devices"),
@@ -40,7 +40,7 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "FILE",
-     .about = "the trace, which ui.perfetto.dev and chrome://tracing open", .offset = AT(output),
+     .about = "the trace file, for ui.perfetto.dev and chrome://tracing", .offset = AT(output),
      .letter = 'o', .initial = "trace.json", .names = RG_NAMES_FILE},
     {RG_OPTION_END},
 };
@@ -107,7 +107,7 @@ const struct rg_command rg_command_trace = {
     .reader = RG_FOR_DRIVERS,
     .usage = "TECHNIQUE [--device D,...|all] [--count N] [--size WxH] [--set KEY=VALUE]... "
              "[-o FILE]",
-    .about = "writes frames and their passes on each device as a timeline for Perfetto",
+    .about = "times frames and their passes on each device, and writes a timeline for Perfetto",
     .options = options,
     .options_size = sizeof(struct trace_options),
     .run = trace_command,

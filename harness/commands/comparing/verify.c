@@ -27,23 +27,22 @@ struct verify_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to verify"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
-     .about = "techniques to verify, all if none is named; `raingauge list techniques` prints "
-              "the names",
+     .about = "techniques to verify; `raingauge list techniques` prints the names, and no name "
+              "means all techniques",
      .names = RG_NAMES_TECHNIQUE, .first = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     {RG_OPTION_FLAG, "quick", .offset = AT(length.quick), .excludes = "full",
-     .about = "runs the poses that show most, for few steps (100, unless a pose says "
-              "otherwise)"},
+     .about = "runs only the poses that show most, for few steps (100, unless a pose has its own "
+              "number)"},
     {RG_OPTION_FLAG, "full", .offset = AT(length.full),
-     .about =
-         "runs every pose with three seeds, for all its steps (1,000, unless it says "
-         "otherwise). Without either: a fifth of the steps, with three seeds of the first pose "
-         "and one of each other"},
+     .about = "runs every pose with three seeds, for all its steps (1,000, unless a pose has its "
+              "own number). Without --quick and --full: a fifth of the steps, with three seeds for "
+              "the first pose and one seed for each other pose"},
     RG_INCLUDE(rg_frame_option, AT(steps), NULL),
     RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     {RG_OPTION_FLAG, "stages", .offset = AT(stages),
-     .about = "names the first stage that leaves other bits in an asset, and verifies nothing "
-              "else; 3 frames"},
+     .about = "draws 3 frames, or those of --frame, names the first stage that leaves different "
+              "bits in an asset, and verifies nothing else"},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -202,8 +201,8 @@ const struct rg_command rg_command_verify = {
     .name = "verify",
     .reader = RG_FOR_DRIVERS,
     .usage = "[TECHNIQUE...] [--device D,...|all] [--quick|--full] [--set KEY=VALUE]... [--json]",
-    .about = "checks that all devices compute the same states and pictures, that laws hold, "
-             "and that mutants are noticed",
+    .about = "checks that all devices compute the same states and pictures, that laws hold, and "
+             "that mutants (deliberate faults) are noticed",
     .options = options,
     .options_size = sizeof(struct verify_options),
     .run = verify,

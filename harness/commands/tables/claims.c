@@ -32,18 +32,19 @@ struct claims_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
     {RG_OPTION_OPERAND, .argument = "ID",
-     .about = "a table whose claims to decide, or a file with one of your own; with --budget, "
-              "--quick or --full all that have "
-              "claims if none is named",
+     .about = "a table whose claims to decide, or a file with a table of your own. With --budget, "
+              "--quick or --full, no name means all tables that have claims",
      .names = RG_NAMES_TABLE, .first = 1},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "starts no launch later than this after the command's start, as 30m or 8h; open "
-              "claims then say how much more they need",
+     .about = "starts no launch later than this time after the command's start, such as 30m or 8h; "
+              "open claims then say how many more launches they need",
      .offset = AT(budget)},
-    {RG_OPTION_FLAG, "fresh", .about = "ignores what an interrupted run kept", .offset = AT(fresh)},
+    {RG_OPTION_FLAG, "fresh", .about = "ignores the measurements that an interrupted run stored",
+     .offset = AT(fresh)},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
-     .about = "judges launches that -o or an interrupted run wrote there, and measures nothing",
+     .about = "judges the launches stored in FILE or DIR by -o or an interrupted run, and measures "
+              "nothing",
      .offset = AT(from), .names = RG_NAMES_FILE,
      .excludes = "device quick full fresh budget output"},
     RG_GROUP("Devices"),
@@ -51,9 +52,9 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
-    {RG_OPTION_CHOICE, "format", .about = "the form of the output", .offset = AT(format),
+    {RG_OPTION_CHOICE, "format", .about = "the format of the output", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
-    {RG_OPTION_FLAG, "wide", .about = "prints the section and the reason of each verdict",
+    {RG_OPTION_FLAG, "wide", .about = "prints each claim's section and the reason for its verdict",
      .offset = AT(wide), .excludes = "format json"},
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "writes the tables with their launches into this folder, in every format",
@@ -169,7 +170,7 @@ const struct rg_command rg_command_claims = {
     .reader = RG_FOR_PAPERS,
     .usage = "[ID...] [--device D,...|all] [--quick|--full] [--budget TIME] [--fresh] "
              "[--from FILE|DIR] [--wide] [--format F|--json] [-o DIR]",
-    .about = "decides whether the papers' claims about their tables hold, by many launches",
+    .about = "decides by many launches whether the papers' claims about their tables hold",
     .options = options,
     .options_size = sizeof(struct claims_options),
     .run = claims,

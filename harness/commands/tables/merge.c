@@ -16,14 +16,15 @@ struct merge_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to merge"),
     {RG_OPTION_OPERAND, .argument = "PLAN DIR...",
-     .about = "a plan, and the folders that its shards wrote to", .names = RG_NAMES_FILE,
+     .about = "a plan, and the folders with the records of its shards", .names = RG_NAMES_FILE,
      .first = 1},
-    {RG_OPTION_FLAG, "partial", .about = "merges what is there, though cells are missing",
+    {RG_OPTION_FLAG, "partial",
+     .about = "merges the records that are there, even if cells are missing",
      .offset = AT(partial)},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
-     .about = "writes the tables into this folder, in every format; where machines differ, each "
-              "comparison key has a folder in it",
+     .about = "writes the tables into this folder, in every format; if machines differ, each "
+              "comparison key has its own folder in DIR",
      .offset = AT(output), .letter = 'o', .names = RG_NAMES_FOLDER},
     {RG_OPTION_END},
 };
@@ -81,7 +82,7 @@ const struct rg_command rg_command_merge = {
     .name = "merge",
     .reader = RG_FOR_PAPERS,
     .usage = "PLAN DIR... [--partial] -o DIR",
-    .about = "makes one run of the records that a plan's shards left",
+    .about = "merges the records of a plan's shards into one run",
     .options = options,
     .options_size = sizeof(struct merge_options),
     .run = merge,

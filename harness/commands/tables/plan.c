@@ -32,23 +32,23 @@ struct plan_options {
 static const struct rg_option options[] = {
     RG_GROUP("What to plan"),
     {RG_OPTION_OPERAND, .argument = "ID|PLAN DIR",
-     .about = "tables; `raingauge list tables` prints them, and without any all are meant. With "
-              "--missing a plan and the folders of its records",
+     .about = "tables to plan; `raingauge list tables` prints the names, and no name means all "
+              "tables. With --missing: a plan, and the folders of its records",
      .names = RG_NAMES_TABLE, .first = 1},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     RG_INCLUDE(rg_devices_option, AT(devices), "cpu"),
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
-     .about = "earlier results, by which it is expected how long cells take", .offset = AT(from),
-     .names = RG_NAMES_FILE},
+     .about = "earlier results, from which the plan estimates how long each cell takes",
+     .offset = AT(from), .names = RG_NAMES_FILE},
     {RG_OPTION_INT, "shards", .argument = "N",
-     .about = "the number of shards; a plan that has one is cut into no other",
+     .about = "the number of shards; the plan can then be divided into no other number",
      .offset = AT(shards), .least = 1, .most = MOST_SHARDS},
     {RG_OPTION_TEXT, "output", .argument = "FILE", .about = "where to write the plan",
      .offset = AT(output), .letter = 'o', .names = RG_NAMES_FILE},
-    RG_GROUP("What is left"),
+    RG_GROUP("What is missing"),
     {RG_OPTION_FLAG, "missing",
-     .about = "prints the shards that lack records, as `sbatch --array` takes them, and nothing "
-              "where none does",
+     .about = "prints the shards that lack records, in the form that `sbatch --array` takes; "
+              "prints nothing if no shard lacks one",
      .offset = AT(missing), .excludes = "quick full device from output"},
     {RG_OPTION_END},
 };
@@ -185,7 +185,7 @@ const struct rg_command rg_command_plan = {
     .reader = RG_FOR_PAPERS,
     .usage = "[ID...] [--device D,...] [--quick|--full] [--from FILE|DIR] [--shards N] -o FILE  |  "
              "--missing PLAN DIR... [--shards N]",
-    .about = "plans cells for several machines, by how long each is expected to take",
+    .about = "divides cells among several machines, by how long each cell is expected to take",
     .options = options,
     .options_size = sizeof(struct plan_options),
     .run = run,

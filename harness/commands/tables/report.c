@@ -26,23 +26,25 @@ static const char *const formats[] = {"html", "md", "badge", NULL};
 static const struct rg_option options[] = {
     RG_GROUP("What to show"),
     {RG_OPTION_OPERAND, .argument = "RECORDS...",
-     .about = "files or folders of JSON that commands wrote: tables, gates, baselines, diffs, "
-              "verify, doctor, render. A Markdown file adds the pictures that it shows",
+     .about = "JSON files, or folders of these, that commands wrote: tables, gates, baselines, "
+              "diffs, verify, doctor, render. A Markdown file adds its pictures to the page",
      .names = RG_NAMES_FILE, .first = 1},
     {RG_OPTION_TEXT, "against", .argument = "RECORDS",
-     .about = "a file or folder of earlier records: the page shows what changed since",
+     .about = "a file or folder of earlier records: the page shows what has changed since",
      .offset = AT(against), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXT, "kept", .argument = "DIR",
-     .about = "takes verdicts on claims from launches that `raingauge claims -o` wrote there",
+     .about =
+         "takes verdicts on claims from launches that `raingauge claims -o` wrote into this folder",
      .offset = AT(kept), .names = RG_NAMES_FOLDER},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_CHOICE, "format",
-     .about = "a page; Markdown below 60 kB for a merge request; a badge as SVG",
+     .about =
+         "the output's format: a page; Markdown below 60 kB for a merge request; a badge as SVG",
      .offset = AT(format), .choices = formats, .initial = "html"},
     {RG_OPTION_TEXT, "output", .argument = "FILE",
-     .about = "where to write; without it, a page goes to report.html, and the other forms "
-              "are printed",
+     .about = "output file; without this option, a page goes to report.html, and the other formats "
+              "to stdout",
      .offset = AT(output), .letter = 'o', .names = RG_NAMES_FILE},
     {RG_OPTION_END},
 };
@@ -93,7 +95,7 @@ const struct rg_command rg_command_report = {
     .name = "report",
     .reader = RG_FOR_ALL,
     .usage = "RECORDS... [--against RECORDS] [--kept DIR] [--format html|md|badge] [-o FILE]",
-    .about = "makes one page for people from records: tables, claims, gates, pictures",
+    .about = "turns records (tables, claims, gates, pictures) into one page for people",
     .options = options,
     .options_size = sizeof(struct report_options),
     .run = report,

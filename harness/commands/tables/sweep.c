@@ -40,9 +40,9 @@ static const struct rg_option options[] = {
      .about = "the technique to time; `raingauge list techniques` prints the names",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     {RG_OPTION_TEXTS, "axis", .argument = "KEY=VALUES",
-     .about = "a parameter and its values: 5,10,40; or 5,10..40 in equal steps. With two axes "
-              "each value of one meets each of the other. device=cpu,gl names devices, as --device "
-              "does (default cpu)",
+     .about = "a parameter and its values: 5,10,40; or 5,10..40 in equal steps. Two axes combine "
+              "each value of one with each value of the other. device=cpu,gl names devices, as "
+              "--device does (default cpu)",
      .offset = AT(axes), .names = RG_NAMES_PARAMETER},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_size_option, AT(size), "1280x720"),
@@ -50,7 +50,8 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_FLAG, "dry-run", .about = "prints the plan, and measures nothing",
      .offset = AT(dry_run)},
-    {RG_OPTION_FLAG, "fresh", .about = "ignores what an interrupted run kept", .offset = AT(fresh)},
+    {RG_OPTION_FLAG, "fresh", .about = "ignores the measurements that an interrupted run stored",
+     .offset = AT(fresh)},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), NULL),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -58,7 +59,7 @@ static const struct rg_option options[] = {
     RG_GROUP("Output"),
     {RG_OPTION_FLAG, "wide", .about = "prints all columns and notes, one line a cell",
      .offset = AT(wide), .excludes = "format json"},
-    {RG_OPTION_CHOICE, "format", .about = "the form of the output", .offset = AT(format),
+    {RG_OPTION_CHOICE, "format", .about = "the format of the output", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "writes the table into this folder too, in every format", .offset = AT(output),

@@ -55,50 +55,54 @@ static const char *const works[] = {"paper", "reading", "ours", "queries", NULL}
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
     {RG_OPTION_OPERAND, .argument = "ID",
-     .about = "tables to measure; `raingauge list tables` prints the names. A name with a slash, "
-              "or that ends in .table, is a file with a table of your own (docs/tables.md). With "
-              "--budget, --quick, --full, --from or --compile all papers' are meant if none is "
-              "named",
+     .about =
+         "tables to measure; `raingauge list tables` prints the names. A name that has a slash or "
+         "ends in .table is a file with a table of your own (docs/tables.md). With --budget, "
+         "--quick, --full, --from or --compile, no name means all tables of the papers",
      .names = RG_NAMES_TABLE, .first = 1},
     {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
      .offset = AT(rows), .least = 1, .most = INT_MAX},
     {RG_OPTION_CHOICE, "work",
-     .about = "only this work, where a table has several: as printed, by another reading of "
-              "the paper, ours, or with the API's occlusion queries",
+     .about = "measures only this kind of work: paper, as the paper describes it; reading, as the "
+              "paper can also be read; ours, with everything that saves work; queries, with the "
+              "API's occlusion queries",
      .offset = AT(work), .choices = works},
     {RG_OPTION_TEXT, "variant", .argument = "NAME",
      .about = "only this variant of each row: full, no_geometry", .offset = AT(variant)},
     {RG_OPTION_TEXTS, "set", .argument = "KEY=VALUE",
-     .about = "sets a parameter in all cells, over what their rows set; the result is then "
-              "not compared with print",
+     .about = "sets a parameter in all cells and overrides their rows; the result is then not "
+              "compared with print",
      .offset = AT(sets)},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "measures as much as fits into this time from the command's start, as 90s or "
-              "4m: first the rows that curves and claims need, on small pictures, then more. Says "
-              "at the end what was left out",
+     .about = "measures as much as fits into this time from the command's start, such as 90s or "
+              "4m: first the rows that curves and claims need, in small pictures, then more. The "
+              "end of the output says what is missing",
      .offset = AT(budget), .excludes = "full rows work variant set from fresh"},
-    {RG_OPTION_FLAG, "fresh", .about = "ignores what an interrupted run kept", .offset = AT(fresh)},
+    {RG_OPTION_FLAG, "fresh", .about = "ignores the measurements that an interrupted run stored",
+     .offset = AT(fresh)},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
-     .about = "prints results that -o, --json or an interrupted run wrote there, and measures "
+     .about = "prints the results stored in FILE or DIR by -o, --json or an interrupted run, and "
+              "measures "
               "nothing",
      .offset = AT(from), .names = RG_NAMES_FILE, .excludes = "device quick full fresh set"},
     {RG_OPTION_FLAG, "compile",
-     .about = "has drivers compile and cache what the tables need, side by side, and measures "
+     .about = "lets all drivers compile and cache the tables' shaders side by side, and measures "
               "nothing",
      .offset = AT(compile),
      .excludes = "full quick rows work variant set from fresh budget claims kept format wide "
                  "output json"},
     RG_GROUP("A plan of several machines (docs/farm.md)"),
     {RG_OPTION_TEXT, "plan", .argument = "FILE",
-     .about = "measures what `raingauge plan -o` planned, on its devices; -o names the folder of "
-              "the records, one a group of cells, and what is there is not measured again",
+     .about = "measures the cells of a plan that `raingauge plan -o` wrote, on the plan's devices. "
+              "-o names the folder for the records, one a group of cells; groups with a record "
+              "there are skipped",
      .offset = AT(plan), .names = RG_NAMES_FILE,
      .excludes = "rows work variant set quick full budget fresh from compile device require claims "
                  "kept format wide json"},
     {RG_OPTION_TEXT, "shard", .argument = "I/N|auto",
-     .about = "only this shard of N, from 1; auto reads Slurm's, CI_NODE_INDEX' or googletest's "
-              "variables",
+     .about = "measures only shard I of N, counted from 1; auto reads the variables of Slurm, "
+              "CI_NODE_INDEX or those of googletest",
      .offset = AT(shard)},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
@@ -106,18 +110,18 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_FLAG, "claims",
-     .about = "prints the papers' claims about the tables and whether they hold, instead of "
-              "the tables",
+     .about = "prints the papers' claims about the tables, and whether each claim holds, instead "
+              "of the tables",
      .offset = AT(claims)},
     {RG_OPTION_TEXT, "kept", .argument = "DIR",
-     .about = "with --claims: takes verdicts from launches that `raingauge claims -o` wrote "
-              "there, and says where today's figures differ",
+     .about = "with --claims: takes verdicts from launches that `raingauge claims -o` wrote into "
+              "this folder, and says where today's figures differ",
      .offset = AT(kept), .names = RG_NAMES_FOLDER},
-    {RG_OPTION_CHOICE, "format", .about = "the form of the output", .offset = AT(format),
+    {RG_OPTION_CHOICE, "format", .about = "the format of the output", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
     {RG_OPTION_FLAG, "wide",
-     .about = "prints all columns and notes, one line a cell; with --claims the reason of "
-              "every verdict",
+     .about = "prints all columns and notes, one line a cell; with --claims, the reason for every "
+              "verdict",
      .offset = AT(wide), .excludes = "format json"},
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "writes each table into this folder too, in every format", .offset = AT(output),
@@ -434,7 +438,8 @@ const struct rg_command rg_command_table = {
              "F|--json] [-o DIR] "
              "[--budget TIME] [--fresh] [--from FILE|DIR] [--compile] [--plan FILE [--shard "
              "I/N|auto]]",
-    .about = "measures the papers' tables on every device, beside the published numbers",
+    .about =
+        "measures the papers' tables on every device, and prints them beside the published numbers",
     .options = options,
     .options_size = sizeof(struct table_options),
     .run = table,

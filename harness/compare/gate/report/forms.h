@@ -18,14 +18,16 @@ enum rg_report_where {
 // Id, destination, name of the option or variable, help text of the option, the option that it
 // excludes (NULL: none), writer. Reports are written in this order.
 #define RG_REPORT_FORMS(ROW)                                                                       \
-    ROW(JUNIT, FILE, "junit", "writes JUnit's XML (docs/ci.md)", NULL, rg_report_junit)            \
+    ROW(JUNIT, FILE, "junit", "writes JUnit XML (docs/ci.md)", NULL, rg_report_junit)              \
     ROW(BMF, FILE, "bmf", "writes Bencher's metric format", NULL, rg_report_bmf)                   \
-    ROW(JSON, INSTEAD, "json", "results in machine form (docs/records.md)", NULL, rg_report_json)  \
+    ROW(JSON, INSTEAD, "json", "prints machine-readable JSON (docs/records.md)", NULL,             \
+        rg_report_json)                                                                            \
     ROW(GTEST, DEFAULT, NULL, NULL, NULL, rg_gtest_print)                                          \
     ROW(TEXT, DEFAULT, NULL, NULL, NULL, rg_report_text)                                           \
     ROW(GITHUB, BELOW, "github",                                                                   \
-        "prints GitHub's annotations, and appends to the file of $GITHUB_STEP_SUMMARY", "json",    \
-        rg_report_annotations)                                                                     \
+        "prints GitHub's annotations, and appends a summary to the file that "                     \
+        "$GITHUB_STEP_SUMMARY names",                                                              \
+        "json", rg_report_annotations)                                                             \
     ROW(SUMMARY, APPENDED, "GITHUB_STEP_SUMMARY", NULL, NULL, rg_report_markdown)
 
 #define RG_REPORT_ENUM(id, ...) RG_AS_##id,
