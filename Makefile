@@ -141,13 +141,16 @@ claims: committed build
 	@mkdir -p $(CLAIMS)
 	@python3 results/keep.py $(BUILD)/claims $(CLAIMS)
 
+# One test more than there are cores, since some wait: for drivers that hang, and for locks.
+AT_ONCE = --num-processes $$(($$(nproc) + 1))
+
 test: whole $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@echo "== building in $(ASAN)"
 	@$(STEPS) $(ASAN)/build.log ninja -C $(ASAN)
 	@echo "== testing, all devices"
-	@meson test -C $(BUILD) --no-rebuild --print-errorlogs || true
+	@meson test -C $(BUILD) --no-rebuild --print-errorlogs $(AT_ONCE) || true
 	@echo "== testing under sanitizers, the CPU devices and the harness"
-	@meson test -C $(ASAN) --no-rebuild --print-errorlogs --suite sanitized || true
+	@meson test -C $(ASAN) --no-rebuild --print-errorlogs $(AT_ONCE) --suite sanitized || true
 	@echo "== testing in $(TSAN): whether threads race"
 	@meson test -C $(TSAN) --print-errorlogs --suite watched || true
 	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json \

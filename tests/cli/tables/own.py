@@ -113,9 +113,9 @@ def check_wrong(runner):
     """a file that is wrong is refused by one line with its file, the line and the mend, before a device is opened"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
-        for text, line, told, *head in WRONG:
+        for number, (text, line, told, *head) in enumerate(WRONG):
             path = write(tmp, (head[0] if head else HEAD) + text + "\n")
-            for command in ("table", "claims"):
+            for command in ("table", "claims") if number < 2 else ("table",):  # claims reads files as table does
                 done = runner.run([command, path, "--device", "cpu", "-o", tmp + "/none"])
                 place = "%s:%d: " % (path, line) if line else ""
                 if done.returncode != 2 or done.stdout or not re.fullmatch("raingauge: %s.*(%s).*\n" % (re.escape(place), told), done.stderr):
