@@ -5,9 +5,8 @@
 #include "core/scene/atlas/atlas.h"
 
 // A hash of a few coarse streaks, the water of all splashes, how one is seen, and the resolution of
-// the size. A cached file with
-// another hash comes from another tracer. Takes some milliseconds. That
-// of a packed atlas has splashes alone. 0 when memory runs out.
+// the size. A cached file with another hash comes from another tracer. Takes some milliseconds.
+// That of a packed atlas has splashes alone. 0 when memory runs out.
 uint64_t rg_atlas_sample(enum rg_atlas_size size);
 
 #endif

@@ -11,8 +11,6 @@
 #include "harness/devices/names.h"
 #include "harness/commands/cli/option.h"
 
-enum { MAX_SIZE_PX = 16384 };
-
 static void *at(const struct rg_option *row, void *values)
 {
     return (char *)values + row->offset;
@@ -79,10 +77,8 @@ static bool set_size(const struct rg_option *row, struct rg_size *size, const ch
 {
     if (!rg_pair_read(text, 'x', &size->width, &size->height))
         return rg_error("--%s %s: write it as WIDTHxHEIGHT, as in 1280x720", row->name, text);
-    if (size->width < 1 || size->height < 1 || size->width > MAX_SIZE_PX ||
-        size->height > MAX_SIZE_PX)
-        return rg_error("--%s %s: each side must be 1 to %d pixels", row->name, text, MAX_SIZE_PX);
-    return true;
+    return rg_size_read(text, &size->width, &size->height) ||
+           rg_error("--%s %s: each side must be 1 to %d pixels", row->name, text, RG_MOST_PX);
 }
 
 static bool set_range(const struct rg_option *row, struct rg_range *range, const char *text)

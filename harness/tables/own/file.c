@@ -17,7 +17,7 @@
 
 #define ENDING ".table"
 
-enum { MOST_PX = 16384 };
+enum { MOST_FRAMES = 100000 };
 
 bool rg_own_is_file(const char *name)
 {
@@ -38,10 +38,9 @@ static bool is_name(const char *text)
 static bool take_size(struct rg_own *own, const char *text)
 {
     struct rg_table *t = &own->table;
-    return (rg_pair_read(text, 'x', &t->width, &t->height) && t->width >= 1 && t->height >= 1 &&
-            t->width <= MOST_PX && t->height <= MOST_PX) ||
+    return rg_size_read(text, &t->width, &t->height) ||
            rg_error("size '%.80s': write WIDTHxHEIGHT of 1 to %d pixels, as in 640x360", text,
-                    MOST_PX);
+                    RG_MOST_PX);
 }
 
 // "NAME TECHNIQUE WIDTHxHEIGHT"
@@ -83,12 +82,9 @@ static bool take_variant(struct rg_own *own, char *text)
 
 static bool take_frames(struct rg_own *own, char *text)
 {
-    double frames;
-    if (!rg_own_number("frames", text, &frames) || frames < 1 || frames > 100000 ||
-        frames != floor(frames))
-        return rg_error("frames '%.80s': write a whole number of 1 to 100000", text);
-    own->table.check_frames = (int)frames;
-    return true;
+    int *frames = &own->table.check_frames;
+    return (rg_int_read(text, frames) && *frames >= 1 && *frames <= MOST_FRAMES) ||
+           rg_error("frames '%.80s': write a whole number of 1 to %d", text, MOST_FRAMES);
 }
 
 static bool take_set(struct rg_own *own, char *text)

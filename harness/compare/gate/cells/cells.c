@@ -9,11 +9,12 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "core/base/text/pair.h"
 #include "core/base/text/place.h"
 #include "core/base/files/lines.h"
 #include "shaders/fixed/fixed.h"
 
-enum { MAX_SIZE_PX = 16384, MAX_FRAMES = 100000 };
+enum { MAX_FRAMES = 100000 };
 
 // Names appear in reports, file names and test filters, which limits their characters.
 static bool is_name(const char *name)
@@ -40,33 +41,17 @@ static bool take_technique(struct rg_gate_cell *cell, const char *name)
            rg_error("technique '%.80s': unknown; `raingauge list techniques` prints them", name);
 }
 
-// A whole number of at most `most` that ends at `end`; -1 for anything else.
-static int number(const char *text, char end, int most, const char **rest)
-{
-    long value = 0;
-    const char *c = text;
-    for (; isdigit((unsigned char)*c) && value <= most; c++)
-        value = value * 10 + (*c - '0');
-    *rest = c + (*c != 0);
-    return c > text && *c == end && value <= most ? (int)value : -1;
-}
-
 static bool take_size(struct rg_gate_cell *cell, const char *text)
 {
-    const char *rest;
-    cell->subject.width = number(text, 'x', MAX_SIZE_PX, &rest);
-    cell->subject.height = cell->subject.width > 0 ? number(rest, 0, MAX_SIZE_PX, &rest) : -1;
-    return cell->subject.height > 0 ||
+    return rg_size_read(text, &cell->subject.width, &cell->subject.height) ||
            rg_error("size '%.80s': write WIDTHxHEIGHT of 1 to %d pixels, as in "
                     "128x96",
-                    text, MAX_SIZE_PX);
+                    text, RG_MOST_PX);
 }
 
 static bool take_frames(struct rg_gate_cell *cell, const char *text)
 {
-    const char *rest;
-    cell->frames = number(text, 0, MAX_FRAMES, &rest);
-    return cell->frames >= 0 ||
+    return (rg_int_read(text, &cell->frames) && cell->frames >= 0 && cell->frames <= MAX_FRAMES) ||
            rg_error("frames '%.80s': write a whole number of 0 to %d", text, MAX_FRAMES);
 }
 

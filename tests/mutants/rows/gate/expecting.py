@@ -26,7 +26,7 @@ ROWS = [
     Fault(CELLS, "rg_log_place(«NULL»);", "place", "errors of others name a line of the cells"),
     Fault(CELLS, "return isalnum((unsigned char)*name) && «strlen(name) < RG_GATE_NAME_SIZE»;", "true", "a cell's name that is too long is cut"),
     Fault(CELLS, "return «first == cell» ||", "true", "two cells have one name"),
-    Fault(CELLS, "return c > text && *c == end && «value <= most» ? (int)value : -1;", "true", "a picture may be of any size"),
+    Fault("core/base/text/pair.c", "«*width <= RG_MOST_PX» && *height <= RG_MOST_PX;", "true", "a picture may be of any size"),
     Fault(CELLS, "ok = ok && («cells->count» || rg_error", "true", "a file without a cell is taken"),
     Fault(LINES, "length -= «end && length > 0 && text[length - 1] == '\\r'»;", "0", "files with CR LF are refused"),
     Fault(LINES, "if («rg_control_at(text + i) >= 0 && text[i] != '\\t'»)", "false", "control characters are taken"),
