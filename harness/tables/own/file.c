@@ -211,7 +211,10 @@ static bool finish(struct rg_own *own)
     if (!rg_own_rows(own))
         return rg_error("%s: has no row; write 'row KEY=VALUE' or 'axis KEY=VALUE,VALUE' lines",
                         own->lines.name);
-    if (!rg_grid_make(&own->grid, own->technique))
+    rg_log_place(own->lines.name);
+    const bool is_made = rg_grid_make(&own->grid, own->technique);
+    rg_log_place(NULL);
+    if (!is_made)
         return false;
     memcpy(table->columns, made->columns, sizeof(table->columns));
     table->key_count = made->key_count;

@@ -51,6 +51,7 @@ def check_killed(runner):
     return problems + (["left: %s" % names] if names != ["launches.csv", "page.html"] else [])
 
 
+# One cell, here and below: launches are kept alike of each. check_killed has two.
 def check_kept(runner):
     """a gate takes neither another gate's launches nor damaged ones; a full disk loses nothing; one gate holds a folder"""
     problems = []

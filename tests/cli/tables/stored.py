@@ -10,7 +10,7 @@ from cases import FORMATS, ROOT
 from machine import run_json
 
 ALL_WORKS = "table stuppacher-2 raster-1 --rows 1-1 --device cpu "
-TWO_TABLES = ALL_WORKS + "--work paper "
+TWO_TABLES = ALL_WORKS + "--work paper "  # a table is one however many works it has
 
 
 def check_claims_alone(runner):

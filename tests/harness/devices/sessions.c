@@ -370,7 +370,11 @@ static void workers_share_what_the_user_allows(void **state)
     const int64_t two = rg_memory_taken() - idle;
     assert_above(two, one + one / 2);
     assert_below(two, 2 * one);
+    rg_session_close(second);
     rg_memory_allow(idle + two + one / 2);
+    second = rg_session_open(pair.devices[REMOTE], &pair.subject); // both fit
+    assert_non_null(second);
+    assert_int_equal(rg_memory_taken(), idle + two);
     *logged = 0;
     assert_null(rg_session_open(other, &pair.subject));
     assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT);

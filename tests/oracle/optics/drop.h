@@ -21,7 +21,8 @@ double oracle_drop_radius(const struct oracle_drop *drop, const double n[3]);
 
 // The sources of the light on a ray from `start` in direction `ray`, against the light's way. Each
 // way of light (reflected; refracted; with one to three reflections inside) gets a unit vector
-// towards its source and its share. False if the ray misses the drop.
+// towards its source and its share. False if the ray misses the drop, or is lost within it (6 in
+// 100,000 of a sphere's): then shares mean nothing.
 bool oracle_drop_light(const struct oracle_drop *drop, const double start[3], const double ray[3],
                        double direction[ORACLE_WAYS][3], double share[ORACLE_WAYS]);
 

@@ -162,6 +162,7 @@ static void expect_flux(const struct rain *r, const char *more)
     assert_below(fabs(water - 1), 0.02);
     // Kolmogorov-Smirnov test at 1 % for drops of these weights, and half a class of 512.
     assert_below(most, 1.63 * spread(&is) + 0.001);
+    assert_below(spread(&is), 2 / sqrt((double)count)); // or weights are too uneven
     rain_close(s);
 }
 

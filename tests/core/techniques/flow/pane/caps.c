@@ -78,7 +78,7 @@ static struct cap cap_at_rest(int resolution_px, double radius_mm)
 
 static void expect_near(const char *what, double found, double due, double share)
 {
-    if (fabs(found / due - 1) > share)
+    if (!(fabs(found / due - 1) <= share))
         fail_msg("%s: %.5g mm, not %.5g", what, found, due);
 }
 

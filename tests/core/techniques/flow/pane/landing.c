@@ -57,6 +57,7 @@ static void test_small_drops_land_whole(void **state)
         rig_open(&rig, "cpu", text);
         const double sourced = sourced_mm3(&rig, 30), landed = told(&rig, "landed_mm3");
         print_message("%s: %.9g mm3 of %.9g\n", cases[i], sourced, landed);
+        assert_above(landed, 0);
         assert_below(fabs(sourced - landed), droplet_mm3(&rig) + 1e-9 * landed);
         rig_close(&rig);
     }
@@ -78,7 +79,9 @@ static void test_the_rate_of_paper_is_what_lands(void **state)
         const double mm_h = told(&rig, "pane_rain_mm_h"), side = rig.settings.pane_mm;
         const double landed_mm_h = sourced_mm3(&rig, 1800) / (side * side) / 30 * 3600;
         print_message("%s: %g mm/h, and %g landed\n", cases[i], mm_h, landed_mm_h);
-        assert_below(fabs(mm_h / landed_mm_h - 1), 0.01);
+        assert_below(fabs(mm_h / landed_mm_h - 1), 0.01); // 30,000 drops leave 0.5 % to chance
+        if (i == 0) // by the midpoint rule: radii of 1 + 3 t^2 mm, as high as wide, less the edges
+            assert_below(fabs(mm_h / 4375.35 - 1), 1e-4);
         rig_close(&rig);
     }
 }

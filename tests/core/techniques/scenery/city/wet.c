@@ -46,10 +46,12 @@ static void facets_mirror_as_the_oracle_says(void **state)
                 const double lamp =
                     gleam(SCENERY_SPOT, way, to) / scene_film(normal, way, to, 0.25);
                 const double sun = gleam(SCENERY_SUN, way, to) / scene_film(normal, way, to, 0.6);
+                if (!(fabs(lamp - 1) < 1e-5 && fabs(sun - 1) < 1e-5)) // also where one is no number
+                    fail_msg("eye %g, light %g, azimuth %d: a lamp %g, a sun %g of what is due",
+                             heights[eye], heights[light], azimuth, lamp, sun);
                 most = fmax(most, fmax(fabs(lamp - 1), fabs(sun - 1)));
             }
     print_message("%.2g apart at most\n", most);
-    assert_below(most, 1e-5);
 }
 
 // What a road shows of a lamp: its own share and what water mirrors. The road under the water is as

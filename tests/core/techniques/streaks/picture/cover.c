@@ -312,13 +312,32 @@ static void test_thin_streaks(void **state)
     expect_all_seen(BESIDE "view_angle_deg=30 drops_m2_s=1 exposure_s=0.0004");
 }
 
+// Between its views, 20 degrees apart, the atlas is blended.
+static void test_views_are_near_enough(void **state)
+{
+    (void)state;
+    double most = 0;
+    for (int step = 0; step <= 18; step++) {
+        double due = 0;
+        for (int oscillation = 0; oscillation < 10; oscillation++)
+            due += section_of(false, oscillation, step * pi / 36) / 10;
+        most = fmax(most, fabs(section_at(false, step * pi / 36) / due - 1));
+    }
+    print_message("a blend of views has a cross-section that is off by %.4f\n", most);
+    assert_below(most, 0.005); // 0.0025
+}
+
 int main(int argc, char **argv)
 {
     find_sections();
     struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_views),        cmocka_unit_test(test_exposures),
-        cmocka_unit_test(test_drops),        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_thin_streaks), cmocka_unit_test(test_faint_light),
+        cmocka_unit_test(test_views),
+        cmocka_unit_test(test_exposures),
+        cmocka_unit_test(test_drops),
+        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_thin_streaks),
+        cmocka_unit_test(test_faint_light),
+        cmocka_unit_test(test_views_are_near_enough),
     };
     return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }

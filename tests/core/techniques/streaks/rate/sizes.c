@@ -297,6 +297,7 @@ static void check_rain(const struct rain *r, const char *more)
     near("rain", rain, integral(r, largest_mm, flux) * there, 0.02);
     // Kolmogorov-Smirnov test at 1 % for drops of these weights, and half a class of 512.
     assert_below(most, 1.63 * spread(drops, count) + 0.001);
+    assert_below(spread(drops, count), 2 / sqrt((double)count)); // or weights are too uneven
     near("rain that is told", told(s, "rain_realised_mm_h"), rain / there, all ? 1e-3 : 0.02);
     near("rain that is kept", told(s, "rain_rate_mm_h"), integral(r, largest_mm, flux), 1e-3);
     near("extinction", told(s, "extinction_per_km"), integral(r, largest_mm, section) / 1000, 1e-3);
