@@ -20,7 +20,7 @@ def blocks(text):
         if line.lstrip().startswith('```'):
             fenced = not fenced
             line = ''
-        if not lines and re.match(r'    \S|\t', line):
+        if not lines and re.match(r'    |\t', line):
             continue
         begins = re.match(r'\s*([-*+]|\d+\.)\s+|#+\s|\s*\||\s*>', line)
         if fenced or not line.strip() or begins:
