@@ -60,7 +60,8 @@ RG_STRUCT(streaks_params)
     // within 0 to 1.
     float splash_last, splash_fade;
     int splash_matt; // whether light falls on splashes by Lambert's law, as in the thesis
-    int nothing;     // makes whole rows of four
+    // 1 / m: the ground's distance from the camera whose frustum the rain space is; 0: a box.
+    float narrowing;
 };
 RG_STRUCT_SIZE(streaks_params, 104)
 

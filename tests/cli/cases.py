@@ -399,6 +399,8 @@ RENDERS = [
     Case(SHOWN + "--set spectrum=best --set packets=kd --set memory_mb=1 -o {tmp}/a.png", 77, r"lower kept_share or local_height_m"),
     Case(RAIN + "--set camera=free --set eye_y_m=-3 -o {tmp}/a.png", 2, r"its eye is 3 m below the ground; raise eye_y_m"),
     Case(RAIN + "--set culling_radius_m=5000 -o {tmp}/a.png", 2, r"5000 m is wider than the rain space .*limits=off"),
+    Case(RAIN + "--set outside=frustum -o {tmp}/a.png", 2, r"outside=frustum: limits and states are those of a box; take limits=off and state=off"),
+    Case(RAIN + "--set outside=frustum --set limits=off --set state=on -o {tmp}/a.png", 2, r"outside=frustum: .*state=off"),
     Case(RAIN + "--set local_height_m=500 -o {tmp}/a.png", 2, r"500 m is higher than the rain space"),
     Case(SHOWN + "--set spectrum=best --set normalised=off --set kept_share=1 --set least_diameter_mm=0.1 -o {tmp}/a.png", 77,
          r"spectrum: 2788 drops a cubic metre are 2\.336e\+09 in the local space, at most 2147483647 .*raise least_diameter_mm"),

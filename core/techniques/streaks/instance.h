@@ -76,7 +76,7 @@ struct streaks {
     struct rg_fact *particles_told; // NULL: not told yet
     // of the current frame
     struct streaks_observer observer;
-    struct streaks_observer outside; // the second camera, with outside=space or volume
+    struct streaks_observer outside; // the second camera, unless outside=off
     struct streaks_selection selection;
     streaks_params params;
     int64_t map_due; // the frame in which a dynamic depth map is next redrawn
@@ -141,6 +141,11 @@ const struct streaks_observer *streaks_viewer(const struct streaks *streaks);
 // streaks_outside_close accepts a view that was never opened.
 bool streaks_outside_open(struct streaks *streaks);
 void streaks_outside_close(struct streaks *streaks);
+// 1 over the distance, in metres, of the ground from the camera whose frustum the rain space is; 0
+// if it is a box.
+double streaks_narrowing(const struct streaks *streaks);
+// Converts a point of the rain space as a box to the world, where the space may be a frustum.
+void streaks_world_point(const struct streaks *streaks, const double rain[3], double world[3]);
 // Points the second camera at its target in the current frame. False, and one logged line, on
 // failure.
 bool streaks_outside_look(struct streaks *streaks);

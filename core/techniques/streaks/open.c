@@ -36,6 +36,9 @@ static bool create_space(struct streaks *s)
         return rg_error("culling_radius_m: %.4g m is wider than the rain space of %.4g m x %.4g m; "
                         "take limits=off for rain everywhere",
                         set->culling_radius_m, set->rain_width_m, set->rain_depth_m);
+    if (streaks_narrowing(s) > 0 && (set->limits || set->keeps_state))
+        return rg_error("outside=frustum: limits and states are those of a box; take "
+                        "limits=off and state=off");
     if (set->local_height_m > set->rain_height_m)
         return rg_error("local_height_m: %.4g m is higher than the rain space, rain_height_m=%.4g",
                         set->local_height_m, set->rain_height_m);

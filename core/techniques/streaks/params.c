@@ -82,7 +82,7 @@ static const struct rg_param rows[] = {
     {"splash_fade", RG_PARAM_FLOAT, AT(splash_fade), 0.25, 0, 1, "1", "the outer share of the culling radius in which splashes fade away, so that none is seen to end there", NULL},
     {"far_layers", RG_PARAM_INT, AT(far_layers), 4, 0, 64, "1", "rain beyond the culling radius, as so many layers, each as thick as the radius, which add and hide what their drops would; without limits it rains there anyway", NULL},
     {"overlay", RG_PARAM_CHOICE, AT(overlay), 0, 0, 2, "1", "draws the rain space, the local space, the culling radius, packets and lights as lines; or lights alone", "off on lights"},
-    {"outside", RG_PARAM_CHOICE, AT(outside), 0, 0, 2, "1", "a second camera looks at the whole rain space, or at the volume in which it rains around the observer; drops are marks in the colour of their height", "off space volume"},
+    {"outside", RG_PARAM_CHOICE, AT(outside), 0, 0, 3, "1", "a second camera looks at the whole rain space, at the volume in which it rains around the observer, or, with limits=off, at a rain space that is a perspective camera's frustum, along whose rays drops fall; drops are marks in the colour of their height", "off space volume frustum"},
     {"outside_turn_deg", RG_PARAM_FLOAT, AT(outside_turn_deg), 30, -360, 360, "deg", "where the second camera stands around what it looks at: 0 along x, 90 along z", NULL},
     {"outside_rise_deg", RG_PARAM_FLOAT, AT(outside_rise_deg), 25, 1, 89, "deg", "how high, above the horizon", NULL},
     {"outside_map", RG_PARAM_CHOICE, AT(outside_map), 0, 0, 2, "1", "for outside: the map that lies over the rain, white the densest, or the highest", "none density depth"},

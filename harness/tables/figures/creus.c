@@ -23,6 +23,8 @@ static const float left_map[LEFT_MAP_PX * LEFT_MAP_PX] = {
     0,    0,    0.1f, 0.2f, 0,    0,    //
 };
 
+static const float even_map[1] = {1};
+
 static const char lamp[] =
     "{\"lights\": [{\"type\": \"spot\", \"position_m\": [-3.2, 6, 81], \"direction\": [0, -1, 0],\n"
     "  \"colour\": [1, 0.9, 0.7], \"intensity\": 60, \"inner_deg\": 25, \"outer_deg\": 33}],\n"
@@ -44,6 +46,20 @@ const struct rg_figure rg_figures_creus[] = {
                 "are where says the density map, which lies over the box and stands in the corner; "
                 "what each hits says the depth map below it.",
      .printed = "Rain simulation model basic scheme."},
+    {.id = "creus-4.3",
+     .technique = "streaks",
+     .settings = OUTSIDE WHOLE "outside=frustum outside_rise_deg=10 drops_m2_s=0.003",
+     .frame = 30,
+     .parameter = "density_map",
+     .ending = ".exr",
+     .greys = even_map,
+     .side_px = 1,
+     .caption =
+         "The rain space of a perspective camera: its frustum, in grey. Drops fall away from "
+         "that camera, each in its own direction, and all advance the same distance: in the "
+         "middle they reach the ground, and towards the sides they end above it. Corner: the "
+         "depth map, as that camera sees the city.",
+     .printed = "Rain space with a perspective frustum."},
     {.id = "creus-4.4",
      .technique = "streaks",
      .settings = OUTSIDE ABOVE "outside=space packets=world",

@@ -30,9 +30,11 @@ static void set_extent(struct streaks *s)
     p->map_top = 0;
     p->map_height = (float)s->space.height_m;
     p->ground = (float)s->space.height_m;
+    p->narrowing = (float)streaks_narrowing(s);
 }
 
-// The matrix from the rain frame to the map's clip space: rows run along y, depth along s.
+// The matrix from the rain frame to the map's clip space: rows run along y, depth along s. w is 1
+// on the ground.
 static m4 matrix_of(const struct streaks *s)
 {
     const streaks_params *p = &s->params;
@@ -43,7 +45,8 @@ static m4 matrix_of(const struct streaks *s)
     to_map[7] = -2 * p->map_per_y * p->map_y - 1;
     to_map[10] = 1 / p->map_height;
     to_map[11] = -p->map_top / p->map_height;
-    to_map[15] = 1;
+    to_map[14] = p->narrowing;
+    to_map[15] = 1 - p->narrowing * p->map_height;
     rg_rain_matrices(&s->space, world_to_rain, NULL);
     rg_matrix_multiply(to_map, world_to_rain, to_map);
     return rg_m4_of(to_map);
@@ -113,9 +116,10 @@ static const struct rg_shared_kind kind = {.name = "depth map", .make = make, .d
 static struct streaks_map *get_static(struct streaks *s)
 {
     const struct rg_rain_space *space = &s->space;
-    const double numbers[] = {space->origin_m[0], space->origin_m[1], space->origin_m[2],
-                              space->s[0],        space->s[1],        space->s[2],
-                              space->half_x_m,    space->half_y_m,    space->height_m};
+    const double numbers[] = {space->origin_m[0],  space->origin_m[1], space->origin_m[2],
+                              space->s[0],         space->s[1],        space->s[2],
+                              space->half_x_m,     space->half_y_m,    space->height_m,
+                              streaks_narrowing(s)};
     char key[400];
     int length = snprintf(key, sizeof(key), "%016" PRIx64 " %d %d", scenery_city(s->scene)->hash,
                           s->settings.map_px, is_numbered(s));

@@ -10,7 +10,7 @@
 #include "core/techniques/streaks/instance.h"
 
 // In the order of the parameters' choices.
-enum { OUTSIDE_OFF, OUTSIDE_SPACE, OUTSIDE_VOLUME };
+enum { OUTSIDE_OFF, OUTSIDE_SPACE, OUTSIDE_VOLUME, OUTSIDE_FRUSTUM };
 enum { MAP_NONE, MAP_DENSITY, MAP_DEPTH };
 
 const struct streaks_observer *streaks_viewer(const struct streaks *s)
@@ -30,6 +30,22 @@ void streaks_outside_close(struct streaks *s)
     rg_image_destroy(s->density);
 }
 
+// --- the rain space as a frustum ---
+
+// Its camera is a quarter of the rain space's height above the top.
+double streaks_narrowing(const struct streaks *s)
+{
+    const double camera_m = 1.25 * s->space.height_m;
+    return s->settings.outside == OUTSIDE_FRUSTUM ? 1 / camera_m : 0;
+}
+
+void streaks_world_point(const struct streaks *s, const double rain[3], double world[3])
+{
+    const double wide = 1 - streaks_narrowing(s) * (s->space.height_m - rain[2]);
+    const double narrowed[3] = {rain[0] * wide, rain[1] * wide, rain[2]};
+    rg_rain_world_point(&s->space, narrowed, world);
+}
+
 // --- the second camera ---
 
 // The corners, in the world, of the volume to look at.
@@ -45,7 +61,7 @@ static void find_corners(const struct streaks *s, double corners[8][3])
     for (int k = 0; k < 8; k++) {
         const double rain[3] = {x + (k & 1 ? half_x : -half_x), y + (k & 2 ? half_y : -half_y),
                                 top + (k & 4 ? height : 0)};
-        rg_rain_world_point(&s->space, rain, corners[k]);
+        streaks_world_point(s, rain, corners[k]);
     }
 }
 
@@ -119,7 +135,7 @@ void streaks_outside_marks(const struct streaks *s, streaks_params *p)
 static void in_world(const struct streaks *s, double x, double y, double world[3])
 {
     const double rain[3] = {x, y, 0};
-    rg_rain_world_point(&s->space, rain, world);
+    streaks_world_point(s, rain, world);
 }
 
 bool streaks_outside_map(struct streaks *s)

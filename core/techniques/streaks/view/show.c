@@ -23,7 +23,7 @@ static void to_world(const struct streaks *s, double x, double y, double along, 
 {
     const double rain[3] = {x, y, along};
     double point[3];
-    rg_rain_world_point(&s->space, rain, point);
+    streaks_world_point(s, rain, point);
     for (int i = 0; i < 3; i++)
         world[i] = (float)point[i];
 }
@@ -196,7 +196,9 @@ bool streaks_show(struct streaks *s)
     }
     for (int i = 0; i < s->lights->count; i++)
         show_light(s, &s->lights->world[i]);
-    return (!all || !s->settings.outside || show_frustum(s)) &&
+    // The observer is in a box, and selects packets there.
+    const bool is_box = !streaks_narrowing(s);
+    return (!all || !s->settings.outside || !is_box || show_frustum(s)) &&
            scenery_overlay_draw(s->overlay, streaks_viewer(s)->world_to_clip, s->base.target,
                                 rg_asset_find(&s->base, "depth")->image) &&
            (!all || show_maps(s));
