@@ -14,7 +14,7 @@ function verifyPart(record) {
     note(record.file));
 }
 // How closely two pictures agree, the strictest that holds (docs/records.md).
-const TIERS = {T0: ["identical", "yes", "identical to the last bit of linear light"], T1: ["up to rounding (T1)", "bound", "equal up to rounding, which hardware may do in its own way"], T2: ["the same scene (T2)", "bound", "the same scene, drawn in another way"], none: ["differs", "no", "differs by more than any tier allows"]};
+const TIERS = {T0: ["identical", "yes", "identical to the last bit of linear light"], T1: ["up to rounding (T1)", "bound", "equal up to rounding, as a GPU may round in its own way; two software drivers owe each other identical light"], T2: ["the same scene (T2)", "bound", "the same scene, drawn in another way"], none: ["differs", "no", "differs by more than any tier allows"]};
 const tierOf = tier => TIERS[tier] || [String(tier), "no", "a tier that this page does not know"];
 function diffPart(record, number, params) {
   const pairs = objectsOf(record.document.pairs), names = [...new Set(pairs.flatMap(p => [p.a, p.b]))], of = (x, y) => pairs.find(p => (p.a === x && p.b === y) || (p.a === y && p.b === x));
@@ -55,9 +55,12 @@ function viewDevices() {
         sheet("What each device can do at most, as measured", ["device", "status", {text: "memory, GB/s", number: true}, {text: "cache, GB/s", number: true}, {text: "arithmetic, Gop/s", number: true}, {text: "dispatch, µs", number: true}, "timer"],
           devices.map(d => [d.name, [status(d.status, d.why), d.why ? el("small", {}, d.why) : null], ...["memory_gb_s", "cache_gb_s", "arithmetic_gop_s"].map(k => digits(objectOf(d.ceilings)[k])), digits(objectOf(d.timer).dispatch_us), d.timer ? d.timer.ratio === null ? "none" : d.timer.trusted ? "tells the truth" : "not trusted" : ""])), note(record.file));
     }),
-    part("Drivers", sheet("Who draws", ["device", "API", "driver", "names itself", "kind"], DEVICES.map(d => [d.name, d.api || "", d.driver || "", d.device || "", d.software === true ? "software" : d.software === false ? "hardware" : ""])))];
+    part("Drivers", sheet("Who draws", ["device", "API", "driver", "names itself", "kind"], DEVICES.map(d => [d.name, ...[d.api, d.driver, d.device, {true: "software", false: "hardware"}[d.software]].map(text => text || "not recorded")])))];
 }
 // Devices of other records that a doctor's record has not.
 const notExamined = record => DEVICES.map(d => d.name).filter(name => !objectsOf(record.document.devices).some(d => d.name === name));
 const othersText = names => `${plural(names.length, "other")} ${names.length === 1 ? "was" : "were"} not examined (${list(names)}).`;
-const wellText = devices => `${devices.filter(d => d.status === "ok").length} of ${plural(devices.length, "device")} are well: they work, and compute what C computes.`;
+function wellText(devices) {
+  const well = devices.filter(d => d.status === "ok").length;
+  return `${well} of ${plural(devices.length, "device")} ${well === 1 ? "is well: it works, and computes" : "are well: they work, and compute"} what C computes.`;
+}

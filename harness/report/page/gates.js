@@ -152,10 +152,10 @@ function viewCase(gate, c) {
 }
 
 function caseRows(cases, view, isCi, earlier) {
-  return [sheet("Cases, the worst first. B / A is the time of B over the time of A: above 1 is slower", ["case", "ending", ...(earlier ? [{text: "before", title: `How the case ended in the run before, ${fileText(earlier.file)}`}] : []), {text: "B / A", number: true, title: "Time of B over time of A; above 1 is slower"},
+  return [endingKey(cases), sheet("Cases, the worst first. B / A is the time of B over the time of A: above 1 is slower", ["case", "ending", ...(earlier ? [{text: "before", title: `How the case ended in the run before, ${fileText(earlier.file)}`}] : []), {text: "B / A", number: true, title: "Time of B over time of A; above 1 is slower"},
     {text: `${GATE_LEVEL} interval`, number: true, title: `For all cases together it holds with ${GATE_LEVEL} confidence`}, {text: "B,\u00a0ms", number: true}, {text: "took", number: true}, ...(isCi ? ["pictures"] : [])],
     cases.map(c => [el("a", {href: href(view, {...Object.fromEntries(place().params), to: null, case: c.name})}, c.name), [ending(c.ending), " ", newsTag(newsOf(c, earlier)), c.message ? el("small", {}, c.message) : null], ...(earlier ? [earlier.named.has(c.name) ? ending(earlier.named.get(c.name).ending) : "–"] : []),
-      ratioText(c), intervalText(c), isNumber(c.time_ms.value) ? digits(c.time_ms.value) : "–", seconds(c.seconds), ...(isCi ? [thumbnails(c.attachments)] : [])]), "cases"), endingKey(cases)];
+      ratioText(c), intervalText(c), isNumber(c.time_ms.value) ? digits(c.time_ms.value) : "–", seconds(c.seconds), ...(isCi ? [thumbnails(c.attachments)] : [])]), "cases")];
 }
 // How many of a gate's cases are chosen, then the cases.
 const casesPart = (gate, found, params, view) => partOf("cases", "Cases", el("p", {role: "status"}, `${found.length} of ${plural(gate.cases.length, "case")}`), view === "ci" ? more(found, params) : null, caseRows(first(found, params), view, view === "ci", earlierOf(gate)));
