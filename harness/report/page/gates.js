@@ -186,7 +186,7 @@ function longestText(timed) {
 // Bars of the seconds that the chosen cases took, the longest first.
 function secondsSheet(gate, found) {
   const all = secondsOf(timedCases(gate.cases)), timed = timedCases(found), top = timed.slice(0, 12), isAll = found.length === gate.cases.length;
-  return top.length ? [el("p", {}, isAll ? `All ${plural(found.length, "case")} took ${seconds(all)}` : `The ${plural(found.length, "case")} chosen above took ${seconds(secondsOf(timed))} of the ${seconds(all)} of all ${gate.cases.length}`, `; ${longestText(timed)}.`),
+  return top.length ? [el("p", {}, isAll ? `All ${plural(found.length, "case")} took ${seconds(all)}` : `The ${found.length === 1 ? "case" : plural(found.length, "case")} chosen above took ${seconds(secondsOf(timed))} of the ${seconds(all)} of all ${gate.cases.length}`, timed.length > 1 ? `; ${longestText(timed)}.` : "."),
     sheet(`The cases that took longest${isAll ? "" : " of those chosen above"}, and their share of all seconds`, ["case", {text: "took", number: true}, {text: "share", number: true}],
       top.map(c => [c.name, seconds(c.seconds), [shareText(all ? c.seconds / all : 0), " ", el("meter", {min: 0, max: 1, value: all ? c.seconds / all : 0, "aria-hidden": "true"})]]), "took")] : note("No case says how long it took.");
 }
@@ -196,7 +196,7 @@ function spark(name, runs) {
   const x = d3.scaleLinear().domain([0, runs.length - 1]).range([6, width - 6]), y = d3.scaleLog().domain([Math.min(0.95, d3.min(known) || 1), Math.max(1.05, d3.max(known) || 1)]).range([27, 5]);
   const svg = svgOf(width, 32, `${name}, run by run: ${cases.map((c, i) => c ? `${c.ending}${ratios[i] ? ` ${ratioDigits(ratios[i])}` : ""}` : "not there").join(", ")}`);
   svg.append("path").attr("class", "one").attr("d", `M3,${y(1)}H${width - 3}`);
-  svg.append("path").attr("class", "line other").attr("d", d3.line().defined(isNumber).x((v, i) => x(i)).y(v => y(v))(ratios));
+  svg.append("path").attr("class", "line d1").attr("d", d3.line().defined(isNumber).x((v, i) => x(i)).y(v => y(v))(ratios));
   cases.forEach((c, i) => { if (c) svg.append("path").attr("class", "mark ending " + endingClass(c.ending)).attr("d", d3.symbol().type(fails(c) ? d3.symbolSquare : d3.symbolCircle).size(36)()).attr("transform", `translate(${x(i)},${y(ratios[i] || 1)})`); });
   return svg.node();
 }

@@ -371,6 +371,8 @@ def check_news(browser, page):
     last = browser.find(".last tbody tr")[1].text
     if "3 runs" not in browser.find("#runs")[0].text or not last.replace("\n", " ").startswith("raster/torus.new pass B / A 1.004 regressed B / A 1.071 3"):
         problems.append(last)
+    if browser.ask("getComputedStyle(document.querySelector('.last .line')).stroke") == "none":
+        problems.append("the line of the runs is not drawn")
     if "chosen above took" not in browser.find("#seconds")[0].text:
         problems.append(browser.find("#seconds")[0].text)
     told = browser.ask("[longestText([{name: 'a', seconds: 2}, {name: 'b', seconds: 2}, {name: 'c', seconds: 1}]), shareText(0.004), shareText(0.0001), shareText(0.25)]")
