@@ -149,4 +149,7 @@ const deviceClass = name => name === "print" ? "print" : "d" + deviceIndex(name)
 
 const head = (title, ...children) => el("div", {class: "head"}, el("h1", {}, title), children);
 const part = (title, ...children) => el("section", {}, el("h2", {}, title), children);
+// A part that links lead to, and such a link within the view that is shown.
+const partOf = (id, title, ...children) => el("section", {id}, el("h2", {tabindex: "-1"}, title), children);
+const jump = (to, ...children) => el("a", {href: href(place().view, {...Object.fromEntries(place().params), case: null, to}), onclick: event => { if (event.currentTarget.getAttribute("href") === location.hash) show(); }}, ...children);
 const note = (...children) => el("p", {class: "note"}, ...children);

@@ -17,7 +17,12 @@ function changedVerdicts() {
 function changedEndings() {
   const now = GATES[GATES.length - 1], then = BEFORE.gates[BEFORE.gates.length - 1];
   if (!now || !then) return [];
-  return now.cases.map(c => [c, then.cases.find(k => k.name === c.name)]).filter(([c, k]) => !k || k.ending !== c.ending);
+  return now.cases.map(c => [c, then.named.get(c.name)]).filter(([c, k]) => !k || k.ending !== c.ending);
+}
+// The same in three: those to be read one by one, new ones that pass, and former ones that are gone.
+function casesThatChanged() {
+  const now = GATES[GATES.length - 1], then = BEFORE.gates[BEFORE.gates.length - 1], endings = changedEndings(), isNew = ([c, k]) => !k && endingClass(c.ending) === "good";
+  return {endings: endings.filter(change => !isNew(change)), passing: endings.filter(isNew), gone: now && then ? then.cases.filter(k => !now.named.has(k.name)) : []};
 }
 
 // Cells of both runs. A time changed if it did by more than runs differ, and the intervals of both lie apart; times of
@@ -41,21 +46,24 @@ function cellsOfBoth(table, before) {
 const cellName = ({table, cell}) => [link("table", {id: table.id, variant: cell.variant, work: cell.work}, table.id), " ", rowText(objectOf(cell.row), keysOf(table)), cell.variant !== "full" ? `, ${words(cell.variant)}` : "", cell.work ? `, ${cell.work}` : ""];
 
 function changedText() {
-  const cells = changedCells(), count = change => cells.filter(c => c.change === change).length;
-  const told = [[changedVerdicts().length, "verdict"], [changedEndings().length, "case"], [count("status"), "cell of tables by its status", "cells of tables by their status"], [count("slower"), "cell that is slower", "cells that are slower"], [count("faster"), "cell that is faster", "cells that are faster"]]
+  const cells = changedCells(), count = change => cells.filter(c => c.change === change).length, {endings, passing, gone} = casesThatChanged();
+  const told = [[changedVerdicts().length, "verdict"], [endings.length, "case by its ending", "cases by their ending"], [passing.length, "new case that passes", "new cases that pass"], [gone.length, "case that is gone", "cases that are gone"], [count("status"), "cell of tables by its status", "cells of tables by their status"], [count("slower"), "cell that is slower", "cells that are slower"], [count("faster"), "cell that is faster", "cells that are faster"]]
     .filter(([n]) => n).map(([n, one, many]) => plural(n, one, many));
   return told.length ? `Changed since the earlier records: ${list(told)}.` : "Nothing changed since the earlier records.";
 }
 
 function viewChanges() {
-  const cells = changedCells(), timed = cells.filter(c => c.change === "slower" || c.change === "faster").sort((a, b) => Math.abs(Math.log(b.ratio.value)) - Math.abs(Math.log(a.ratio.value)));
-  const verdicts = changedVerdicts(), endings = changedEndings(), others = cells.filter(c => c.change === "status"), foreign = cells.filter(c => c.ratio && !c.isComparable).length;
-  return [head("Changes", el("p", {class: "lead"}, changedText())),
+  const cells = changedCells(), slower = cells.filter(c => c.change === "slower"), far = c => Math.abs(Math.log(c.ratio.value)), timed = [...slower.sort((a, b) => far(b) - far(a)), ...cells.filter(c => c.change === "faster").sort((a, b) => far(b) - far(a))];
+  const verdicts = changedVerdicts(), {endings, passing, gone} = casesThatChanged(), others = cells.filter(c => c.change === "status"), foreign = cells.filter(c => c.ratio && !c.isComparable).length;
+  const times = part("Times", el("p", {}, `${timed.length} of ${plural(cells.filter(c => c.ratio && c.isComparable).length, "cell")} changed: by more than ${100 * RUNS_DIFFER} %, which two runs may differ by, with intervals that lie apart.`,
+    foreign ? ` ${plural(foreign, "cell")} of another machine, driver or setting ${foreign === 1 ? "is" : "are"} not held against each other.` : ""),
+    timed.length ? sheet("Time of a frame now over then: above 1 is slower, and stands first; the largest change first", ["cell", "device", {text: "then, ms", number: true}, {text: "now, ms", number: true}, {text: "now / then", number: true}, {text: "interval", number: true}],
+      timed.slice(0, 200).map(c => [cellName(c), c.cell.device, digits(c.old.measured.ms), digits(c.cell.measured.ms), el("span", {class: c.change === "slower" ? "no" : "yes"}, `${ratioDigits(c.ratio.value)} ${c.change}`), `${ratioDigits(c.ratio.low)} to ${ratioDigits(c.ratio.high)}`])) : null);
+  return [head("Changes", el("p", {class: "lead"}, changedText())), slower.length ? times : null,
     verdicts.length ? part("Verdicts", sheet("Claims with another verdict", ["claim", "device", "then", "now", "why now"], verdicts.map(([claim, device, then, now]) => [link("claim", {id: claim.id}, claimWords(claim)), device, badge(then.verdict), badge(now.verdict), now.why || ""]))) : null,
-    endings.length ? part("Cases of the gate", sheet("Cases that ended otherwise", ["case", "then", "now", "why now"], endings.map(([c, k]) => [link("gate", {case: c.name}, c.name), k ? ending(k.ending) : "not there", ending(c.ending), c.message || ""]))) : null,
+    endings.length || passing.length || gone.length ? part("Cases of the gate", endings.length ? [endingKey(endings.map(([c]) => c)), sheet("Cases that ended otherwise, the worst first", ["case", "then", "now", "why now"], endings.map(([c, k]) => [link("gate", {case: c.name}, c.name), k ? ending(k.ending) : "not there", ending(c.ending), c.message || ""]))] : null,
+      passing.length ? el("details", {class: "folded"}, el("summary", {}, `${plural(passing.length, "new case")} ${passing.length === 1 ? "passes" : "pass"}`), el("p", {}, list(passing.map(([c]) => c.name)))) : null,
+      gone.length ? el("p", {class: "warn"}, `${plural(gone.length, "case")} of the earlier gate ${gone.length === 1 ? "is" : "are"} gone: ${list(gone.slice(0, 20).map(c => c.name))}${gone.length > 20 ? " and others" : ""}.`) : null) : null,
     others.length ? part("Cells", sheet("Cells of tables with another status", ["cell", "device", "then", "now", "why now"], others.map(c => [cellName(c), c.cell.device, status(c.old.status, c.old.detail), status(c.cell.status, c.cell.detail), c.cell.detail || ""]))) : null,
-    part("Times", el("p", {}, `${timed.length} of ${plural(cells.filter(c => c.ratio && c.isComparable).length, "cell")} changed: by more than ${100 * RUNS_DIFFER} %, which two runs may differ by, with intervals that lie apart.`,
-      foreign ? ` ${plural(foreign, "cell")} of another machine, driver or setting ${foreign === 1 ? "is" : "are"} not held against each other.` : ""),
-      timed.length ? sheet("Time of a frame now by then, the largest change first", ["cell", "device", {text: "then, ms", number: true}, {text: "now, ms", number: true}, {text: "now by then", number: true}, {text: "interval", number: true}],
-        timed.slice(0, 200).map(c => [cellName(c), c.cell.device, digits(c.old.measured.ms), digits(c.cell.measured.ms), el("span", {class: c.change === "slower" ? "no" : "yes"}, ratioDigits(c.ratio.value)), `${ratioDigits(c.ratio.low)} to ${ratioDigits(c.ratio.high)}`])) : null)];
+    slower.length ? null : times];
 }

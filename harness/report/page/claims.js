@@ -16,11 +16,11 @@ const VERDICTS = {
   "not reproduced": {mark: "✗", word: "does not hold", cls: "no", about: "launches refute it, at an error of 1 %"},
   "at the bound": {mark: "≈", word: "at the bound", cls: "bound", about: "what was measured lies where the claim's bound is, so that no more of it would decide"},
   "undecided": {mark: "?", word: "open", cls: "open", about: "launches have not settled it yet"},
-  "one launch: fits": {mark: "(✓)", word: "one launch fits", cls: "open", about: "figures of one launch fit the claim, which is no verdict"},
-  "one launch: misses": {mark: "(✗)", word: "one launch misses", cls: "open", about: "figures of one launch do not fit the claim, which is no verdict"},
+  "one launch: fits": {mark: "(✓)", word: "one launch fits", cls: "fits", about: "figures of one launch fit the claim, which is no verdict"},
+  "one launch: misses": {mark: "(✗)", word: "one launch misses", cls: "misses", about: "figures of one launch do not fit the claim, which is no verdict"},
   "one launch: near the bound": {mark: "(≈)", word: "one launch, near the bound", cls: "open", about: "figures of one launch lie near the bound, which is no verdict"},
-  "not seen": {mark: "○", word: "not seen", cls: "other", about: "rows that the claim needs were not measured"},
-  "other work": {mark: "≠", word: "other work", cls: "other", about: "what was measured is not the work that was printed"},
+  "not seen": {mark: "○", word: "not seen", cls: "open", about: "rows that the claim needs were not measured"},
+  "other work": {mark: "≠", word: "other work", cls: "open", about: "what was measured is not the work that was printed"},
 };
 const verdictOf = text => VERDICTS[text] || {mark: "•", word: String(text), cls: "other", about: "a verdict that this page does not know"};
 
@@ -39,6 +39,9 @@ const CLAIMS = claimsOf(DATA);
 const CLAIM_DEVICES = DEVICES.filter(d => CLAIMS.some(c => c.verdicts.some(v => v.device === d.name))).map(d => d.name);
 const judged = (claim, device) => claim.verdicts.find(v => v.device === device);
 
+// Explains words of the totals and of the verdicts.
+const LAUNCH_ABOUT = "A launch is a new process, which gives one figure. One launch decides nothing; a verdict takes many.";
+const OPEN_ABOUT = "Open: not measured, measured by other work than the paper's, near the bound, or not decided yet.";
 // How a claim stands on all devices together. Verdicts go before figures of one launch.
 const STANDS = {holds: ["holds", "hold", "yes"], mixed: ["holds on some devices only", "hold on some devices only", "bound"], fails: ["does not hold", "do not hold", "no"],
   fits: ["fits by one launch alone", "fit by one launch alone", "fits"], misses: ["misses by one launch alone", "miss by one launch alone", "misses"], open: ["is open", "are open", "open"]};
@@ -47,25 +50,35 @@ function standOf(claim) {
   if (has("reproduced") || has("not reproduced")) return has("reproduced") ? has("not reproduced") ? "mixed" : "holds" : "fails";
   return has("one launch: misses") ? "misses" : has("one launch: fits") ? "fits" : "open";
 }
-const standing = stand => CLAIMS.filter(claim => standOf(claim) === stand).length;
+const standing = (stand, claims = CLAIMS) => claims.filter(claim => standOf(claim) === stand).length;
 // How claims stand, of those that there are: [stand, "14 hold", class, how many].
-const standings = () => Object.entries(STANDS).map(([stand, [one, many, cls]]) => [stand, `${standing(stand)} ${standing(stand) === 1 ? one : many}`, cls, standing(stand)]).filter(([, , , n]) => n);
+const standings = (claims = CLAIMS) => Object.entries(STANDS).map(([stand, [one, many, cls]]) => [stand, `${standing(stand, claims)} ${standing(stand, claims) === 1 ? one : many}`, cls, standing(stand, claims)]).filter(([, , , n]) => n);
 
 const claimWords = claim => [claim.source === "said" ? `“${claim.words}”` : claim.words, claim.part ? `, ${claim.part}` : ""].join("");
+// Tests in words; `row` names a row by its number and its place on the axis.
+const RULES = objectOf(DATA.rules);
 const TESTS = {
-  falls: () => "frames get slower from row to row", order: () => "rows stand in the order of print", ratio: c => `row ${c.rows[0]} is at least ${digits(c.least)} times as fast as row ${c.rows[1]}`,
-  times: c => `row ${c.rows[0]} is from ${digits(c.least)} to ${digits(c.most)} times as fast as row ${c.rows[1]}`,
+  falls: () => `frames get slower from row to row: in all by a factor of at least ${RULES.fall}, and no row is more than ${RULES.reversal} times as fast as the one before it`,
+  order: () => "rows stand in the order of print", ratio: (c, row) => `${row(c.rows[0])} is at least ${digits(c.least)} times as fast as ${row(c.rows[1])}`,
+  times: (c, row) => `${row(c.rows[0])} is from ${digits(c.least)} to ${digits(c.most)} times as fast as ${row(c.rows[1])}`,
   alike: c => `no two rows are more than ${digits(c.most)} times apart`, apart: c => `some two rows are more than ${digits(c.least)} times apart`,
   exponent: c => `rates go with the axis to a power between ${c.least} and ${c.most}`, faster: c => `in each row ${words(c.variant)} is at least ${digits(c.least)} times as fast as ${words(c.other_variant)}`,
-  rate: c => `each row makes at least ${digits(c.least)} frames a second`, optimum: c => `one of rows ${arrayOf(c.knee_rows).join(" to ")} is faster than all others`, slowest: c => `row ${arrayOf(c.knee_rows)[0]} is slower than all others`,
-  crosses: c => `${words(c.variant)} is slower than ${words(c.other_variant)} up to a row between ${arrayOf(c.knee_rows).join(" and ")}, and faster from there on`,
-  flattens: c => `up to row ${arrayOf(c.knee_rows)[0]} the error of the picture falls ${digits(c.least)} times as far as after it`,
+  rate: c => `each row makes at least ${digits(c.least)} frames a second`, optimum: (c, row) => c.knee[0] === c.knee[1] ? `${row(c.knee[0])} is faster than all others` : `one of the rows from ${row(c.knee[0])} to ${row(c.knee[1])} is faster than all others`,
+  slowest: (c, row) => `${row(c.knee[0])} is slower than all others`,
+  crosses: (c, row) => `${words(c.variant)} is slower than ${words(c.other_variant)} before ${row(c.knee[0])}, and faster from there on`,
+  flattens: (c, row) => `up to ${row(c.knee[0])} the error of the picture falls at least ${digits(c.least)} times as far as after it`,
 };
-const testOf = claim => TESTS[claim.test] ? TESTS[claim.test]({...claim, rows: arrayOf(claim.rows)}) : words(claim.test || "");
+const testOf = claim => TESTS[claim.test] ? TESTS[claim.test]({...claim, rows: arrayOf(claim.rows), knee: arrayOf(claim.knee_rows)}, n => rowName(tableOf(claim.table), n)) : words(claim.test || "");
+const rowsText = claim => {
+  const [from, to] = arrayOf(claim.rows), row = n => rowName(tableOf(claim.table), n);
+  return from === to ? `It is about ${row(from)}` : ["ratio", "times"].includes(claim.test) ? `It is about ${row(from)} and ${row(to)}` : `It is about the rows from ${row(from)} to ${row(to)}`;
+};
+// Who chose the bound.
+const boundText = claim => claim.test === "falls" || claim.is_ours ? "The paper gives no number for this, so the bound is our choice." : !isNumber(claim.least) && !isNumber(claim.most) ? "" : claim.source === "said" ? "The bound is that of the paper's words, with the margin of such words." : "The bound is that of the paper's printed numbers.";
 
 function badge(verdict, isShort = false) {
   const v = verdictOf(verdict);
-  return el("span", {class: "verdict " + v.cls, title: v.about}, el("span", {"aria-hidden": "true"}, v.mark), isShort ? el("span", {class: "unseen"}, v.word) : " " + v.word);
+  return el("span", {class: "verdict claimed " + v.cls, title: v.about}, el("span", {"aria-hidden": "true"}, v.mark), isShort ? el("span", {class: "unseen"}, v.word) : " " + v.word);
 }
 const badges = claim => el("ul", {class: "badges"}, CLAIM_DEVICES.map(device => judged(claim, device)).filter(Boolean)
   .map(v => el("li", {}, el("span", {class: "device"}, v.device), " ", badge(v.verdict))));
@@ -80,11 +93,18 @@ function matrix(claims) {
       claims.filter(c => c.paper === paper).map(claim => el("tr", {}, el("th", {scope: "row"}, link("claim", {id: claim.id}, claimWords(claim)), el("small", {}, " " + claim.table)),
         CLAIM_DEVICES.map(device => { const v = judged(claim, device); return el("td", {class: v ? verdictOf(v.verdict).cls : null}, v ? badge(v.verdict, true) : ""); })))))));
 }
-const verdictKey = claims => el("ul", {class: "key"}, Object.keys(VERDICTS).filter(v => claims.some(c => c.verdicts.some(x => x.verdict === v)))
+const verdictKey = claims => el("ul", {class: "key"}, el("li", {}, LAUNCH_ABOUT), Object.keys(VERDICTS).filter(v => claims.some(c => c.verdicts.some(x => x.verdict === v)))
   .map(v => el("li", {}, badge(v), ": ", verdictOf(v).about)));
 
 function claimBrief(claim) {
   return el("article", {class: "brief"}, el("h3", {}, link("claim", {id: claim.id}, claimWords(claim))), badges(claim));
+}
+
+// How those claims stand that are looked for: on all devices first.
+function foundClaims(found, paper) {
+  const all = found.filter(claim => claim.verdicts.length && claim.verdicts.every(v => v.verdict === "reproduced")).length, some = found.filter(claim => standOf(claim) === "holds").length - all;
+  const rest = [some ? `${some} on some and ${some === 1 ? "fails" : "fail"} on none` : "", ...standings(found).filter(([stand]) => stand !== "holds").map(([, text]) => text)].filter(Boolean);
+  return `${all} of ${plural(found.length, "claim")}${paper ? ` of ${paperTitle(paper)}` : ""} ${all === 1 ? "holds" : "hold"} on all devices${rest.length ? `; ${list(rest)}` : ""}.`;
 }
 
 function viewClaims(params) {
@@ -100,8 +120,8 @@ function viewClaims(params) {
       choice("claims-stand", "Claims that", [...any, ...standings().map(([stand]) => [stand, STANDS[stand][1]])], asked.stand, stand => choose({stand})),
       choice("claims-verdict", "Verdict", [...any, ...Object.keys(VERDICTS).map(v => [v, verdictOf(v).word])], asked.verdict, verdict => choose({verdict})),
       choice("claims-device", "Device", [...any, ...CLAIM_DEVICES.map(d => [d, d])], asked.device, device => choose({device}))),
-    el("p", {role: "status"}, found.length === CLAIMS.length ? plural(CLAIMS.length, "claim") : `${found.length} of ${plural(CLAIMS.length, "claim")}`),
-    found.length ? [matrix(found), verdictKey(found)] : note("No claim is so. Choose less.")];
+    el("p", {role: "status", class: "lead"}, foundClaims(found, asked.paper)),
+    found.length ? [verdictKey(found), matrix(found)] : note("No claim is so. Choose less.")];
 }
 
 // The rows that decide a claim, of which the plot shows the medians with their intervals.
@@ -126,10 +146,17 @@ function errorPlot(table, numbers, variant, work) {
 // How many launches a verdict rests on, and how many more would probably decide it.
 function launchesOf(v) {
   const counted = v.launches || v.launches_disturbed ? `${plural(v.launches || 0, "launch", "launches")}${v.launches_disturbed ? `, ${v.launches_disturbed} disturbed` : ""}` : "";
-  const more = v.launches_needed ? `${v.launches_needed} more would probably decide it${v.hours_needed ? `, ${digits(v.hours_needed)} h` : ""}` : "";
+  const more = v.launches_needed ? `${v.launches_needed} more would probably decide it${v.hours_needed ? `, in ${hoursText(v.hours_needed)}` : ""}` : "";
   const today = v.today ? `today's figures: ${v.today}` : "";
   return [counted, more, today].filter(Boolean).join("; ");
 }
+// How many launches would decide a claim, and how long they take where the judge knows.
+function launchesText(claim) {
+  const looks = arrayOf(RULES.looks).filter(isNumber), wanted = claim.verdicts.filter(v => v.launches_needed).map(v => `${v.launches_needed} more on ${v.device}${v.hours_needed ? ` (${hoursText(v.hours_needed)})` : ""}`);
+  const course = looks.length ? ` The first verdict is sought after ${looks[0]} on a device and the last after ${looks[looks.length - 1]}; as many again must confirm it, so that it takes from ${2 * looks[0]} to ${2 * looks[looks.length - 1]}.` : "";
+  return `Launches: new processes, each of which gives one figure.${course} ${wanted.length ? `Probably it takes ${list(wanted)}.` : "How long one takes is not known before the first was run."}`;
+}
+const hoursText = hours => hours < 1 ? `about ${Math.max(1, Math.round(60 * hours))} min` : `about ${digits(hours)} h`;
 // What a verdict says besides, as newer records have it: launches, intervals.
 function extras(verdict) {
   const known = ["device", "verdict", "why", "probability", "rows_judged", "rows_needed", "figures", "launches", "launches_disturbed", "launches_needed", "hours_needed", "kept", "today"];
@@ -144,14 +171,15 @@ function bibtex(key, p) {
 function viewClaim(params) {
   const claim = CLAIMS.find(c => c.id === params.get("id")) || null;
   if (!claim) return [head("Claim"), note("This page holds no such claim. "), link("claims", {}, "All claims")];
-  const paper = PAPERS[claim.paper], i = CLAIMS.indexOf(claim), near = [CLAIMS[i - 1], CLAIMS[i + 1]], open = claim.verdicts.some(v => v.verdict === "undecided" || String(v.verdict).startsWith("one launch")), isByLaunches = claim.verdicts.some(v => "launches" in v);
+  const paper = PAPERS[claim.paper], i = CLAIMS.indexOf(claim), near = [CLAIMS[i - 1], CLAIMS[i + 1]], open = claim.verdicts.some(v => v.verdict === "undecided" || String(v.verdict).startsWith("one launch")), isByLaunches = claim.verdicts.some(v => "launches" in v), hasChance = claim.verdicts.some(v => isNumber(v.probability));
   return [head(claimWords(claim), el("p", {class: "lead"}, `${paperTitle(claim.paper)}, section ${claim.section}, about `, link("table", {id: claim.table}, claim.table), claim.source === "said" ? "." : "; the words are ours, and say what the table shows."),
-      el("p", {}, "It holds where ", testOf(claim), `. It is about rows ${arrayOf(claim.rows).join(" to ")}${claim.variant && claim.variant !== "full" ? `, ${words(claim.variant)}` : ""}.`),
+      el("p", {}, "It holds where ", testOf(claim), `. ${boundText(claim)}`), el("p", {}, `${rowsText(claim)}${claim.variant && claim.variant !== "full" ? `; what is timed is ${words(claim.variant)}` : ""}.`),
       claim.print_contradicts ? el("p", {class: "warn"}, "The paper's own table contradicts it.") : null),
-    part("Verdicts", sheet("The verdict on each device, and why", ["device", "verdict, and why", {text: "by chance", number: true, title: "The probability of such samples if the opposite were true"}],
-      claim.verdicts.map(v => [v.device, [badge(v.verdict), " ", v.why || "", v.rows_judged < v.rows_needed ? ` (by ${v.rows_judged} of ${v.rows_needed} rows)` : "", launchesOf(v) ? el("small", {}, launchesOf(v)) : null, extras(v) ? el("small", {}, extras(v)) : null], isNumber(v.probability) ? v.probability < 0.001 ? "< 0.001" : digits(v.probability) : "–"]))),
+    part("Verdicts", sheet("The verdict on each device, and why", ["device", "verdict, and why", ...(hasChance ? [{text: "chance", number: true, title: "How probable such samples would be if the opposite were true"}] : [])],
+      claim.verdicts.map(v => [v.device, [badge(v.verdict), " ", v.why || "", v.rows_judged < v.rows_needed ? ` (by ${v.rows_judged} of ${v.rows_needed} rows)` : "", launchesOf(v) ? el("small", {}, launchesOf(v)) : null, extras(v) ? el("small", {}, extras(v)) : null], ...(hasChance ? [isNumber(v.probability) ? v.probability < 0.001 ? "< 0.001" : digits(v.probability) : "–"] : [])])),
+      hasChance ? note("Chance: how probable such samples would be if the opposite were true.") : null),
     tableOf(claim.table) ? part("The rows that decide", evidence(claim)) : null,
-    part(open ? "What would decide it" : "Measure it yourself", open ? el("p", {}, isByLaunches ? "Launches: new processes, each of which gives one figure." : "More samples, of the paper's own settings.") : null,
+    part(open ? "What would decide it" : "Measure it yourself", open ? el("p", {}, isByLaunches ? launchesText(claim) : "More samples, of the paper's own settings.") : null,
       command(isByLaunches ? `raingauge claims ${shell(claim.table)} -o mine` : `raingauge table ${shell(claim.table)} --full --claims -o mine`)),
     paper ? part("Cite", el("pre", {}, bibtex(claim.paper, paper) + "\n\n" + bibtex("raingauge", {...SOFTWARE, type: "misc"}))) : null,
     el("p", {class: "near"}, near[0] ? link("claim", {id: near[0].id}, "Previous claim") : null, " ", link("claims", {}, "All claims"), " ", near[1] ? link("claim", {id: near[1].id}, "Next claim") : null)];

@@ -9,17 +9,21 @@ const status = (text, title) => el("span", {class: "verdict " + statusClass(text
 function verifyPart(record) {
   const checks = objectsOf(record.document.checks), devices = [...new Set(checks.map(c => c.device))], rows = [...new Set(checks.map(c => `${c.technique}, ${c.check}`))];
   const bad = checks.filter(c => statusClass(c.status) === "no");
-  return part("Verified: " + [...new Set(checks.map(c => c.technique))].join(", "), el("p", {}, bad.length ? `${bad.length} of ${plural(checks.length, "check")} do not hold.` : checks.length ? `None of ${plural(checks.length, "check")} fails.` : "Nothing was checked."),
+  return part("Verified: " + [...new Set(checks.map(c => c.technique))].join(", "), el("p", {}, bad.length ? `${bad.length} of ${plural(checks.length, "check")} ${bad.length === 1 ? "does" : "do"} not hold.` : checks.length ? `None of ${plural(checks.length, "check")} fails.` : "Nothing was checked."),
     sheet("Whether states and pictures are those of the reference, and whether laws hold", ["check", ...devices], rows.map(row => [row, ...devices.map(d => { const c = checks.find(k => `${k.technique}, ${k.check}` === row && k.device === d); return c ? [status(c.status), el("small", {}, c.detail || "")] : ""; })])),
     note(record.file));
 }
+// How closely two pictures agree, the strictest that holds (docs/records.md).
+const TIERS = {T0: ["identical", "yes", "identical to the last bit of linear light"], T1: ["up to rounding (T1)", "bound", "equal up to rounding, as a GPU may round in its own way; two software drivers owe each other identical light"], T2: ["the same scene (T2)", "bound", "the same scene, drawn in another way"], none: ["differs", "no", "differs by more than any tier allows"]};
+const tierOf = tier => TIERS[tier] || [String(tier), "no", "a tier that this page does not know"];
 function diffPart(record, number, params) {
   const pairs = objectsOf(record.document.pairs), names = [...new Set(pairs.flatMap(p => [p.a, p.b]))], of = (x, y) => pairs.find(p => (p.a === x && p.b === y) || (p.a === y && p.b === x));
-  const same = pairs.filter(p => p.tier === "T0").length;
-  const tell = p => p ? [el("span", {class: "verdict " + (p.tier === "T0" ? "yes" : p.tier === "none" ? "no" : "bound")}, p.tier === "T0" ? "identical" : p.tier), p.tier === "T0" ? null : el("small", {}, `${(p.differing || 0).toLocaleString("en")} values, at most ${p.max} of 255`)] : "";
-  return part("Pictures of every two devices", el("p", {}, `Identical to the last bit: ${same} of ${plural(pairs.length, "pair")}.`),
-    sheet("How closely each two agree", ["device", ...names], names.map(x => [x, ...names.map(y => x === y ? "–" : tell(of(x, y)))])),
-    devicePictures(record, number, params), pairs.filter(p => p.blame).map(p => el("p", {}, el("strong", {}, `${p.a} and ${p.b}: `), objectOf(p.blame).text || "")), objectsOf(record.document.failures).map(f => el("p", {class: "warn"}, `${f.device}: ${f.status}. ${f.detail || ""}`)), note(record.file));
+  const same = pairs.filter(p => p.tier === "T0").length, stage = p => objectOf(p.blame).stage ? [el("strong", {}, objectOf(p.blame).stage), ": ", el("small", {}, objectOf(p.blame).text || "")] : objectOf(p.blame).text || "";
+  const tell = p => p ? [el("span", {class: "verdict " + tierOf(p.tier)[1], title: tierOf(p.tier)[2]}, tierOf(p.tier)[0]), p.tier === "T0" ? null : el("small", {}, `${plural(p.differing || 0, "linear value")} ${p.differing === 1 ? "differs" : "differ"}, ${p.max ? `by at most ${plural(p.max, "code")} of 255` : "by less than a code"}`)] : "";
+  return part("Pictures of every two devices", el("p", {}, `${same} of ${plural(pairs.length, "pair")} ${same === 1 ? "is" : "are"} identical to the last bit of linear light, before it is rounded to the codes that a screen shows. A code is 1/255 of a channel; pictures of the same codes can differ in linear light.`),
+    el("ul", {class: "key"}, tally(pairs.map(p => p.tier)).map(([tier]) => el("li", {}, el("span", {class: "verdict " + tierOf(tier)[1]}, tierOf(tier)[0]), ": ", tierOf(tier)[2]))),
+    sheet("How closely the linear light of each two agrees", ["device", ...names], names.map(x => [x, ...names.map(y => x === y ? "–" : tell(of(x, y)))])),
+    devicePictures(record, number, params), pairs.filter(p => p.blame).map(p => el("p", {}, `First stage that differs between ${p.a} and ${p.b}: `, stage(p))), objectsOf(record.document.failures).map(f => el("p", {class: "warn"}, `${f.device}: ${f.status}. ${f.detail || ""}`)), note(record.file));
 }
 const median = xs => d3.median(arrayOf(xs).filter(isNumber));
 function baselinePart(record) {
@@ -46,11 +50,17 @@ function viewDevices() {
   const doctors = records("doctor");
   return [head("Devices", el("p", {}, "A device is an API with a driver. Each is asked for the same work.")),
     doctors.map(record => {
-      const devices = objectsOf(record.document.devices);
-      return part("Doctor", el("p", {}, wellText(devices)), arrayOf(record.document.warnings).map(w => el("p", {class: "warn"}, w)), arrayOf(record.document.missing).map(m => note(m)),
+      const devices = objectsOf(record.document.devices), others = notExamined(record);
+      return part("Doctor", el("p", {}, wellText(devices), others.length ? ` ${othersText(others)}` : ""), arrayOf(record.document.warnings).map(w => el("p", {class: "warn"}, w)), arrayOf(record.document.missing).map(m => note(m)),
         sheet("What each device can do at most, as measured", ["device", "status", {text: "memory, GB/s", number: true}, {text: "cache, GB/s", number: true}, {text: "arithmetic, Gop/s", number: true}, {text: "dispatch, µs", number: true}, "timer"],
           devices.map(d => [d.name, [status(d.status, d.why), d.why ? el("small", {}, d.why) : null], ...["memory_gb_s", "cache_gb_s", "arithmetic_gop_s"].map(k => digits(objectOf(d.ceilings)[k])), digits(objectOf(d.timer).dispatch_us), d.timer ? d.timer.ratio === null ? "none" : d.timer.trusted ? "tells the truth" : "not trusted" : ""])), note(record.file));
     }),
-    part("Drivers", sheet("Who draws", ["device", "API", "driver", "names itself", "kind"], DEVICES.map(d => [d.name, d.api || "", d.driver || "", d.device || "", d.software === true ? "software" : d.software === false ? "hardware" : ""])))];
+    part("Drivers", sheet("Who draws", ["device", "API", "driver", "names itself", "kind"], DEVICES.map(d => [d.name, ...[d.api, d.driver, d.device, {true: "software", false: "hardware"}[d.software]].map(text => text || "not recorded")])))];
 }
-const wellText = devices => `${devices.filter(d => d.status === "ok").length} of ${plural(devices.length, "device")} are well: they work, and compute what C computes.`;
+// Devices of other records that a doctor's record has not.
+const notExamined = record => DEVICES.map(d => d.name).filter(name => !objectsOf(record.document.devices).some(d => d.name === name));
+const othersText = names => `${plural(names.length, "other")} ${names.length === 1 ? "was" : "were"} not examined (${list(names)}).`;
+function wellText(devices) {
+  const well = devices.filter(d => d.status === "ok").length;
+  return `${well} of ${plural(devices.length, "device")} ${well === 1 ? "is well: it works, and computes" : "are well: they work, and compute"} what C computes.`;
+}

@@ -3,6 +3,15 @@
 
 const CALM = {"unsupported": "other", "skipped": "other", "improved": "good", "pass": "good"};
 // Worst first, as the command lists them. Those that fail are bad, and so is one that the command does not know.
+// What each means, in the words of docs/ci.md.
+const ABOUT = {
+  crash: "a driver ended its process", timeout: "a driver did not come back in time", error: "the case could not be run, or a required device is missing or compared nothing",
+  "set-up": "a driver is installed, but a file, library or variable of its set-up is broken", lacking: "raingauge itself lacked memory, a process, an open file or room on the disk",
+  differs: "pictures, states or counters differ", "unexpected pass": "the case passes, but was expected to fail", "nothing measured": "the picture shows no rain, or there is no sample to decide on",
+  regressed: "B is slower, by more than the margin allows", inconclusive: "the times do not decide; that fails no gate", flake: "a known flake", "expected failure": "the case fails as expected",
+  unsupported: "the device or the machine lacks what was asked for", skipped: "an expectation skips the case, or there is nothing to compare it with", improved: "B is faster, by more than the margin allows", pass: "nothing is worse",
+};
+const aboutEnding = name => ABOUT[name] || "this page does not know this ending, and counts it as a failure";
 const ENDINGS = new Map(arrayOf(DATA.endings).map(({name, fails}, i) => [name, {order: i, cls: fails ? "bad" : CALM[name] || "open"}]));
 const endingClass = ending => ENDINGS.has(ending) ? ENDINGS.get(ending).cls : "bad";
 const endingOrder = ending => ENDINGS.has(ending) ? ENDINGS.get(ending).order : -1;
@@ -10,20 +19,55 @@ const endingOrder = ending => ENDINGS.has(ending) ? ENDINGS.get(ending).order : 
 const positive = x => Object.fromEntries(Object.entries(objectOf(x)).filter(([, v]) => isNumber(v) && v > 0));
 const gatesOf = source => records("gate", source).map(record => ({file: record.file, document: objectOf(record.document),
   cases: objectsOf(objectOf(record.document).gated).map(c => ({...c, name: String(c.name), ratio: positive(c.ratio), time_ms: objectOf(c.time_ms), attachments: arrayOf(c.attachments), devices: arrayOf(c.devices)}))
-    .map((c, i) => [c, i]).sort((a, b) => endingOrder(a[0].ending) - endingOrder(b[0].ending) || a[1] - b[1]).map(([c]) => c)}));
+    .map((c, i) => [c, i]).sort((a, b) => endingOrder(a[0].ending) - endingOrder(b[0].ending) || a[1] - b[1]).map(([c]) => c)})).map(gate => ({...gate, named: new Map(gate.cases.map(c => [c.name, c]))}));
 const GATES = gatesOf(DATA);
 const fails = c => endingClass(c.ending) === "bad";
-const countsOf = gate => [...d3.rollup ? d3.rollup(gate.cases, v => v.length, c => c.ending) : d3.nest().key(c => c.ending).rollup(v => v.length).entries(gate.cases).map(e => [e.key, e.value])];
-const ending = text => el("span", {class: "ending " + endingClass(text)}, text);
+// How many cases have each value: [value, number], in the order in which they come.
+const tally = values => [...values.reduce((counts, value) => counts.set(value, (counts.get(value) || 0) + 1), new Map())];
+const countsOf = gate => tally(gate.cases.map(c => c.ending));
+const ending = text => el("span", {class: "ending " + endingClass(text), title: aboutEnding(text)}, text);
+const endingKey = cases => el("ul", {class: "key endings"}, tally(cases.map(c => c.ending)).map(([name]) => el("li", {}, ending(name), ": ", aboutEnding(name))));
 
-// One line: what a gate found.
-function verdictLine(gate) {
-  const bad = gate.cases.filter(fails), open = gate.cases.filter(c => endingClass(c.ending) === "open");
-  const counts = list(countsOf(gate).map(([name, n]) => `${n} ${name}`));
-  if (!gate.cases.length) return "The gate has no case: nothing was compared.";
-  return bad.length ? `${plural(bad.length, "case")} of ${gate.cases.length} ${bad.length === 1 ? "fails" : "fail"}: ${counts}.`
-    : open.length ? `No case fails; ${open.length} of ${gate.cases.length} decide nothing: ${counts}.` : `All is well: ${counts}.`;
+// --- what a gate found ---
+
+const RESTS = {pass: ["passes", "pass"], flake: ["is a known flake", "are known flakes"], "expected failure": ["fails as expected", "fail as expected"], improved: ["is faster", "are faster"]};
+const commas = parts => parts.flatMap((p, i) => i ? [", ", p] : [p]);
+// Parts of one line, in which each count leads to its cases.
+function verdictOfGate(gate, view = "ci") {
+  const n = GATES.indexOf(gate), to = (name, text) => link(view, {gate: n === GATES.length - 1 ? null : n, ending: name}, text);
+  const counts = countsOf(gate), isBad = ([name]) => endingClass(name) === "bad", failing = gate.cases.filter(fails).length;
+  const rest = commas(counts.filter(count => !isBad(count)).map(([name, k]) => to(name, `${k} ${RESTS[name] ? RESTS[name][k === 1 ? 0 : 1] : `${k === 1 ? "is" : "are"} ${name}`}`)));
+  if (!gate.cases.length) return ["The gate has no case: nothing was compared."];
+  if (failing) return [el("span", {class: "bad"}, `The gate fails: ${failing} of ${plural(gate.cases.length, "case")} ${failing === 1 ? "fails" : "fail"} (`, commas(counts.filter(isBad).map(([name, k]) => to(name, `${k} ${name}`))), ")."), " ", rest, rest.length ? "." : ""];
+  return [{open: "The gate is undecided", good: "The gate passes", other: "The gate compared nothing"}[standOfGate(gate)], ": ", rest, "."];
 }
+// What it comes to, as its exit status says: an inconclusive case makes it 3, and none that was compared 4.
+function standOfGate(gate) {
+  if (gate.cases.some(fails)) return "bad";
+  return gate.cases.some(c => c.ending === "inconclusive") ? "open" : gate.cases.some(c => !["unsupported", "skipped"].includes(c.ending)) ? "good" : "other";
+}
+
+// The run before a gate: the gate before it, or the last of the earlier records.
+const earlierOf = gate => GATES[GATES.indexOf(gate) - 1] || (BEFORE && BEFORE.gates[BEFORE.gates.length - 1]) || null;
+const NEWS = {new: "it did not fail in the run before", "as before": "it ended so in the run before", "failed before too": "in the run before it failed in another way", "first run": "the run before has no such case"};
+// What is new of a case that fails; null of one that does not.
+function newsOf(c, earlier) {
+  const then = earlier && earlier.named.get(c.name);
+  return !fails(c) ? null : !then ? "first run" : then.ending === c.ending ? "as before" : fails(then) ? "failed before too" : "new";
+}
+const newsTag = news => news && el("span", {class: "tag " + (news === "new" ? "new" : ""), title: NEWS[news]}, news);
+function newsLine(gate, view) {
+  const earlier = earlierOf(gate), counts = tally(gate.cases.map(c => newsOf(c, earlier)).filter(Boolean)), n = GATES.indexOf(gate);
+  if (!earlier) return "These records have no earlier run to compare with.";
+  if (!counts.length) return `Nothing fails that could be new since the run before (${fileText(earlier.file)}).`;
+  const found = Object.keys(NEWS).filter(news => counts.some(([name]) => name === news)), first = found[0];
+  return [`Since the run before (${fileText(earlier.file)}): `, commas(found.map(news => {
+    const [, k] = counts.find(([name]) => name === news), is = k === 1 ? "is" : "are";
+    return link(view, {gate: n === GATES.length - 1 ? null : n, news}, `${k}${news === first ? k === 1 ? " failure" : " failures" : ""} ${{new: `${is} new`, "as before": `${is} as before`, "failed before too": "failed in another way", "first run": "ran for the first time"}[news]}`);
+  })), "."];
+}
+
+const fileText = file => String(file).replace(/^\.\//, "");
 const ratioDigits = x => x < 10 ? x.toFixed(3) : digits(x);
 const ratioText = c => isNumber(c.ratio.value) ? ratioDigits(c.ratio.value) : "–";
 const intervalText = c => isNumber(c.ratio.low) && isNumber(c.ratio.high) ? `${ratioDigits(c.ratio.low)} to ${ratioDigits(c.ratio.high)}` : "";
@@ -32,19 +76,21 @@ const intervalText = c => isNumber(c.ratio.low) && isNumber(c.ratio.high) ? `${r
 function sides(gate) {
   let passport = {};
   try { passport = objectOf(JSON.parse(gate.document.passport_text)); } catch (error) { return el("pre", {class: "passport"}, gate.document.passport_text || ""); }
-  const devices = objectsOf(passport.devices), named = (d, i) => [devices.length === 2 ? "AB"[i] + ": " + d.name : d.name, d.driver, d.device, objectsOf(d.libraries).map(l => `${l.path} (${String(l.build).slice(0, 12)})`).join(", ")];
-  return sheet("What was compared; B is held against A", ["side", "driver", "device", "code that draws"], devices.map(named));
+  const devices = objectsOf(passport.devices), named = (d, i) => [devices.length === 2 ? "AB"[i] + ": " + d.name : d.name, d.driver, d.device, objectsOf(d.libraries).map(l => `${l.path} (${String(l.build).slice(0, 12)})`).join(", ")].map(text => text || "not recorded");
+  return sheet("What was compared; B is held against A", ["side", "driver", "device", "code that draws, and its build"], devices.map(named));
 }
 
 function gateChoice(params) {
   const asked = params.get("gate"), n = asked !== null && GATES[asked] ? Number(asked) : GATES.length - 1;
-  return [GATES[n], choice("choose-gate", "Gate", GATES.map((g, i) => [String(i), g.file]), String(n), gate => choose({gate, case: ""}))];
+  return [GATES[n], choice("choose-gate", "Gate", GATES.map((g, i) => [String(i), fileText(g.file)]), String(n), gate => choose({gate, case: ""}))];
 }
 function chosenCases(gate, params) {
-  const asked = {ending: params.get("ending") || "", technique: params.get("technique") || "", q: params.get("q") || ""};
-  const found = gate.cases.filter(c => (!asked.ending || c.ending === asked.ending) && (!asked.technique || c.technique === asked.technique) && (!asked.q || (c.name + " " + c.message).toLowerCase().includes(asked.q.toLowerCase())));
+  const earlier = earlierOf(gate), news = tally(gate.cases.map(c => newsOf(c, earlier)).filter(Boolean));
+  const asked = {ending: params.get("ending") || "", news: params.get("news") || "", technique: params.get("technique") || "", q: params.get("q") || ""};
+  const found = gate.cases.filter(c => (!asked.ending || c.ending === asked.ending) && (!asked.news || newsOf(c, earlier) === asked.news) && (!asked.technique || c.technique === asked.technique) && (!asked.q || (c.name + " " + c.message).toLowerCase().includes(asked.q.toLowerCase())));
   const form = [el("label", {class: "choice"}, "Search ", el("input", {type: "search", id: "cases-q", value: asked.q, oninput: event => choose({q: event.target.value})})),
     choice("cases-ending", "Ending", [["", "all"], ...countsOf(gate).map(([name, n]) => [name, `${name} (${n})`])], asked.ending, x => choose({ending: x})),
+    news.length ? choice("cases-news", "Failures that are", [["", "any"], ...news.map(([name, k]) => [name, `${name} (${k})`])], asked.news, x => choose({news: x})) : null,
     choice("cases-technique", "Technique", [["", "all"], ...[...new Set(gate.cases.map(c => c.technique))].map(t => [t, t])], asked.technique, x => choose({technique: x}))];
   return [found, form];
 }
@@ -52,20 +98,24 @@ const MOST = 60;
 const more = (found, params) => found.length > MOST && !params.get("all") ? el("p", {}, `The worst ${MOST} of ${found.length}. `, el("button", {type: "button", id: "all", onclick: () => choose({all: "1"})}, "Show all")) : null;
 const first = (found, params) => params.get("all") ? found : found.slice(0, MOST);
 
+// All looks, cells and devices of a gate share an error of 1 % (docs/ci.md).
+const GATE_LEVEL = "99 %";
 // Ratios of B by A with intervals, the worst first, on the margin's band.
 function forest(cases, margin) {
   const timed = cases.filter(c => isNumber(c.ratio.value) && c.ratio.value > 0);
   if (!timed.length) return note("No case has a ratio: nothing was timed.");
-  const width = widthOf(), isNarrow = width < 560, step = isNarrow ? 40 : 26, edge = {left: isNarrow ? 10 : 270, right: isNarrow ? 12 : 150, top: 8, bottom: 44};
+  const width = widthOf(), isNarrow = width < 560, step = isNarrow ? 40 : 26, isLong = timed.length > 12;
+  const edge = {left: isNarrow ? 10 : 270, right: isNarrow ? 12 : 150, top: isLong ? 28 : 8, bottom: 44};
   const height = edge.top + edge.bottom + timed.length * step, bottom = height - edge.bottom;
   const ends = timed.flatMap(c => [c.ratio.value, c.ratio.low, c.ratio.high]).filter(x => isNumber(x) && x > 0);
   const x = d3.scaleLog().domain([Math.min(d3.min(ends), 1 / (1 + 2 * margin)) / 1.02, Math.max(d3.max(ends), 1 + 2 * margin) * 1.02]).range([edge.left, width - edge.right]);
-  const svg = svgOf(width, height, "Time of B by time of A, with intervals; the numbers stand in the table of cases");
+  const svg = svgOf(width, height, "Time of B over time of A, with intervals; the numbers stand in the table of cases");
   svg.append("rect").attr("class", "band").attr("x", x(1 / (1 + margin))).attr("width", x(1 + margin) - x(1 / (1 + margin))).attr("y", edge.top).attr("height", bottom - edge.top);
   svg.append("path").attr("class", "one").attr("d", `M${x(1)},${edge.top}V${bottom}`);
   const ticks = x.domain()[1] / x.domain()[0] > 4 ? ticksOf(x, true, 7) : d3.ticks(...x.domain(), isNarrow ? 4 : 7);
   svg.append("g").attr("class", "axis").attr("transform", `translate(0,${bottom})`).call(d3.axisBottom(x).tickValues(ticks).tickFormat(tickText));
-  svg.append("text").attr("class", "title").attr("x", (edge.left + width - edge.right) / 2).attr("y", height - 6).attr("text-anchor", "middle").text(isNarrow ? "time of B by time of A" : "time of B by time of A: right of the band is slower");
+  if (isLong) svg.append("g").attr("class", "axis").attr("transform", `translate(0,${edge.top})`).call(d3.axisTop(x).tickValues(ticks).tickFormat(tickText));
+  svg.append("text").attr("class", "title").attr("x", (edge.left + width - edge.right) / 2).attr("y", height - 6).attr("text-anchor", "middle").text("time of B over time of A");
   timed.forEach((c, i) => {
     const y = edge.top + step * (i + (isNarrow ? 0.7 : 0.5)), group = svg.append("g").attr("class", "point ending " + endingClass(c.ending));
     const name = c.name.length > 38 ? c.name.slice(0, 37) + "…" : c.name;
@@ -75,69 +125,97 @@ function forest(cases, margin) {
     group.append("path").attr("class", "mark").attr("d", d3.symbol().type(fails(c) ? d3.symbolSquare : d3.symbolCircle).size(50)()).attr("transform", `translate(${x(c.ratio.value)},${y})`);
     if (!isNarrow) group.append("text").attr("class", "value").attr("x", width - edge.right + 8).attr("y", y).attr("dy", "0.32em").text(`${ratioText(c)} ${intervalText(c) ? `(${intervalText(c)})` : ""}`);
   });
-  return el("figure", {class: "plot"}, svg.node(), note(`The band is a margin of ${digits(100 * margin)} %: within it a change does not matter.`));
+  return el("figure", {class: "plot"}, note(`Each mark is the time of B over the time of A, with its interval: right of 1 B is slower. All intervals hold together with ${GATE_LEVEL} confidence. The grey band is the margin of ${digits(100 * margin)} %, within which a change does not matter. A square fails, a circle does not.`), svg.node());
 }
 const marginOf = gate => isNumber(gate.document.margin) ? gate.document.margin : 0.05;
 
 // --- a case ---
 
+// The first stage that differs, as the first line of a case's details tells it: [line, stage, frame, the rest].
+function stageOf(details) {
+  const found = /^frame (\d+), (?:stage (\S+)|opening) ?: (.*)$/m.exec(details || "");
+  return found && [found[0], found[2] || "opening, before any stage", found[1], found[3]];
+}
+const stageText = ([, stage, frame, rest]) => [el("strong", {}, stage), ` in frame ${frame}: `, el("small", {}, rest)];
+
 function viewCase(gate, c) {
-  const time = isNumber(c.time_ms.value) ? `${digits(c.time_ms.value)} ms${between(c.time_ms.low, c.time_ms.high) ? ` (${between(c.time_ms.low, c.time_ms.high)})` : ""}` : "";
-  const facts = [["Ending", ending(c.ending)], ["Technique", c.technique], ["Devices", c.devices.join(", ")], ["Ratio", isNumber(c.ratio.value) ? `${ratioText(c)} ${intervalText(c) ? `(${intervalText(c)})` : ""}` : ""],
+  const time = isNumber(c.time_ms.value) ? `${digits(c.time_ms.value)} ms${between(c.time_ms.low, c.time_ms.high) ? ` (${between(c.time_ms.low, c.time_ms.high)})` : ""}` : "", earlier = earlierOf(gate), then = earlier && earlier.named.get(c.name), stage = stageOf(c.details);
+  const facts = [["Ending", [ending(c.ending), ": ", aboutEnding(c.ending)]], ["In the run before", then ? [ending(then.ending), " ", newsTag(newsOf(c, earlier))] : ""], ["First stage that differs", stage ? stageText(stage) : ""], ["Technique", c.technique], ["Devices", c.devices.join(", ")],
+    ["Time of B over time of A", isNumber(c.ratio.value) ? `${ratioText(c)}${intervalText(c) ? `, ${GATE_LEVEL} interval ${intervalText(c)}` : ""}` : ""],
     ["Time of B", time], ["Time of A", isNumber(c.baseline_ms) ? `${digits(c.baseline_ms)} ms` : ""], ["Smallest change that could have been seen", isNumber(c.smallest_visible) ? `${digits(100 * c.smallest_visible)} %` : ""], ["Took", seconds(c.seconds)]];
-  const replay = c.devices.length > 1 && c.technique ? `raingauge shrink ${shell(c.technique)} --device ${shell(c.devices.join(","))} -o case.txt` : null;
+  const replay = c.devices.length > 1 && c.technique ? `raingauge shrink ${shell(c.technique)} --device ${shell(c.devices.join(","))} -o case.txt` : null, details = stage ? c.details.replace(stage[0], "").trim() : c.details;
   return el("article", {class: "case", id: "case"}, el("h2", {tabindex: "-1"}, c.name), c.message ? el("p", {class: "lead"}, c.message) : null,
     el("dl", {class: "facts"}, facts.filter(([, text]) => text && text !== "–").map(([name, text]) => [el("dt", {}, name), el("dd", {}, text)])),
-    c.details ? el("pre", {}, c.details) : null, comparer(c.attachments),
+    details ? el("pre", {}, details) : null, comparer(c.attachments),
     replay && fails(c) ? [el("h3", {}, "Make a case to send of it"), command(replay)] : null,
     el("p", {}, el("button", {type: "button", onclick: () => choose({case: ""})}, "Close this case")));
 }
 
-function caseRows(cases, view, isCi) {
-  return sheet("Cases, the worst first", ["case", "ending", {text: "B by A", number: true}, {text: "interval", number: true, title: "For all cases together it holds with 99 % confidence"}, {text: "B, ms", number: true}, {text: "took", number: true}, ...(isCi ? ["pictures"] : [])],
-    cases.map(c => [el("a", {href: href(view, {...Object.fromEntries(place().params), case: c.name})}, c.name), [ending(c.ending), c.message ? el("small", {}, c.message) : null], ratioText(c), intervalText(c), isNumber(c.time_ms.value) ? digits(c.time_ms.value) : "–", seconds(c.seconds),
-      ...(isCi ? [thumbnails(c.attachments)] : [])]), "cases");
+function caseRows(cases, view, isCi, earlier) {
+  return [endingKey(cases), sheet("Cases, the worst first. B / A is the time of B over the time of A: above 1 is slower", ["case", "ending", ...(earlier ? [{text: "before", title: `How the case ended in the run before, ${fileText(earlier.file)}`}] : []), {text: "B / A", number: true, title: "Time of B over time of A; above 1 is slower"},
+    {text: `${GATE_LEVEL} interval`, number: true, title: `For all cases together it holds with ${GATE_LEVEL} confidence`}, {text: "B,\u00a0ms", number: true}, {text: "took", number: true}, ...(isCi ? ["pictures"] : [])],
+    cases.map(c => [el("a", {href: href(view, {...Object.fromEntries(place().params), to: null, case: c.name})}, c.name), [ending(c.ending), " ", newsTag(newsOf(c, earlier)), c.message ? el("small", {}, c.message) : null], ...(earlier ? [earlier.named.has(c.name) ? ending(earlier.named.get(c.name).ending) : "–"] : []),
+      ratioText(c), intervalText(c), isNumber(c.time_ms.value) ? digits(c.time_ms.value) : "–", seconds(c.seconds), ...(isCi ? [thumbnails(c.attachments)] : [])]), "cases")];
 }
+// How many of a gate's cases are chosen, then the cases.
+const casesPart = (gate, found, params, view) => partOf("cases", "Cases", el("p", {role: "status"}, `${found.length} of ${plural(gate.cases.length, "case")}`), view === "ci" ? more(found, params) : null, caseRows(first(found, params), view, view === "ci", earlierOf(gate)));
 
-function viewGate(params) {
-  if (!GATES.length) return [head("A and B"), note("This page holds no gate.")];
+// A view of a gate: what it found, what is new of that, the choices, the chosen case, then parts.
+function gateView(title, view, params, parts) {
+  if (!GATES.length) return [head(title), note("This page holds no gate.")];
   const [gate, gates] = gateChoice(params), [found, form] = chosenCases(gate, params), one = gate.cases.find(c => c.name === params.get("case"));
-  return [head("A and B", el("p", {class: "lead"}, verdictLine(gate))), el("form", {class: "choices", role: "search", onsubmit: event => event.preventDefault()}, gates, form),
-    one ? viewCase(gate, one) : null, part("What is held against what", sides(gate)),
-    part("How much slower or faster", more(found, params), forest(first(found, params), marginOf(gate))), part("Cases", el("p", {role: "status"}, `${found.length} of ${plural(gate.cases.length, "case")}`), caseRows(first(found, params), "gate", false))];
+  const {lead, below} = parts(gate, found);
+  return [head(title, el("p", {class: "lead verdicts"}, verdictOfGate(gate, view)), el("p", {class: "news"}, newsLine(gate, view)), gate.cases.some(c => c.ending === "inconclusive") ? note("An inconclusive case does not fail the gate: its times decide nothing. If nothing fails, the gate then ends with status 3.") : null, lead),
+    el("form", {class: "choices", role: "search", onsubmit: event => event.preventDefault()}, gates, form), one ? viewCase(gate, one) : null, below];
+}
+function viewGate(params) {
+  return gateView("Gate: A and B", "gate", params, (gate, found) => ({below: [part("What is held against what", sides(gate)),
+    part("How much slower or faster", more(found, params), forest(first(found, params), marginOf(gate))), casesPart(gate, found, params, "gate")]}));
 }
 
 // --- the owner of CI ---
 
-// Bars of the seconds that cases took, the longest first.
-function secondsSheet(gate) {
-  const sum = d3.sum(gate.cases, c => isNumber(c.seconds) ? c.seconds : 0), top = [...gate.cases].filter(c => isNumber(c.seconds)).sort((a, b) => b.seconds - a.seconds).slice(0, 12);
-  return top.length ? [el("p", {}, `All cases took ${seconds(sum)}.`), sheet("The cases that took longest", ["case", {text: "took", number: true}, {text: "share", number: true}],
-    top.map(c => [c.name, seconds(c.seconds), [`${Math.round(100 * c.seconds / sum)} % `, el("meter", {min: 0, max: 1, value: c.seconds / sum, "aria-hidden": "true"})]]), "took")] : note("No case says how long it took.");
+const timedCases = cases => cases.filter(c => isNumber(c.seconds) && c.seconds >= 0).sort((a, b) => b.seconds - a.seconds);
+const secondsOf = cases => d3.sum(cases, c => c.seconds);
+const shareText = x => x >= 0.01 ? `${Math.round(100 * x)} %` : x < 0.001 ? "< 0.1 %" : `${(100 * x).toFixed(1)} %`;
+// Which cases took longest: one, or all that took as long.
+function longestText(timed) {
+  const longest = seconds(timed[0].seconds), most = timed.filter(c => seconds(c.seconds) === longest);
+  return most.length === 1 ? `${most[0].name} took longest, ${longest}` : `${most.length} cases took longest, ${longest} each${most.length > 3 ? "" : ": " + list(most.map(c => c.name))}`;
 }
-// The last runs of the worst cases of those that are looked for, oldest first, as a line around no change.
+// Bars of the seconds that the chosen cases took, the longest first.
+function secondsSheet(gate, found) {
+  const all = secondsOf(timedCases(gate.cases)), timed = timedCases(found), top = timed.slice(0, 12), isAll = found.length === gate.cases.length;
+  return top.length ? [el("p", {}, isAll ? `All ${plural(found.length, "case")} took ${seconds(all)}` : `The ${found.length === 1 ? "case" : plural(found.length, "case")} chosen above took ${seconds(secondsOf(timed))} of the ${seconds(all)} of all ${gate.cases.length}`, timed.length > 1 ? `; ${longestText(timed)}.` : "."),
+    sheet(`The cases that took longest${isAll ? "" : " of those chosen above"}, and their share of all seconds`, ["case", {text: "took", number: true}, {text: "share", number: true}],
+      top.map(c => [c.name, seconds(c.seconds), [shareText(all ? c.seconds / all : 0), " ", el("meter", {min: 0, max: 1, value: all ? c.seconds / all : 0, "aria-hidden": "true"})]]), "took")] : note("No case says how long it took.");
+}
+// The ratios of a case over the runs, as a line around no change; each mark has the colour of the ending.
+function spark(name, runs) {
+  const cases = runs.map(g => g.named.get(name)), ratios = cases.map(c => c && c.ratio.value > 0 ? c.ratio.value : null), known = ratios.filter(isNumber), width = 140;
+  const x = d3.scaleLinear().domain([0, runs.length - 1]).range([6, width - 6]), y = d3.scaleLog().domain([Math.min(0.95, d3.min(known) || 1), Math.max(1.05, d3.max(known) || 1)]).range([27, 5]);
+  const svg = svgOf(width, 32, `${name}, run by run: ${cases.map((c, i) => c ? `${c.ending}${ratios[i] ? ` ${ratioDigits(ratios[i])}` : ""}` : "not there").join(", ")}`);
+  svg.append("path").attr("class", "one").attr("d", `M3,${y(1)}H${width - 3}`);
+  svg.append("path").attr("class", "line d1").attr("d", d3.line().defined(isNumber).x((v, i) => x(i)).y(v => y(v))(ratios));
+  cases.forEach((c, i) => { if (c) svg.append("path").attr("class", "mark ending " + endingClass(c.ending)).attr("d", d3.symbol().type(fails(c) ? d3.symbolSquare : d3.symbolCircle).size(36)()).attr("transform", `translate(${x(i)},${y(ratios[i] || 1)})`); });
+  return svg.node();
+}
+// The last runs of the worst cases of those that are looked for, oldest first.
 function lastRuns(found) {
   const runs = GATES.slice(-30), names = found.slice(0, MOST).map(c => c.name);
   if (runs.length < 2) return null;
-  const spark = name => {
-    const values = runs.map(g => (g.cases.find(c => c.name === name) || {ratio: {}}).ratio.value), known = values.filter(v => isNumber(v) && v > 0);
-    if (!known.length) return "–";
-    const x = d3.scaleLinear().domain([0, runs.length - 1]).range([3, 137]), y = d3.scaleLog().domain([Math.min(0.95, d3.min(known)), Math.max(1.05, d3.max(known))]).range([25, 3]);
-    const svg = svgOf(140, 28, `${name}: ${known.map(digits).join(", ")}`);
-    svg.append("path").attr("class", "one").attr("d", `M3,${y(1)}H137`);
-    svg.append("path").attr("class", "line d0").attr("d", d3.line().defined(v => isNumber(v) && v > 0).x((v, i) => x(i)).y(v => y(v))(values));
-    return svg.node();
-  };
-  return part("The last runs", sheet(`Ratios of ${plural(runs.length, "run")}, in the order of their files${DATA.gates_left_out ? `; ${plural(DATA.gates_left_out, "earlier one")} left out` : ""}`, ["case", "B by A", {text: "first", number: true}, {text: "last", number: true}, "last ending"], names.map(name => {
-    const at = runs.map(g => g.cases.find(c => c.name === name)).filter(Boolean);
-    return [name, spark(name), ratioText(at[0]), ratioText(at[at.length - 1]), ending(at[at.length - 1].ending)];
-  }), "last"));
+  const end = c => [ending(c.ending), isNumber(c.ratio.value) ? el("small", {}, `B / A ${ratioText(c)}`) : null];
+  return partOf("runs", "The last runs", el("p", {}, `${plural(runs.length, "run")} in the order of their files, from ${fileText(runs[0].file)} to ${fileText(runs[runs.length - 1].file)}${DATA.gates_left_out ? `; ${plural(DATA.gates_left_out, "earlier one")} left out` : ""}. A mark is a run: a square fails, a circle does not.`),
+    sheet("How cases ended from run to run", ["case", `B / A of ${plural(runs.length, "run")}`, "first ending", "last ending", {text: "runs", number: true}], names.map(name => {
+      const at = runs.map(g => g.named.get(name)).filter(Boolean);
+      return [name, spark(name, runs), end(at[0]), end(at[at.length - 1]), String(at.length)];
+    }), "last"));
 }
 function viewCi(params) {
-  if (!GATES.length) return [head("CI"), note("This page holds no gate.")];
-  const [gate, gates] = gateChoice(params), [found, form] = chosenCases(gate, params), one = gate.cases.find(c => c.name === params.get("case"));
-  return [head("CI", el("p", {class: "lead " + (gate.cases.some(fails) ? "bad" : "good")}, verdictLine(gate))), el("form", {class: "choices", role: "search", onsubmit: event => event.preventDefault()}, gates, form),
-    one ? viewCase(gate, one) : null, part("Cases", el("p", {role: "status"}, `${found.length} of ${plural(gate.cases.length, "case")}`), more(found, params), caseRows(first(found, params), "ci", true)),
-    part("Where the seconds went", secondsSheet(gate)), lastRuns(found),
-    part("What is known to go wrong", el("p", {}, "The file of expectations says which failures are known. Where this run makes it untrue, the same gate writes it anew:"), command("raingauge gate A B --expectations results/expectations.txt --update"))];
+  return gateView("Gate in CI", "ci", params, (gate, found) => {
+    const timed = timedCases(gate.cases), runs = lastRuns(found);
+    return {lead: timed.length ? el("p", {class: "longest"}, `All cases took ${seconds(secondsOf(timed))}; ${longestText(timed)}. `, jump("seconds", "Where the seconds went"), runs ? [", ", jump("runs", "the last runs")] : null) : null,
+      below: [casesPart(gate, found, params, "ci"), partOf("seconds", "Where the seconds went", secondsSheet(gate, found)), runs,
+        part("What is known to go wrong", el("p", {}, "The file of expectations says which failures are known. Where this run makes it untrue, the same gate writes it anew:"), command("raingauge gate A B --expectations results/expectations.txt --update"))]};
+  });
 }

@@ -27,6 +27,13 @@ function keysOf(table) {
 const rowText = (row, keys) => keys.filter(key => key in row)
   .map(key => typeof row[key] === "string" && !/^(on|off)$/.test(row[key]) ? row[key] : [nameAndUnit(key)[0], exact(row[key]), nameAndUnit(key)[1]].filter(Boolean).join(" ")).join(", ");
 
+// A row by its number and what tells it apart: "row 4 (culling radius 20 m)". One that was not measured has its settings from print.
+function rowName(table, number) {
+  const printed = table && table.printed && table.printed.rows[number - 1], keys = printed ? table.printed.columns.slice(0, table.printed.keys) : [];
+  const row = table && (table.rows.get(number) || Object.fromEntries(keys.map((key, i) => [key, arrayOf(printed.values)[i]]))), text = row ? rowText(row, keysOf(table)) : "";
+  return text ? `row ${number} (${text})` : `row ${number}`;
+}
+
 // The axis along which rates go: the first setting of numbers that the rows have in several values. Rows that share its
 // values, as those of two cameras, are groups of their own.
 function axisOf(table) {
@@ -77,16 +84,19 @@ const normalised = lines => lines.map(line => {
   const first = line.points[0].value, by = x => isNumber(x) ? x / first : null;
   return {...line, points: line.points.map(p => ({...p, value: p.value / first, low: by(p.low), high: by(p.high)}))};
 });
-// By how much rates fall from the first row to the last, in one sentence.
-function story(lines) {
-  const falls = lines.filter(line => line.points.length > 1).map(line => [line.name, line.points[0].value / line.points[line.points.length - 1].value]);
+// By how much rates fall from the first row of a group to its last, in one sentence that names both.
+function story(table, [group, numbers], lines) {
+  const {axis} = axisOf(table), falls = lines.filter(line => line.points.length > 1).map(line => [line.name, line.points[0].value / line.points[line.points.length - 1].value]);
   const print = falls.find(([name]) => name === "print"), ours = falls.filter(([name]) => name !== "print").sort((a, b) => a[1] - b[1]);
-  const told = f => f >= 1 ? `falls to ${digits(1 / f)} of it (${digits(f)} times as slow)` : `rises to ${digits(1 / f)} times it`;
-  if (!ours.length) return "";
-  const low = ours[0], high = ours[ours.length - 1];
-  const here = ours.length === 1 ? `On ${low[0]} the rate of the last row ${told(low[1])}.`
-    : `Here the first row is ${digits(low[1])} times (${low[0]}) to ${digits(high[1])} times (${high[0]}) as fast as the last.`;
-  return (print ? `In print the first row is ${digits(print[1])} times as fast as the last. ` : "") + here;
+  if (!axis || !ours.length) return "";
+  const [name, unit] = nameAndUnit(axis), at = number => [exact(table.rows.get(number)[axis]), unit].filter(Boolean).join(" "), low = ours[0], high = ours[ours.length - 1];
+  const here = ours.length === 1 ? `${digits(low[1])} times on ${low[0]}` : `${digits(low[1])} times (${low[0]}) to ${digits(high[1])} times (${high[0]})`, from = `${name} from ${at(numbers[0])} to ${at(numbers[numbers.length - 1])}`;
+  return `${group ? `${group[0].toUpperCase()}${group.slice(1)}, ${from}` : `${from[0].toUpperCase()}${from.slice(1)}`}: ${print ? `in print the first row is ${digits(print[1])} times as fast as the last, here ${here}` : `the first row is ${here} as fast as the last`}.`;
+}
+// The stories of all groups, such as cameras, the chosen one first.
+function stories(table, chosen, variant, work) {
+  const {groups} = axisOf(table);
+  return [chosen, ...groups.filter(group => group[0] !== chosen[0])].map(group => story(table, group, linesOf(table, group[1], variant, work))).filter(Boolean);
 }
 
 // --- the view of all tables, and of one ---
@@ -105,19 +115,24 @@ function viewTables() {
     }))))];
 }
 
+// What a row drew of something that print counts, such as particles, the same on every device; null if devices tell others or none.
+function factOf(table, number, name, variant, work) {
+  const told = new Set(table.cells.filter(c => c.row_number === number && isCell(c, variant, work)).map(c => objectOf(c.facts)[name]).filter(isNumber));
+  return told.size === 1 ? [...told][0] : null;
+}
 // Rows that stand side by side: settings, print's numbers as printed, then a rate a device.
 function besideRows(table, numbers, variant, work) {
   const keys = Object.keys(objectOf([...table.rows.values()][0])).filter(key => keysOf(table).includes(key) || !table.printed);
   const extra = table.printed && table.printed.is_published ? table.printed.columns.map((name, i) => [name, i]).slice(table.printed.keys) : [];
-  const devices = DEVICES.filter(d => table.cells.some(c => c.device === d.name));
-  const columns = [...keys.map(words), ...extra.map(([name]) => ({text: "print: " + words(name), number: true})),
-    ...devices.map(d => ({text: d.name + (table.isTimed ? ", fps" : ""), number: true}))];
+  const devices = DEVICES.filter(d => table.cells.some(c => c.device === d.name)), ours = (number, name) => factOf(table, number, name, variant, work);
+  const isOurs = new Set(extra.map(([name]) => name).filter(name => numbers.some(n => ours(n, name) !== null))), printed = ([name, i], number, values) => isOurs.has(name) ? [exact(values[i]), ours(number, name) === null ? null : el("small", {}, `here ${exact(ours(number, name))}`)] : exact(values[i]);
+  const columns = [...keys.map(words), ...extra.map(([name]) => ({text: "print: " + words(name), number: true})), ...devices.map(d => ({text: d.name + (table.isTimed ? ", fps" : ""), number: true}))];
   const plain = [], shown = [];
   for (const number of numbers) {
     const row = table.rows.get(number), values = extra.length ? objectOf(table.printed.rows[number - 1]).values || [] : [];
     const cells = devices.map(d => cellOf(table, number, d.name, variant, work));
-    const front = [...keys.map(key => exact(row[key])), ...extra.map(([, i]) => exact(values[i]))];
-    plain.push([...keys.map(key => row[key]), ...extra.map(([, i]) => values[i]), ...cells.map(c => { const r = rateOf(c); return r ? r.value : c ? c.status : ""; })]);
+    const front = [...keys.map(key => exact(row[key])), ...extra.map(column => printed(column, number, values))];
+    plain.push([...keys.map(key => row[key]), ...extra.flatMap(([name, i]) => isOurs.has(name) ? [values[i], ours(number, name)] : [values[i]]), ...cells.map(c => { const r = rateOf(c); return r ? r.value : c ? c.status : ""; })]);
     shown.push([...front, ...cells.map(cell => {
       const rate = rateOf(cell);
       const print = table.printed && (work === undefined || work === "paper") ? printedRate(table, number, variant) : null;
@@ -127,7 +142,8 @@ function besideRows(table, numbers, variant, work) {
       return Object.entries(objectOf(cell.measured)).map(([, v]) => exact(v)).join(" x ");
     })]);
   }
-  return {columns, plain, shown};
+  const heads = columns.flatMap((c, i) => { const name = (extra[i - keys.length] || [])[0]; return isOurs.has(name) ? [c.text, "here: " + words(name)] : [c.text || c]; });
+  return {columns, heads, plain, shown};
 }
 
 // Each pass's share of a frame, by device, for one row.
@@ -153,10 +169,12 @@ function inputsOf(table) {
       if (typeof value === "string" && !/hash$/.test(name)) told.set(name, new Set([...(told.get(name) || []), value]));
   return [...told].map(([name, values]) => `${words(name)}: ${[...values].slice(0, 8).join(", ")}`).join("; ");
 }
+const machineOf = table => objectOf(objectOf(table.document.passport).machine);
+const machineText = table => { const machine = machineOf(table); return [machine.cpu, machine.cores_allowed ? plural(machine.cores_allowed, "core") : "", machine.distribution].filter(Boolean).join(", "); };
 function tableFacts(table) {
-  const d = table.document, machine = objectOf(objectOf(d.passport).machine), made = objectOf(objectOf(d.passport).raingauge);
+  const d = table.document, made = objectOf(objectOf(d.passport).raingauge);
   const work = arrayOf(d.works).map(w => `${w.name}: ${w.reading || w.saves || "what was printed"}`);
-  return el("dl", {class: "facts"}, [["Print's machine", d.hardware], ["Our machine", [machine.cpu, machine.cores_allowed ? plural(machine.cores_allowed, "core") : "", machine.distribution].filter(Boolean).join(", ")],
+  return el("dl", {class: "facts"}, [["Print's machine", d.hardware], ["Our machine", machineText(table)],
     ["Length", [d.length, d.quick ? `with ${d.quick} instead of the paper's own` : ""].filter(Boolean).join(", ")], ["Picture", arrayOf(d.size_px).join(" x ")],
     ["Changed", d.changed], ["Works", work.join("; ")], ["Inputs", inputsOf(table)], ["Note", d.note], ["Interrupted", d.interrupted ? "rows are missing, for the run was interrupted" : ""],
     ["Missing", arrayOf(d.missing).join(" ")], ["Commit", made.commit], ["Record", table.file]]
@@ -187,12 +205,13 @@ function viewTable(params) {
       choice("choose-work", "Work", works.map(w => [w, w]), work, w => choose({work: w})),
       !table.isTimed ? null : choice("choose-group", "Rows of", groups.map(([name]) => [name, name]), group[0], name => choose({group: name})),
       table.isTimed && rates.length ? choice("choose-scale", "Rates", [["fps", "frames a second"], ["first", "by the first row"]], isBy ? "first" : "fps", s => choose({scale: s})) : null),
-    table.isTimed && rates.length ? part(rates[0].name === "print" ? "Print and devices" : "Devices", el("p", {class: "story"}, axis ? story(rates) : ""),
+    table.isTimed && rates.length ? part(rates[0].name === "print" ? "Print and devices" : "Devices", stories(table, group, variant, work).map(text => el("p", {class: "story"}, text)),
       plot({lines, all: rates.map(l => l.name), hidden, axis: axis ? words(axis) : null, value: isBy ? "rate by that of the first row" : "frames a second", name: table.id, isLog: !isBy || d3.max(lines.flatMap(l => l.points), p => p.value / d3.max([1e-9, 1])) > 4}),
       note("Bars are intervals that hold the median with 95 % confidence. Print has none.")) : null,
-    part(table.printed && table.printed.is_published ? "The table, print beside ours" : "The table", sheet(table.isTimed ? `${table.id}, ${words(variant)}${work ? `, work ${work}` : ""}: frames a second, the interval that holds the median with 95 % confidence, and the rate as a multiple of print`
+    part(table.printed && table.printed.is_published ? "The table, print beside ours" : "The table", el("p", {class: "machines"}, table.printed && table.printed.is_published && table.document.hardware ? `Print: ${table.document.hardware}. ` : "", machineText(table) ? `Here: ${machineText(table)}.` : ""),
+      sheet(table.isTimed ? `${table.id}, ${words(variant)}${work ? `, work ${work}` : ""}: frames a second, the interval that holds the median with 95 % confidence, and the rate as a multiple of print`
       : `${table.id}: width and height in pixels`, beside.columns, beside.shown, "beside"),
-      el("div", {class: "buttons"}, el("button", {type: "button", onclick: () => save(table.id + ".csv", "text/csv", csv([beside.columns.map(c => c.text || c), ...beside.plain]))}, "CSV"))),
+      el("div", {class: "buttons"}, el("button", {type: "button", onclick: () => save(table.id + ".csv", "text/csv", csv([beside.heads, ...beside.plain]))}, "CSV"))),
     table.isTimed ? part("Where a frame's time goes", choice("choose-row", "Row", [...table.rows].map(([n, row]) => [String(n), rowText(row, keysOf(table))]), String(rowChoice), n => choose({row: n})),
       passesOf(table, rowChoice, variant, work)) : null,
     claims.length ? part("What the paper claims of it", el("div", {class: "claims"}, claims.map(claim => claimBrief(claim)))) : null,

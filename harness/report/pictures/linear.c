@@ -75,6 +75,15 @@ static struct window window_of(const struct rg_picture *picture, int x, int y)
     return w;
 }
 
+static int64_t count_differing(const struct rg_picture *picture, const float *spreads)
+{
+    const int64_t texels = (int64_t)picture->width * picture->height;
+    int64_t count = 0;
+    for (int64_t i = 0; i < texels; i++)
+        count += spreads[i] > 0;
+    return count;
+}
+
 // Takes the texel that differs most, the first of several, and clears its surroundings.
 static bool take_worst(const struct rg_picture *picture, float *spreads, struct window *window)
 {
@@ -128,6 +137,7 @@ json_t *rg_linear_json(const struct rg_linear *linear)
 {
     struct window windows[RG_LINEAR_WORST];
     float *spreads = are_alike(linear) ? spreads_of(linear) : NULL;
+    const int64_t differing = spreads ? count_differing(&linear->pictures[0], spreads) : 0;
     int count = 0;
     while (spreads && count < RG_LINEAR_WORST &&
            take_worst(&linear->pictures[0], spreads, &windows[count]))
@@ -141,8 +151,9 @@ json_t *rg_linear_json(const struct rg_linear *linear)
                               json_pack("{si si si si si si}", "x", windows[i].x, "y", windows[i].y,
                                         "left", windows[i].left, "top", windows[i].top, "width",
                                         windows[i].width, "height", windows[i].height));
-    return json_pack("{si so so}", "channels", linear->pictures[0].channels, "worst", worst,
-                     "pictures", pictures_json(linear, windows, count));
+    return json_pack("{si sI so so}", "channels", linear->pictures[0].channels, "differing",
+                     (json_int_t)differing, "worst", worst, "pictures",
+                     pictures_json(linear, windows, count));
 }
 
 void rg_linear_free(struct rg_linear *linear)

@@ -15,11 +15,12 @@ struct rg_linear {
     int count;
 };
 
-// At most three texels that differ most, none in another's surroundings, as {channels, worst,
-// pictures}. `worst` are {x, y, left, top, width, height}: the texel, and its surroundings of at
-// most 33 x 33 texels. `pictures` are {name, values}: for each of the worst a text of values with
-// nine digits, row by row, parted by spaces; `=` is the first picture's value. The caller owns it.
-// NULL if nothing differs, if pictures have other sizes or channels, or without memory.
+// At most three texels that differ most, none in another's surroundings, as {channels, differing,
+// worst, pictures}. `differing` is how many texels differ in all. `worst` are {x, y, left, top,
+// width, height}: the texel, and its surroundings of at most 33 x 33 texels. `pictures` are {name,
+// values}: for each of the worst a text of values with nine digits, row by row, parted by spaces;
+// `=` is the first picture's value. The caller owns it. NULL if nothing differs, if pictures have
+// other sizes or channels, or without memory.
 json_t *rg_linear_json(const struct rg_linear *linear);
 void rg_linear_free(struct rg_linear *linear);
 

@@ -67,7 +67,7 @@ static struct rg_judgement judge_errors(struct evidence *e)
     const size_t used = strlen(e->judgement.why);
     if (!is_flat && first > knee)
         snprintf(e->judgement.why + used, sizeof(e->judgement.why) - used,
-                 ": %.3g times as far, due are %.3g", times, e->claim->least);
+                 ": %.3g times as far, needed: %.3g", times, e->claim->least);
     return e->judgement;
 }
 

@@ -239,24 +239,31 @@ static const char *variant_name(const struct evidence *e, int variant)
     return e->result->variants[variant ? e->other : e->at.variant];
 }
 
-// The subject of the part: "size 5 against size 1".
-static void name_part(const struct evidence *e, const struct rg_claim_part *of, char *text,
-                      size_t size)
+// What the part compares, before and after its value: "size 1 is ", " as size 5".
+struct compared {
+    char before[2 * NAME_SIZE], after[NAME_SIZE + 8];
+};
+
+static void name_part(const struct evidence *e, const struct rg_claim_part *of,
+                      struct compared *text)
 {
     static const char *const abouts[] = {
-        [RG_PART_ROWS] = "", [RG_PART_WHOLE_FALL] = "in all ", [RG_PART_TREND] = "the trend, "};
+        [RG_PART_ROWS] = "", [RG_PART_WHOLE_FALL] = "in all ", [RG_PART_TREND] = "by the trend "};
     char slow[NAME_SIZE], fast[NAME_SIZE];
     name_cell(e, of->slow, slow);
+    *text = (struct compared){0};
     if (e->claim->test == RG_CLAIM_EXPONENT) {
-        snprintf(text, size, "the power");
+        snprintf(text->before, sizeof(text->before), "the power is ");
     } else if (of->fast < 0) {
-        snprintf(text, size, "%s", slow);
+        snprintf(text->before, sizeof(text->before), "%s: ", slow);
     } else if (of->fast_variant != of->slow_variant) {
-        snprintf(text, size, "%s, %s against %s", slow, variant_name(e, of->fast_variant),
-                 variant_name(e, of->slow_variant));
+        snprintf(text->before, sizeof(text->before), "%s, %s is ", slow,
+                 variant_name(e, of->fast_variant));
+        snprintf(text->after, sizeof(text->after), " as %s", variant_name(e, of->slow_variant));
     } else {
         name_cell(e, of->fast, fast);
-        snprintf(text, size, "%s%s against %s", abouts[of->about], fast, slow);
+        snprintf(text->before, sizeof(text->before), "%s%s is ", abouts[of->about], fast);
+        snprintf(text->after, sizeof(text->after), " as %s", slow);
     }
 }
 
@@ -266,18 +273,24 @@ static double shown(const struct rg_claim_parts *p, double value, bool is_power)
     return is_power ? value / p->scale : exp(value);
 }
 
-// "due are at least 1.2", "due are 0.95 to 1.05".
-static void name_due(const struct rg_claim_parts *p, int part, bool is_power, char *text,
-                     size_t size)
+// "at least 1.2", "0.95 to 1.05". Between neighbouring rows of a fall the bound is the tolerance.
+static void name_needed(const struct rg_claim_parts *p, int part, enum rg_claim_test test,
+                        char *text, size_t size)
 {
+    const bool is_power = test == RG_CLAIM_EXPONENT;
     const double least = p->parts[part].least, most = p->parts[part].most;
     const double low = shown(p, least, is_power), high = shown(p, most, is_power);
     if (isfinite(least) && isfinite(most))
-        snprintf(text, size, "due are %.3g to %.3g", low, high);
+        snprintf(text, size, "%.3g to %.3g", low, high);
     else if (isfinite(most))
-        snprintf(text, size, "due are at most %.3g", high);
+        snprintf(text, size, "at most %.3g", high);
+    else if (test == RG_CLAIM_FALLS && p->of[part].about == RG_PART_ROWS)
+        snprintf(
+            text, size,
+            "at least %.3g, or 1/%.3g, since a row may be %.3g times as fast as the row before",
+            low, RG_CLAIM_REVERSAL, RG_CLAIM_REVERSAL);
     else
-        snprintf(text, size, "due are at least %.3g", low);
+        snprintf(text, size, "at least %.3g", low);
 }
 
 void rg_claim_part_tell(const struct evidence *e, const struct rg_claim_parts *p, int part,
@@ -285,12 +298,13 @@ void rg_claim_part_tell(const struct evidence *e, const struct rg_claim_parts *p
 {
     const bool is_power = e->claim->test == RG_CLAIM_EXPONENT;
     const char *unit = is_power ? "" : e->claim->test == RG_CLAIM_RATE ? " fps" : " times as fast";
-    char about[2 * NAME_SIZE + 64], due[64], interval[64] = "";
-    name_part(e, &p->of[part], about, sizeof(about));
-    name_due(p, part, is_power, due, sizeof(due));
+    struct compared about;
+    char needed[128], interval[64] = "";
+    name_part(e, &p->of[part], &about);
+    name_needed(p, part, e->claim->test, needed, sizeof(needed));
     if (isfinite(of->low) && isfinite(of->high))
         snprintf(interval, sizeof(interval), " (%.3g to %.3g)", shown(p, of->low, is_power),
                  shown(p, of->high, is_power));
-    snprintf(text, size, "%s: %.3g%s%s, %s", about, shown(p, of->median, is_power), unit, interval,
-             due);
+    snprintf(text, size, "%s%.3g%s%s%s, needed: %s", about.before, shown(p, of->median, is_power),
+             unit, about.after, interval, needed);
 }

@@ -66,7 +66,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         axe = fetch(folder)
-        page = browser.make_page(raingauge, folder)
+        page = browser.make_page(raingauge, folder, odd=True)
         shown = browser.Browser(raingauge)
         try:
             return made.run([check_finder] + [check(scheme, width) for width in (1440, 390) for scheme in ("light", "dark")], shown, page, axe)

@@ -52,6 +52,7 @@ static void test_worst(void **state)
     *texel(&linear.pictures[1], 5, 39, 0) += 0.125f;
     json_t *json = rg_linear_json(&linear);
     assert_int_equal(json_array_size(json_object_get(json, "worst")), RG_LINEAR_WORST);
+    assert_int_equal(json_integer_value(json_object_get(json, "differing")), 5);
     const int wanted[RG_LINEAR_WORST][4] = {{2, 1, 0, 0}, {50, 20, 34, 4}, {99, 39, 67, 7}};
     for (int i = 0; i < RG_LINEAR_WORST; i++) {
         assert_int_equal(at(json, i, "x"), wanted[i][0]);

@@ -35,6 +35,11 @@ def check_tables(raingauge, folder):
         problems.append(f"{len(tables)} tables, {(folder / 'page.html').stat().st_size} bytes")
     if data["claims"] != claims:
         problems.append("the claims are not those of table --claims")
+    if data["rules"] != {"looks": [12, 24, 48, 96], "fall": 1.05, "reversal": 1.1}:
+        problems.append(data["rules"])
+    reasons = [verdict["why"] for claim in claims["claims"] if claim["test"] == "falls" for verdict in claim["verdicts"]]
+    if not any("needed: at least 0.909, or 1/1.1, since a row may be 1.1 times as fast as the row before" in why for why in reasons):
+        problems.append(reasons)
     printed = tables["creus-5.4"]["printed"]
     if printed["columns"][0] != "culling_radius_m" or printed["rows"][0]["values"][:2] != [5, 70303] or printed["paper"] != "creus":
         problems.append(printed)
