@@ -147,12 +147,13 @@ static bool find_root(char root[PATH_MAX])
                     root);
 }
 
-// Hashes everything that a driver may read, in any order: a sum.
+// Hashes everything that a driver may read, in any order: a sum. Variables of raingauge choose what
+// a driver is given, which drivers' keys hold.
 static uint64_t hash_settings(const char *api, const char *environment)
 {
     uint64_t hash = XXH3_64bits(api, strlen(api));
     for (const char *v = environment; *v; v += strlen(v) + 1)
-        hash += XXH3_64bits(v, strlen(v));
+        hash += strncmp(v, "RG_", 3) ? XXH3_64bits(v, strlen(v)) : 0;
     for (int i = 0; rg_variables[i].name; i++) {
         const char *name = rg_variables[i].name, *value = getenv(name);
         char text[PATH_MAX];

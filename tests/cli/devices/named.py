@@ -263,7 +263,8 @@ def code_in(folder):
 
 
 def check_caches(runner):
-    """a device with its own settings, and each side of a gate, leave the user's caches alone; a plain device uses them"""
+    """a device with its own settings, and each side of a gate, leave the user's caches alone; a plain device uses them. Sides that differ by
+    raingauge's own settings alone share their code"""
     problems = []
     drivers = of_system(runner)
     for api in drivers:
@@ -275,10 +276,11 @@ def check_caches(runner):
                 os.mkdir(name)
             render = ["render"] + SMALL + ["-o", files.path("x.png"), "--device"]
             sides = os.path.join(tmp, "raingauge", "sides")
-            for args in (render + [api + "@RG_TEST=1"], ["gate", api, api, "--pictures", "--cells", files.cells]):
+            gate = ["gate", api, api, "--pictures", "--cells", files.cells]
+            for args, grows in ((render + [api + "@TEST=1"], True), (gate, True), (gate[:1] + [api + "@RG_TEST=1", api + "@RG_TEST=2"] + gate[3:], False)):
                 before = len(code_in(sides))
                 result = runner.run(args, variables)
-                if result.returncode or code_in(user) or len(code_in(sides)) <= before:
+                if result.returncode or code_in(user) or (len(code_in(sides)) > before) != grows:
                     problems.append("%s: exit status %d, %s, %s" % (args, result.returncode, result.stderr, code_in(user)))
             variable = "POCL_CACHE_DIR" if api == OPENCL else "MESA_SHADER_CACHE_DIR"
             runner.run(render + ["%s@%s=%s" % (api, variable, own)], variables)

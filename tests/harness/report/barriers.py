@@ -31,16 +31,16 @@ def fetch(folder):
     return (folder / "axe/node_modules/axe-core/axe.min.js").read_text(encoding="utf-8")
 
 
-def find(shown, axe):
-    shown.driver.execute_script(axe)
+def find(shown):
     return shown.driver.execute_async_script(RUN)
 
 
 def check_finder(shown, page, axe):
     """axe-core finds a picture without a text"""
     shown.open(page)
+    shown.driver.execute_script(axe)
     shown.driver.execute_script("document.getElementById('main').append(document.createElement('img'))")
-    found = find(shown, axe)
+    found = find(shown)
     return [] if [violation[0] for violation in found] == ["image-alt"] else [found]
 
 
@@ -49,9 +49,11 @@ def check(scheme, width):
         problems = []
         shown.size(width)
         shown.prefer(scheme)
+        shown.open(page)
+        shown.driver.execute_script(axe)
         for view in browser.VIEWS + browser.SINGLE:
-            shown.open(page, "#" + view)
-            problems += [(view, violation) for violation in find(shown, axe)]
+            shown.go("#" + view)
+            problems += [(view, violation) for violation in find(shown)]
         return problems
     barriers.__doc__ = f"axe-core finds no barrier in any view, {scheme}, {width} pixels wide"
     return barriers
@@ -69,7 +71,7 @@ def main():
         page = browser.make_page(raingauge, folder, odd=True)
         shown = browser.Browser(raingauge)
         try:
-            return made.run([check_finder] + [check(scheme, width) for width in (1440, 390) for scheme in ("light", "dark")], shown, page, axe)
+            return made.run([check_finder] + [check("light", 1440), check("dark", 390)], shown, page, axe)
         finally:
             shown.driver.quit()
 
