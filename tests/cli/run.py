@@ -11,6 +11,7 @@
            results  what table, diff, render and atlas print, and what is refused for its size, on the CPU
            clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
+           machines records of several machines, side by side
            farm     plans, shards and merges
            shards   a plan, two shards and a merge
            befallen  the same, of records that are cut, copied, of another commit, or that a full disk loses
@@ -69,6 +70,7 @@ import installed
 import kept
 import limits
 import losses
+import machines
 import misbehaving
 import named
 import native
@@ -95,6 +97,7 @@ SUITES = {
     "results": lambda runner: runner.check_all(tables.CHECKS + own.CHECKS + pictures.CHECKS + besides.CHECKS + atlases.CHECKS + limits.CHECKS),
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(stored.CHECKS),
+    "machines": lambda runner: runner.check_all(machines.CHECKS),
     "farm": lambda runner: runner.check_all(farm.CHECKS),
     "shards": lambda runner: runner.check_all(farm.FEW),
     "befallen": lambda runner: runner.check_all(befallen.CHECKS),

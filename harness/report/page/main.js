@@ -16,7 +16,8 @@ const total = (title, number, text, more, to) => el("section", {class: "total"},
 function claimsTotal() {
   const stands = standings();
   return total("Claims", [`${standing("holds")} `, el("small", {}, `of ${CLAIMS.length} ${standing("holds") === 1 ? "holds" : "hold"}`)],
-    el("ul", {class: "plain"}, stands.map(([stand, text, cls]) => el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, text)))), bar(stands.map(([, , cls, n]) => [cls, n])));
+    el("ul", {class: "plain"}, stands.map(([stand, text, cls]) => el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, text))),
+    SEVERAL ? el("li", {}, el("span", {class: "dot", "aria-hidden": "true"}), "Hold: ", list(MACHINES.map(m => `${standingOn("holds", m.key)} on ${m.name}`))) : null), bar(stands.map(([, , cls, n]) => [cls, n])));
 }
 function devicesTotal() {
   const doctor = records("doctor")[0], asked = doctor ? objectsOf(doctor.document.devices) : DEVICES.filter(d => CELLS.some(c => c.device === d.name));
@@ -37,7 +38,7 @@ function picturesTotal() {
 
 function foundText() {
   const papers = new Set(CLAIMS.map(c => c.paper)).size, texts = [];
-  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${list(standings().map(([, text]) => text))}.${standing("fits") + standing("misses") ? " One launch is no verdict." : ""}`);
+  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${list(standings().map(([, text]) => text))}.${standing("fits") + standing("misses") ? " One launch is no verdict." : ""}${SEVERAL ? ` ${plural(differing(CLAIMS).length, "verdict")} of devices ${differing(CLAIMS).length === 1 ? "differs" : "differ"} between ${MACHINES.length} machines.` : ""}`);
   for (const gate of GATES.slice(-1)) texts.push(verdictLine(gate));
   const checks = records("verify").flatMap(r => objectsOf(r.document.checks)), bad = checks.filter(c => statusClass(c.status) === "no");
   if (checks.length) texts.push(bad.length ? `${bad.length} of ${plural(checks.length, "check")} of the models do not hold.` : `None of ${plural(checks.length, "check")} of the models fails.`);
