@@ -152,6 +152,10 @@ static const char *admit(const char *path, const json_t *document)
     const char *kind = kind_of(document);
     if (!json_is_integer(format) || !kind)
         return rg_error_null("%s: is no record of raingauge; %s", path, mend);
+    if (json_object_get(document, "shard"))
+        return rg_error_null("%s: is the record of a shard; name what `raingauge %s --from --json` "
+                             "makes of all of them",
+                             path, kind);
     if (json_integer_value(format) != RG_FORMAT_VERSION)
         return rg_error_null("%s: is of format %" JSON_INTEGER_FORMAT
                              ", and this raingauge knows format %d; use the raingauge that wrote "

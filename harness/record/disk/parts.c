@@ -6,11 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/record/disk/document.h"
 #include "harness/record/disk/seal.h"
+#include "harness/record/named.h"
 #include "harness/record/output.h"
 
 enum { NAME = 64, MOST_SHARDS = 1 << 16 };
@@ -85,11 +87,9 @@ static bool is_of_whole(struct reading *r, const json_t *of, int count, const ch
         return parts->documents;
     }
     const char *differs = count == parts->count ? difference(parts->of, of) : "number of shards";
-    return !differs ||
-           rg_error(
-               "%s: its %s is another than that of %s; name the records of one %s, or run this "
-               "shard again",
-               path, differs, r->first, r->kind);
+    return !differs || rg_error("%s: its %s is not that of %s; name the records of one %s, or run "
+                                "its shard again",
+                                path, differs, r->first, r->kind);
 }
 
 // Takes over the document of a record.
@@ -144,19 +144,28 @@ static bool is_named(const char *kind, const char *name)
            !name[length + (size_t)end];
 }
 
-static bool take_folder(struct reading *r, const char *folder)
+static bool is_folder(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+// Takes the records of a folder, and with `inner` those of the folders in it: services for CI keep
+// a folder for each job.
+static bool take_folder(struct reading *r, const char *folder, bool inner)
 {
     struct dirent **entries;
     const int count = scandir(folder, &entries, NULL, alphasort);
     bool ok = count >= 0 ||
               rg_system_error(errno, "%s: %s; name a folder of records", folder, strerror(errno));
     for (int i = 0; i < count; i++) {
+        const char *name = entries[i]->d_name;
         char path[2048];
-        if (ok && is_named(r->kind, entries[i]->d_name))
-            ok = snprintf(path, sizeof(path), "%s/%s", folder, entries[i]->d_name) <
-                         (int)sizeof(path)
-                     ? take(r, path)
-                     : rg_error("%.80s...: its name is too long; move it", path);
+        const bool fits = snprintf(path, sizeof(path), "%s/%s", folder, name) < (int)sizeof(path);
+        if (ok && is_named(r->kind, name))
+            ok = fits ? take(r, path) : rg_error("%.80s...: its name is too long; move it", path);
+        else if (ok && inner && fits && *name != '.' && is_folder(path))
+            ok = take_folder(r, path, false);
         free(entries[i]);
     }
     if (count >= 0)
@@ -167,9 +176,9 @@ static bool take_folder(struct reading *r, const char *folder)
 bool rg_parts_read(struct rg_parts *parts, const char *kind, const char *path)
 {
     struct reading r = {.parts = parts, .kind = kind};
-    struct stat found;
-    const bool ok =
-        stat(path, &found) == 0 && S_ISDIR(found.st_mode) ? take_folder(&r, path) : take(&r, path);
+    if (access(path, F_OK))
+        return rg_system_error(errno, "%s: %s; name a folder of records", path, strerror(errno));
+    const bool ok = is_folder(path) ? take_folder(&r, path, true) : take(&r, path);
     for (int i = 0; ok && i < parts->count; i++)
         parts->missing -= parts->documents[i] != NULL;
     return ok;
@@ -186,6 +195,52 @@ char *rg_parts_lacking(const struct rg_parts *parts)
         rg_shard_array(lacks, parts->count, text, room);
     free(lacks);
     return text;
+}
+
+// Whether a text has a piece at its beginning or behind a line's end, with a line's end behind it.
+static bool has_piece(const char *text, const char *piece, size_t length)
+{
+    bool has = false;
+    for (const char *at = text; !has && (at = strstr(at, piece)); at++)
+        has = (at == text || at[-1] == '\n') && (at[length] == '\n' || !at[length]);
+    return has;
+}
+
+// Adds a piece and a line's end to a text, unless it has it; a line cannot steer a terminal. False
+// without memory.
+static bool add_piece(char **text, const char *piece, size_t length, bool is_line)
+{
+    char *one = strndup(piece, length), *longer = NULL;
+    const size_t before = strlen(*text);
+    if (one && is_line) {
+        rg_text_copy(one, length + 1, piece);
+        length = strlen(one);
+    }
+    if (one && (!length || has_piece(*text, one, length)))
+        longer = *text;
+    else if (one && (longer = realloc(*text, before + length + 2)))
+        snprintf(longer + before, length + 2, "%s\n", one);
+    *text = longer ? longer : *text;
+    free(one);
+    return longer;
+}
+
+char *rg_parts_texts(const struct rg_parts *parts, const char *name, bool by_lines)
+{
+    char *all = rg_alloc(1, 1, "shards");
+    bool ok = all;
+    for (int i = 0; ok && i < parts->count; i++) {
+        const char *text = json_string_value(json_object_get(parts->documents[i], name));
+        while (ok && text && *text) {
+            const size_t length = by_lines ? strcspn(text, "\n") : strlen(text);
+            ok = add_piece(&all, text, length, by_lines);
+            text += length + (text[length] == '\n');
+        }
+    }
+    if (ok)
+        return all;
+    free(all);
+    return rg_harness_error_null("shards: no memory for what their records tell");
 }
 
 void rg_parts_free(struct rg_parts *parts)

@@ -22,13 +22,16 @@ struct rg_parts {
     int missing;        // shards without a record
 };
 
-// Reads the records of a kind from a folder, or one from a file. Tells of damaged ones, which count
-// as missing. False, with one logged line that names the file, if a record is of another format or
-// of another whole, or cannot be read, or memory runs out.
+// Reads the records of a kind from a folder and the folders in it, or one from a file. Tells of
+// damaged ones, which count as missing. False, with one logged line that names the file, if a
+// record is of another format or of another whole, or cannot be read, or memory runs out.
 bool rg_parts_read(struct rg_parts *parts, const char *kind, const char *path);
 // The numbers of the shards without a record, "2,5-7", which the caller frees. NULL, with one
 // logged line, when memory runs out.
 char *rg_parts_lacking(const struct rg_parts *parts);
+// The texts that records have under a name, each once, or their lines, each once. The caller frees
+// it. NULL, with one logged line, when memory runs out.
+char *rg_parts_texts(const struct rg_parts *parts, const char *name, bool by_lines);
 void rg_parts_free(struct rg_parts *parts);
 
 #endif
