@@ -55,6 +55,13 @@ int rg_exit_worse(int a, int b)
     return RG_EXIT_PASS;
 }
 
+int rg_exit_of_record(const json_t *status)
+{
+    const json_int_t number = json_integer_value(status);
+    const int exit = number >= 0 && number < RG_EXIT_SIGNALLED ? (int)number : RG_EXIT_FAIL;
+    return !exit || rg_exit_worse(exit, RG_EXIT_PASS) ? exit : RG_EXIT_FAIL;
+}
+
 bool rg_stdout_error(void)
 {
     return rg_harness_error("standard output: cannot be written; is it closed, or the disk full?");

@@ -2,6 +2,7 @@
 #ifndef RG_HARNESS_CONSOLE_EXIT_H
 #define RG_HARNESS_CONSOLE_EXIT_H
 
+#include <jansson.h>
 #include <stdint.h>
 
 #include "core/base/outcome.h"
@@ -34,6 +35,9 @@ int rg_exit_with(int exit, int64_t count);
 // The status of work that the last failure ended (rg_failure_take): bad usage if the user's input
 // is at fault.
 int rg_exit_of_error(void);
+
+// The status that a record tells of a command; RG_EXIT_FAIL if no command ends with it.
+int rg_exit_of_record(const json_t *status);
 
 // Logs that standard output cannot be written, and returns false, as rg_error does.
 bool rg_stdout_error(void);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/text/add.h"
 #include "harness/compare/gate/report/report.h"
 #include "harness/report/report.h"
 
@@ -57,12 +58,6 @@ static const char *text_of(const json_t *object, const char *field, char text[4 
 
 // --- findings, the worst first ---
 
-static bool is(const json_t *object, const char *field, const char *value)
-{
-    const char *text = json_string_value(json_object_get(object, field));
-    return text && !strcmp(text, value);
-}
-
 // The index of the last record of a kind; the number of records if there is none.
 static size_t last_of(const struct rg_page *page, const char *kind)
 {
@@ -70,7 +65,7 @@ static size_t last_of(const struct rg_page *page, const char *kind)
     json_t *record;
     json_array_foreach(page->records, i, record)
     {
-        last = is(record, "kind", kind) ? i : last;
+        last = rg_page_is(record, "kind", kind) ? i : last;
     }
     return last;
 }
@@ -86,7 +81,8 @@ static void each(const struct rg_page *page, const char *kind, const char *array
     json_array_foreach(page->records, i, record)
     {
         const json_t *elements = json_object_get(json_object_get(record, "document"), array);
-        if (!is(record, "kind", kind) || (is(record, "kind", "gate") && i != last_gate))
+        if (!rg_page_is(record, "kind", kind) ||
+            (rg_page_is(record, "kind", "gate") && i != last_gate))
             continue;
         json_array_foreach(elements, k, element)
         {
@@ -105,7 +101,7 @@ static void tell_case(const json_t *element, void *user)
 {
     struct finding *f = user;
     char name[4 * MOST_TEXT], message[4 * MOST_TEXT];
-    if (is(element, "ending", f->wanted) && f->count < f->most) {
+    if (rg_page_is(element, "ending", f->wanted) && f->count < f->most) {
         f->count++;
         put(f->brief, "| %s | %s | %s |\n", f->wanted, text_of(element, "name", name),
             text_of(element, "message", message));
@@ -117,7 +113,7 @@ static void tell_check(const json_t *element, void *user)
     struct finding *f = user;
     char check[4 * MOST_TEXT], detail[4 * MOST_TEXT], technique[4 * MOST_TEXT],
         device[4 * MOST_TEXT];
-    if (!is(element, "status", f->wanted) || f->count >= f->most)
+    if (!rg_page_is(element, "status", f->wanted) || f->count >= f->most)
         return;
     f->count++;
     put(f->brief, "| %s | %s, %s on %s | %s |\n", f->wanted,
@@ -153,16 +149,16 @@ static void count_case(const json_t *element, void *user)
     struct counts *counts = user;
     counts->cases++;
     for (enum rg_ending i = 0; i <= RG_ENDING_PASS; i++)
-        counts->failing += rg_ending_fails(i) && is(element, "ending", rg_ending_name(i));
+        counts->failing += rg_ending_fails(i) && rg_page_is(element, "ending", rg_ending_name(i));
 }
 
 static void count_check(const json_t *element, void *user)
 {
     struct counts *counts = user;
     counts->checks++;
-    counts->checks_failing += !is(element, "status", "ok") &&
-                              !is(element, "status", "unsupported") &&
-                              !is(element, "status", "nothing");
+    counts->checks_failing += !rg_page_is(element, "status", "ok") &&
+                              !rg_page_is(element, "status", "unsupported") &&
+                              !rg_page_is(element, "status", "nothing");
 }
 
 static struct counts count(const struct rg_page *page)
@@ -175,22 +171,51 @@ static struct counts count(const struct rg_page *page)
 
 // --- Markdown ---
 
-static void put_claim(struct brief *brief, const json_t *claim)
+// Whether verdicts are of several machines; the claims of other records name none.
+static bool are_of_several(const json_t *claims)
 {
-    char words[4 * MOST_TEXT], part[4 * MOST_TEXT], table[4 * MOST_TEXT], line[2048];
-    size_t i, length = 0;
+    const json_t *first = NULL;
+    size_t i, k;
+    json_t *claim, *verdict;
+    json_array_foreach(claims, i, claim)
+    {
+        json_array_foreach(json_object_get(claim, "verdicts"), k, verdict)
+        {
+            const json_t *machine = json_object_get(verdict, "machine");
+            first = first ? first : machine;
+            if (machine && !json_equal(machine, first))
+                return true;
+        }
+    }
+    return false;
+}
+
+// Writes the verdicts of a claim on a device (NULL: on all): "cpu: reproduced", or "cpu on A:
+// reproduced" if they are of several machines.
+static void write_verdicts(const json_t *claim, const char *on, bool of_several, char *line,
+                           size_t size)
+{
+    size_t i;
     json_t *verdict;
     *line = 0;
     json_array_foreach(json_object_get(claim, "verdicts"), i, verdict)
     {
-        char device[4 * MOST_TEXT], text[4 * MOST_TEXT];
-        const int more =
-            snprintf(line + length, sizeof(line) - length, "%s%s: %s", i ? ", " : "",
-                     text_of(verdict, "device", device), text_of(verdict, "verdict", text));
-        length += more > 0 ? (size_t)more : 0;
-        if (length >= sizeof(line))
-            break;
+        char device[4 * MOST_TEXT], text[4 * MOST_TEXT], machine[4 * MOST_TEXT];
+        if (on && !rg_page_is(verdict, "device", on))
+            continue;
+        text_of(verdict, "machine", machine);
+        rg_text_add(line, size, ", ", "%s%s%s: %s", text_of(verdict, "device", device),
+                    of_several ? " on " : "", of_several ? machine : "",
+                    text_of(verdict, "verdict", text));
+        if (rg_page_is(verdict, "verdict", "one launch") && of_several)
+            rg_text_add(line, size, "", " %s", text_of(verdict, "figures", text));
     }
+}
+
+static void put_claim(struct brief *brief, const json_t *claim, const char *on, bool of_several)
+{
+    char words[4 * MOST_TEXT], part[4 * MOST_TEXT], table[4 * MOST_TEXT], line[2048];
+    write_verdicts(claim, on, of_several, line, sizeof(line));
     text_of(claim, "part", part);
     put(brief, "| %s | %s%s%s | %s |\n", text_of(claim, "table", table),
         text_of(claim, "words", words), *part ? ", " : "", part, line);
@@ -204,13 +229,13 @@ static void put_claims(struct brief *brief, const json_t *claims)
                "|---|---|---|\n");
     json_array_foreach(claims, i, claim)
     {
-        put_claim(brief, claim);
+        put_claim(brief, claim, NULL, are_of_several(claims));
     }
     fprintf(brief->out, "\n</details>\n");
 }
 
-// "2 hold, 1 does not hold, 15 are open."
-static void put_stands(struct brief *brief, const int stands[RG_STANDS], int all)
+// "2 hold, 1 does not hold, 15 are open"
+static void put_stands(struct brief *brief, const int stands[RG_STANDS])
 {
     static const char *const texts[RG_STANDS][2] = {
         [RG_STAND_HOLDS] = {"holds", "hold"},
@@ -221,23 +246,79 @@ static void put_stands(struct brief *brief, const int stands[RG_STANDS], int all
         [RG_STAND_OPEN] = {"is open", "are open"},
     };
     const char *glue = "";
-    put(brief, "Of %d claims that papers make, ", all);
     for (int i = 0; i < RG_STANDS; i++) {
         if (!stands[i])
             continue;
         put(brief, "%s%d %s", glue, stands[i], texts[i][stands[i] > 1]);
         glue = ", ";
     }
-    put(brief, ".%s\n",
-        stands[RG_STAND_FITS] + stands[RG_STAND_MISSES] ? " One launch is no verdict." : "");
 }
 
-static void put_counts(struct brief *brief, const struct counts *found, const json_t *claims)
+// Tells how claims stand on each machine.
+static void put_machines(struct brief *brief, const json_t *document)
+{
+    const json_t *claims = json_object_get(document, "claims");
+    int stands[RG_STANDS];
+    size_t i;
+    json_t *machine;
+    json_array_foreach(json_object_get(document, "machines"), i, machine)
+    {
+        char name[4 * MOST_TEXT], text[4 * MOST_TEXT];
+        const char *own = json_string_value(json_object_get(machine, "name"));
+        const int all = own ? rg_page_stands(claims, own, stands) : 0;
+        if (!all)
+            continue;
+        put(brief, "- On %s (%s), of %d: ", text_of(machine, "name", name),
+            text_of(machine, "text", text), all);
+        put_stands(brief, stands);
+        put(brief, ".\n");
+    }
+}
+
+// The devices of a claim whose verdicts differ between machines, each with the first of them.
+static void put_differing(struct brief *brief, const json_t *claim)
+{
+    const json_t *verdicts = json_object_get(claim, "verdicts");
+    size_t i, k;
+    json_t *verdict, *other;
+    json_array_foreach(verdicts, i, verdict)
+    {
+        const char *device = json_string_value(json_object_get(verdict, "device"));
+        bool is_first = device;
+        json_array_foreach(verdicts, k, other)
+        {
+            is_first = is_first && (k >= i || !rg_page_is(other, "device", device));
+        }
+        if (is_first && rg_page_differs(claim, device))
+            put_claim(brief, claim, device, true);
+    }
+}
+
+// Lists the verdicts that differ between machines.
+static void put_comparison(struct brief *brief, const json_t *claims)
+{
+    size_t i;
+    json_t *claim;
+    put(brief, "\n| table | claim | verdicts that differ between machines |\n|---|---|---|\n");
+    json_array_foreach(claims, i, claim)
+    {
+        put_differing(brief, claim);
+    }
+}
+
+static void put_counts(struct brief *brief, const struct counts *found, const json_t *document)
 {
     int stands[RG_STANDS];
-    const int all = rg_page_stands(claims, stands);
-    if (all)
-        put_stands(brief, stands, all);
+    const json_t *claims = json_object_get(document, "claims");
+    const int all = rg_page_stands(claims, NULL, stands);
+    if (all) {
+        put(brief, "Of %d claims that papers make, ", all);
+        put_stands(brief, stands);
+        put(brief, ".%s\n",
+            stands[RG_STAND_FITS] + stands[RG_STAND_MISSES] ? " One launch is no verdict." : "");
+    }
+    if (are_of_several(claims))
+        put_machines(brief, document);
     if (found->cases)
         put(brief, "Of %d cases of the gate, %d fail.\n", found->cases, found->failing);
     if (found->checks)
@@ -246,12 +327,13 @@ static void put_counts(struct brief *brief, const struct counts *found, const js
         put(brief, "The records hold no claim, no gate and no check.\n");
 }
 
-static void put_all(const struct rg_page *page, struct brief *brief, const json_t *claims)
+static void put_all(const struct rg_page *page, struct brief *brief, const json_t *document)
 {
     const struct counts found = count(page);
+    const json_t *claims = json_object_get(document, "claims");
     const int failures = found.failing + found.checks_failing;
     put(brief, "## raingauge\n\n");
-    put_counts(brief, &found, claims);
+    put_counts(brief, &found, document);
     if (failures) {
         put(brief, "\n| found | where | why |\n|---|---|---|\n");
         tell_findings(page, brief, WORST);
@@ -262,6 +344,8 @@ static void put_all(const struct rg_page *page, struct brief *brief, const json_
         tell_findings(page, brief, failures);
         fprintf(brief->out, "\n</details>\n");
     }
+    if (are_of_several(claims))
+        put_comparison(brief, claims);
     if (claims)
         put_claims(brief, claims);
     if (brief->left_out)
@@ -273,11 +357,11 @@ char *rg_page_markdown(const struct rg_page *page)
 {
     char *text = NULL;
     size_t size;
-    json_t *claims = rg_page_claims(page);
+    json_t *document = rg_page_claims(page);
     struct brief brief = {.out = open_memstream(&text, &size)};
     if (brief.out)
-        put_all(page, &brief, claims);
-    json_decref(claims);
+        put_all(page, &brief, document);
+    json_decref(document);
     if (brief.out && !fclose(brief.out) && text)
         return text;
     free(text);
@@ -331,8 +415,9 @@ char *rg_page_badge(const struct rg_page *page)
 {
     int stands[RG_STANDS];
     char title[48], said[64] = "nothing measured";
-    json_t *claims = rg_page_claims(page);
-    const int all = rg_page_stands(claims, stands);
+    json_t *document = rg_page_claims(page);
+    const json_t *claims = json_object_get(document, "claims");
+    const int all = rg_page_stands(claims, NULL, stands);
     const struct counts found = count(page);
     const int failures = found.failing + found.checks_failing;
     title_of(found.cases + found.checks ? NULL : claims, title);
@@ -340,7 +425,7 @@ char *rg_page_badge(const struct rg_page *page)
         snprintf(said, sizeof(said), "%d of %d fail", failures, found.cases + found.checks);
     else if (all)
         snprintf(said, sizeof(said), "%d of %d claims hold", stands[RG_STAND_HOLDS], all);
-    json_decref(claims);
+    json_decref(document);
     char *text = draw(title, said,
                       failures                                ? "#b3261e"
                       : stands[RG_STAND_HOLDS] || found.cases ? "#17733a"

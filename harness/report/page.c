@@ -25,8 +25,9 @@ static json_t *claims_json(const struct rg_page *page)
 
 static json_t *before_json(const struct rg_page *before)
 {
-    return before ? json_pack("{so so}", "claims", claims_json(before), "records",
-                              or_empty(before->records, json_array))
+    return before ? json_pack("{so so so}", "machines",
+                              rg_claims_machines_json(&before->outcomes.origins), "claims",
+                              claims_json(before), "records", or_empty(before->records, json_array))
                   : json_null();
 }
 
@@ -54,13 +55,14 @@ static json_t *rules_json(void)
 static json_t *data_json(const struct rg_page *page, const struct rg_page *before)
 {
     return json_pack(
-        "{si ss ss si si so so so so so so so so so}", "format", RG_FORMAT_VERSION, "version",
+        "{si ss ss si si so so so so so so so so so so}", "format", RG_FORMAT_VERSION, "version",
         rg_build_version, "commit", rg_build_commit, "pictures_left_out", page->left_out,
         "gates_left_out", page->gates_left_out, "endings", endings_json(), "rules", rules_json(),
-        "claims", claims_json(page), "before", before_json(before), "records",
-        or_empty(page->records, json_array), "pictures", or_empty(page->pictures, json_object),
-        "files", or_empty(page->files, json_object), "linear", or_empty(page->linear, json_object),
-        "gallery", or_empty(page->gallery, json_array));
+        "machines", rg_claims_machines_json(&page->outcomes.origins), "claims", claims_json(page),
+        "before", before_json(before), "records", or_empty(page->records, json_array), "pictures",
+        or_empty(page->pictures, json_object), "files", or_empty(page->files, json_object),
+        "linear", or_empty(page->linear, json_object), "gallery",
+        or_empty(page->gallery, json_array));
 }
 
 // Writes JSON with escaped `<`, so that no text in it can end the element around it.

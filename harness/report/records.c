@@ -51,7 +51,7 @@ static void drop_gate(struct rg_page *page)
         return;
     json_array_foreach(page->records, i, record)
     {
-        if (strcmp(json_string_value(json_object_get(record, "kind")), "gate") != 0)
+        if (!rg_page_is(record, "kind", "gate"))
             continue;
         json_array_remove(page->records, i);
         page->gates_left_out++;
@@ -60,12 +60,12 @@ static void drop_gate(struct rg_page *page)
 }
 
 static bool append(struct rg_page *page, const char *kind, const char *path, json_t *document,
-                   json_t *printed)
+                   json_t *printed, json_t *machine)
 {
     if (!page->records)
         page->records = json_array();
-    json_t *record = json_pack("{ss so so so*}", "kind", kind, "file", rg_json_text(path),
-                               "document", document, "printed", printed);
+    json_t *record = json_pack("{ss so so so* so*}", "kind", kind, "file", rg_json_text(path),
+                               "document", document, "printed", printed, "machine", machine);
     if (!strcmp(kind, "gate"))
         drop_gate(page);
     return (record && !json_array_append_new(page->records, record)) || rg_page_lacks_memory(path);
@@ -88,35 +88,51 @@ static void trim(json_t *document)
     }
 }
 
-// Refuses a second measurement of a table, which would give a second verdict on each claim.
-static bool is_first(const struct rg_page *page, const char *path, const char *table)
+// Refuses a second measurement of a table on a machine, which would give a second verdict on each
+// claim, and one of another length, whose verdicts cannot be compared.
+static bool is_first(const struct rg_page *page, const char *path, const struct rg_result *result,
+                     const char *machine)
 {
+    const char *length = result->full ? "full" : "quick";
     size_t i;
     json_t *record;
     json_array_foreach(page->records, i, record)
     {
         const json_t *document = json_object_get(record, "document");
-        const char *other = json_string_value(json_object_get(document, "table"));
-        if (other && !strcmp(other, table))
+        const char *file = json_string_value(json_object_get(record, "file"));
+        if (!rg_page_is(document, "table", result->table))
+            continue;
+        if (rg_page_is(record, "machine", machine))
             return rg_error("%s: holds table '%s', which %s holds too; name one of them", path,
-                            table, json_string_value(json_object_get(record, "file")));
+                            result->table, file);
+        if (!rg_page_is(document, "length", length))
+            return rg_error("%s: holds table '%s' measured %s, and %s does not; name one of them",
+                            path, result->table, length, file);
     }
     return true;
 }
 
-static bool add_tables(struct rg_page *page, const char *path)
+static bool add_table(struct rg_page *page, const char *path, const struct rg_result *result)
 {
     static const struct rg_claims_shown all = {0};
+    char machine[RG_ORIGIN_NAME];
+    const int origin = rg_origins_find(&page->outcomes.origins, result->passport);
+    rg_origin_name(origin, machine);
+    if (origin < 0 || !is_first(page, path, result, machine) ||
+        !rg_claims_add(&page->outcomes, result, page->kept, &all))
+        return false;
+    json_t *document = rg_result_json(result);
+    trim(document);
+    return append(page, "table", path, document, rg_page_printed(result->table),
+                  json_string(machine));
+}
+
+static bool add_tables(struct rg_page *page, const char *path)
+{
     struct rg_stored stored = {0};
     bool ok = rg_stored_read(&stored, path);
-    for (int i = 0; ok && i < stored.count; i++) {
-        const char *table = stored.results[i].table;
-        ok = is_first(page, path, table) &&
-             rg_claims_add(&page->outcomes, &stored.results[i], page->kept, &all);
-        json_t *document = ok ? rg_result_json(&stored.results[i]) : NULL;
-        trim(document);
-        ok = ok && append(page, "table", path, document, rg_page_printed(table));
-    }
+    for (int i = 0; ok && i < stored.count; i++)
+        ok = add_table(page, path, &stored.results[i]);
     rg_stored_free(&stored);
     return ok;
 }
@@ -136,6 +152,10 @@ static const char *admit(const char *path, const json_t *document)
     const char *kind = kind_of(document);
     if (!json_is_integer(format) || !kind)
         return rg_error_null("%s: is no record of raingauge; %s", path, mend);
+    if (json_object_get(document, "shard"))
+        return rg_error_null("%s: is the record of a shard; name what `raingauge %s --from --json` "
+                             "makes of all of them",
+                             path, kind);
     if (json_integer_value(format) != RG_FORMAT_VERSION)
         return rg_error_null("%s: is of format %" JSON_INTEGER_FORMAT
                              ", and this raingauge knows format %d; use the raingauge that wrote "
@@ -150,7 +170,7 @@ static bool add_document(struct rg_page *page, const char *path, json_t *documen
     const char *kind = admit(path, document);
     folder_of(path, folder);
     return kind && rg_page_add_pictures(page, folder, document) &&
-           append(page, kind, path, json_incref(document), NULL);
+           append(page, kind, path, json_incref(document), NULL, NULL);
 }
 
 static bool add_records(struct rg_page *page, const char *path)
@@ -213,10 +233,18 @@ static int is_shown(const struct dirent *entry)
     return ends_in(entry->d_name, ".json") || !strcmp(entry->d_name, "figures.md");
 }
 
-static bool add_folder(struct rg_page *page, const char *folder)
+// The same, and a machine's folder, as `merge` names it.
+static int is_shown_outside(const struct dirent *entry)
+{
+    return is_shown(entry) || rg_key_is(entry->d_name);
+}
+
+static bool add_path(struct rg_page *page, const char *path, bool is_inner);
+
+static bool add_folder(struct rg_page *page, const char *folder, bool is_inner)
 {
     struct dirent **entries;
-    const int count = scandir(folder, &entries, is_shown, alphasort);
+    const int count = scandir(folder, &entries, is_inner ? is_shown : is_shown_outside, alphasort);
     bool ok = count > 0;
     if (count < 0)
         rg_system_error(errno, "%s: %s; name a folder that can be read", folder, strerror(errno));
@@ -228,7 +256,7 @@ static bool add_folder(struct rg_page *page, const char *folder)
         ok = ok &&
              (length < (int)sizeof(path) ||
               rg_error("%.80s...: its name is too long; move it", path)) &&
-             add_file(page, path);
+             add_path(page, path, true);
         free(entries[i]);
     }
     if (count >= 0)
@@ -236,11 +264,16 @@ static bool add_folder(struct rg_page *page, const char *folder)
     return ok;
 }
 
-bool rg_page_add(struct rg_page *page, const char *path)
+static bool add_path(struct rg_page *page, const char *path, bool is_inner)
 {
     struct stat found;
-    return stat(path, &found) == 0 && S_ISDIR(found.st_mode) ? add_folder(page, path)
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode) ? add_folder(page, path, is_inner)
                                                              : add_file(page, path);
+}
+
+bool rg_page_add(struct rg_page *page, const char *path)
+{
+    return add_path(page, path, false);
 }
 
 void rg_page_free(struct rg_page *page)

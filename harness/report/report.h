@@ -6,7 +6,7 @@
 #ifndef RG_HARNESS_REPORT_REPORT_H
 #define RG_HARNESS_REPORT_REPORT_H
 
-#include "harness/tables/claims/text.h"
+#include "harness/tables/claims/outcomes.h"
 
 // The content of a page. Zero it before; rg_page_free in any case.
 struct rg_page {
@@ -63,11 +63,17 @@ enum rg_page_stand {
     RG_STAND_OPEN,
     RG_STANDS
 };
-// Counts claims by their state; `claims` may be NULL. Returns their number.
-int rg_page_stands(const json_t *claims, int counts[RG_STANDS]);
-// The claims that were judged from the page's tables, or else those of its records; the caller owns
-// the array. NULL if there are none.
+// Counts the claims that have verdicts on a machine (NULL: on any) by their state there; `claims`
+// may be NULL. Returns their number.
+int rg_page_stands(const json_t *claims, const char *machine, int counts[RG_STANDS]);
+// Whether the verdicts of a claim on a device differ between machines. Those not seen do not count.
+bool rg_page_differs(const json_t *claim, const char *device);
+// The claims that were judged from the page's tables, or else those of its records, as in "claims"
+// of docs/records.schema.json; the caller owns the document. NULL if there are none.
 json_t *rg_page_claims(const struct rg_page *page);
+
+// Whether a field of an object is this text.
+bool rg_page_is(const json_t *object, const char *field, const char *value);
 
 // The printed rows of a table's paper, as {about, technique, paper, names, keys, columns, rows,
 // variants}, which the caller owns. NULL if no such table is known.

@@ -11,8 +11,10 @@
            results  what table, diff, render and atlas print, and what is refused for its size, on the CPU
            clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
+           machines records of several machines, side by side
            farm     plans, shards and merges
            shards   a plan, two shards and a merge
+           parts    gates and verifications in shards
            befallen  the same, of records that are cut, copied, of another commit, or that a full disk loses
            losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
            long     what verify prints, tables that are counted, set in a row, begun or measured anew, an atlas that is not kept
@@ -69,6 +71,7 @@ import installed
 import kept
 import limits
 import losses
+import machines
 import misbehaving
 import named
 import native
@@ -77,6 +80,7 @@ import pages
 import pictures
 import reports
 import resuming
+import shards
 import shrinking
 import stored
 import tables
@@ -95,11 +99,13 @@ SUITES = {
     "results": lambda runner: runner.check_all(tables.CHECKS + own.CHECKS + pictures.CHECKS + besides.CHECKS + atlases.CHECKS + limits.CHECKS),
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(stored.CHECKS),
+    "machines": lambda runner: runner.check_all(machines.CHECKS),
     "farm": lambda runner: runner.check_all(farm.CHECKS),
     "shards": lambda runner: runner.check_all(farm.FEW),
+    "parts": lambda runner: runner.check_all(shards.CHECKS),
     "befallen": lambda runner: runner.check_all(befallen.CHECKS),
     "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
-    "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + atlases.LONG + limits.LONG + kept.LONG),
+    "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + shards.LONG + atlases.LONG + limits.LONG + kept.LONG),
     "failing": lambda runner: runner.check_all(failing.CHECKS),
     "all": lambda runner: runner.check_all(failing.THOROUGH),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),

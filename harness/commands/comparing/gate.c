@@ -9,11 +9,12 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/commands/cli/command.h"
+#include "harness/commands/cli/shard.h"
 #include "harness/commands/cli/shared.h"
 #include "harness/commands/comparing/outputs.h"
 #include "harness/compare/gate/cells/unused.h"
 #include "harness/compare/gate/report/gtest.h"
-#include "harness/compare/gate/run/gate.h"
+#include "harness/compare/gate/shards/shards.h"
 #include "harness/console/duration.h"
 #include "harness/console/started.h"
 #include "harness/devices/drivers/side.h"
@@ -35,7 +36,8 @@ struct gate_options {
     char *pictures; // a folder for those that differ; NULL: next to JUnit's file
     struct rg_gtest_asked gtest;
     int64_t memory_bytes;
-    bool pictures_only, fresh, update;
+    bool pictures_only, fresh, update, partial;
+    char *shard, *times, *from; // NULL: none
 };
 
 #define AT(field) offsetof(struct gate_options, field)
@@ -73,6 +75,18 @@ static const struct rg_option options[] = {
          "then are inconclusive; the gate refuses a time too short for any verdict",
      .offset = AT(budget)},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
+    RG_GROUP("Shards (docs/ci.md)"),
+    RG_INCLUDE(rg_shard_option, AT(shard), NULL),
+    {RG_OPTION_TEXT, "times", .argument = "FILE",
+     .about = "divides the cells by how long each took in an earlier gate, whose --json this is",
+     .offset = AT(times), .names = RG_NAMES_FILE, .excludes = "from"},
+    {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
+     .about = "runs nothing, and reports what all shards together found, whose -o was DIR",
+     .offset = AT(from), .names = RG_NAMES_FILE,
+     .excludes = "against baseline device require timeout cells margin pictures budget fresh shard "
+                 "gtest_filter gtest_list_tests"},
+    {RG_OPTION_FLAG, "partial", .about = "reports even if shards are missing",
+     .offset = AT(partial), .excludes = "update"},
     RG_GROUP("Known failures"),
     {RG_OPTION_TEXTS, "expectations", .argument = "FILE",
      .about = "a file of expected failures, flakes and skips (docs/expectations.md)",
@@ -164,8 +178,9 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
 // Whether no report replaces an input file of the gate.
 static bool spares_inputs(const struct gate_options *o, const struct rg_gate_outputs *outputs)
 {
-    bool ok =
-        rg_gate_outputs_spare(outputs, o->cells) && rg_gate_outputs_spare(outputs, o->baseline);
+    bool ok = rg_gate_outputs_spare(outputs, o->cells) &&
+              rg_gate_outputs_spare(outputs, o->baseline) &&
+              rg_gate_outputs_spare(outputs, o->times);
     for (int form = RG_FORM_OWN; form < RG_FORMS; form++)
         for (int i = 0; ok && i < o->known[form].count; i++)
             ok = rg_gate_outputs_spare(outputs, o->known[form].items[i]);
@@ -185,24 +200,44 @@ static bool can_update(const struct gate_options *o, const struct rg_gate_reques
     if (!any)
         return rg_error("--update: there is no file to write; name one by --expectations or "
                         "--fails");
-    return (!request->filter && request->shards.total <= 1) ||
+    return (!request->filter && request->shard.count <= 1) ||
            rg_error("--update: a filter or a shard runs some of the cells, and the files are of "
-                    "all; run the gate without it");
+                    "all; run the gate without it, or update by --from");
 }
 
 // --- the command ---
+
+// The folder for launches: that of -o, or a shard's own one in it, for shards share that of -o. ""
+// without any. False, with one logged line, if it cannot be made.
+static bool folder_of(const struct gate_options *o, const struct rg_gate_request *request,
+                      char folder[PATH_MAX])
+{
+    *folder = 0;
+    if (!o->pictures)
+        return true;
+    if (o->shard)
+        return rg_output_folder(o->pictures) &&
+               (snprintf(folder, PATH_MAX, "%s/%d-of-%d", o->pictures, request->shard.number,
+                         request->shard.count) < PATH_MAX ||
+                rg_error("-o %.80s...: is too long a path; choose a shorter one", o->pictures));
+    snprintf(folder, PATH_MAX, "%s", o->pictures);
+    return true;
+}
 
 // Runs it in a folder that no other raingauge writes into meanwhile.
 static int run_held(const struct gate_options *o, struct rg_gate_request *request,
                     struct rg_gate *gate)
 {
     struct rg_hold hold = {.fd = -1};
-    request->folder = o->pictures;
+    char folder[PATH_MAX];
+    if (!folder_of(o, request, folder))
+        return rg_exit_of_error();
+    request->folder = *folder ? folder : NULL;
     request->fresh = o->fresh;
-    if (o->pictures && !rg_hold_folder(o->pictures, &hold)) {
+    if (*folder && !rg_hold_folder(folder, &hold)) {
         rg_error("%s: another raingauge writes into it; wait until it has ended, or name another "
                  "folder",
-                 o->pictures);
+                 folder);
         return rg_exit_of_error();
     }
     const int exit = rg_gate_run(request, gate);
@@ -222,10 +257,56 @@ static struct rg_gate_left left_of(const struct gate_options *o, const struct ga
     return left;
 }
 
+// Which cases it has, in shards of this gate or of googletest.
+static bool find_shard(const struct gate_options *o, struct rg_gate_request *request)
+{
+    struct rg_gtest_shards shards;
+    if (o->shard)
+        return rg_shard_read(o->shard, 0, &request->shard) &&
+               (o->pictures ||
+                rg_error("--shard: name the folder of its record, as -o gate, which all shards "
+                         "share"));
+    if (!rg_gtest_shards(&shards))
+        return false;
+    request->shard = (struct rg_shard){shards.index + 1, shards.total};
+    request->is_apart = true;
+    return true;
+}
+
+// Reads what divides the cells, and digests of what decides about them, in which all shards agree.
+static bool read_inputs(const struct gate_options *o, const struct gate_input *in,
+                        struct rg_gate_request *request, struct rg_gate_inputs *inputs)
+{
+    json_t *times = o->times ? rg_gate_times_read(o->times) : NULL;
+    request->times = times;
+    rg_gate_digest_known(&in->known, inputs->expectations);
+    return (!o->times || (times && rg_gate_digest_file(o->times, inputs->times))) &&
+           (!o->baseline || rg_gate_digest_file(o->baseline, inputs->baseline));
+}
+
+// Prints a gate's report, and leaves the record of a shard that came to its end. Returns the final
+// enum rg_exit.
+static int tell(const struct gate_options *o, const struct gate_input *in,
+                const struct rg_gate_request *request, const struct rg_gate_inputs *inputs,
+                const struct rg_gate_outputs *outputs, const struct rg_gate *gate, int exit)
+{
+    const bool is_done = exit < RG_EXIT_SIGNALLED && exit != RG_EXIT_USAGE;
+    const int beyond = rg_exit_worse(gate->beyond, in->pairs.left_out);
+    if (!gate->is_told)
+        return exit;
+    if (!rg_gate_outputs_print(outputs, &in->known, gate))
+        exit = rg_exit_worse(exit, rg_exit_of_error()); // a full disk is no regression
+    if (o->shard && is_done && !rg_gate_part_write(request, inputs, gate, beyond, o->pictures))
+        exit = rg_exit_worse(exit, rg_exit_of_error());
+    return exit;
+}
+
 static int run(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate gate = {.case_count = 0};
-    struct rg_gate_outputs outputs = {.updates = o->update, .today = today()};
+    struct rg_gate_inputs inputs = {{0}, {0}, {0}};
+    struct rg_gate_outputs outputs = {
+        .updates = o->update, .is_part = o->shard != NULL, .today = today()};
     const double margin = o->baseline ? rg_gate_rule_apart(1).margin : rg_gate_rule_of(1).margin;
     struct rg_gate_request request = {.cells = &in->cells,
                                       .pairs = &in->pairs,
@@ -240,19 +321,20 @@ static int run(const struct gate_options *o, const struct gate_input *in)
                                       .pictures_only = o->pictures_only,
                                       .filter = o->gtest.filter};
     int exit;
-    if (rg_gtest_shards(&request.shards) &&
-        rg_gate_outputs_settle(&o->reports, o->pictures, &o->gtest, request.shards.total > 1,
-                               &outputs) &&
+    if (find_shard(o, &request) &&
+        rg_gate_outputs_settle(&o->reports, o->pictures, &o->gtest,
+                               request.is_apart && request.shard.count > 1, &outputs) &&
         spares_inputs(o, &outputs) &&
         (!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
-        rg_gate_outputs_can_be_written(&outputs) && can_update(o, &request)) {
+        rg_gate_outputs_can_be_written(&outputs) && can_update(o, &request) &&
+        read_inputs(o, in, &request, &inputs)) {
         request.pictures = *outputs.pictures ? outputs.pictures : NULL;
         exit = run_held(o, &request, &gate);
-        if (gate.is_told && !rg_gate_outputs_print(&outputs, &in->known, &gate))
-            exit = rg_exit_worse(exit, rg_exit_of_error()); // a full disk is no regression
+        exit = tell(o, in, &request, &inputs, &outputs, &gate, exit);
     } else {
         exit = rg_exit_of_error();
     }
+    json_decref((json_t *)request.times);
     rg_gate_free(&gate);
     return exit;
 }
@@ -347,6 +429,66 @@ static bool read_input(const struct gate_options *o, struct gate_input *in)
     return is_read && (!o->baseline || read_baseline(o, in));
 }
 
+// Whether no option is about what is not there.
+static bool are_of_use(const struct gate_options *o)
+{
+    return (!o->partial || rg_error("--partial: is about the records of shards; name them by "
+                                    "--from, or leave it out")) &&
+           (!o->times || o->shard ||
+            rg_error("--times: divides the cells among shards; add --shard, or leave it out"));
+}
+
+// --- shards together ---
+
+// Files of expectations are held against what the shards found only if they had the same.
+static bool had_known(const struct gate_options *o, const struct rg_known *known,
+                      const struct rg_parts *parts)
+{
+    char digest[RG_DIGEST_SIZE];
+    rg_gate_digest_known(known, digest);
+    return !known->file_count || !strcmp(digest, rg_gate_merge_expectations(parts)) ||
+           rg_error("%s: its shards had other expectations; name those that they had, or none",
+                    o->from);
+}
+
+static int report_parts(const struct gate_options *o, const struct rg_known *known,
+                        const struct rg_parts *parts, const struct rg_gate_outputs *outputs)
+{
+    const struct rg_gate_request whole = {.shard = {1, 1}};
+    struct rg_gate gate = {.case_count = 0};
+    int beyond, exit = rg_shards_exit(parts, "gate", o->from, o->partial);
+    if (exit == RG_EXIT_PASS && rg_gate_merge(parts, &gate, &beyond)) {
+        exit = rg_exit_worse(rg_gate_exit(&whole, &gate), beyond);
+        if (!rg_gate_outputs_print(outputs, known, &gate))
+            exit = rg_exit_worse(exit, rg_exit_of_error());
+    } else if (exit == RG_EXIT_PASS) {
+        exit = rg_exit_of_error();
+    }
+    rg_gate_free(&gate);
+    return exit;
+}
+
+// Reports what all shards found, from their records.
+static int merge(const struct gate_options *o, const struct rg_words *sides)
+{
+    struct rg_gate_outputs outputs = {.updates = o->update, .today = today()};
+    const struct rg_gate_request whole = {.shard = {1, 1}};
+    struct rg_parts parts = {0};
+    struct rg_known known = {.file_count = 0};
+    const bool ok =
+        (!sides->count ||
+         rg_error("--from: the shards had their devices; leave out '%s'", sides->items[0])) &&
+        read_known(o, &known) &&
+        rg_gate_outputs_settle(&o->reports, o->pictures, &o->gtest, false, &outputs) &&
+        spares_inputs(o, &outputs) && rg_gate_outputs_can_be_written(&outputs) &&
+        can_update(o, &whole) && rg_parts_read(&parts, "gate", o->from) &&
+        (!parts.count || had_known(o, &known, &parts));
+    const int exit = ok ? report_parts(o, &known, &parts, &outputs) : rg_exit_of_error();
+    rg_parts_free(&parts);
+    rg_known_free(&known);
+    return exit;
+}
+
 static int gate(const void *values, const struct rg_words *arguments)
 {
     struct gate_options asked = *(const struct gate_options *)values;
@@ -354,10 +496,12 @@ static int gate(const void *values, const struct rg_words *arguments)
     struct gate_input in = {.pairs = {.count = 0}};
     rg_gtest_inherit(&asked.gtest);
     rg_memory_allow(o->memory_bytes);
+    if (o->from)
+        return merge(o, arguments);
     rg_workers.timeout_s = o->devices.timeout_s;
     rg_sides_begin();
     int exit = find_pairs(o, arguments, &in.pairs);
-    if (exit == RG_EXIT_PASS && !read_input(o, &in))
+    if (exit == RG_EXIT_PASS && (!are_of_use(o) || !read_input(o, &in)))
         exit = rg_exit_of_error();
     if (exit == RG_EXIT_PASS)
         exit = rg_exit_worse(o->gtest.list ? list_cases(o, &in) : run(o, &in), in.pairs.left_out);
@@ -371,8 +515,9 @@ const struct rg_command rg_command_gate = {
     .name = "gate",
     .reader = RG_FOR_DRIVERS,
     .usage = "{A B | {--against BINARY | --baseline FILE} [--device D,...|all]} [--require D,...] "
-             "[--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--expectations "
-             "FILE]... [--update] [--junit FILE] [--bmf FILE] [--github] [--json]",
+             "[--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--shard I/N|auto] "
+             "[--expectations FILE]... [--update] [--junit FILE] [--bmf FILE] [--github] [--json]"
+             "  |  --from FILE|DIR [--partial] [--junit FILE]...",
     .about =
         "tells whether device B draws different pictures from device A or a baseline, or is slower",
     .options = options,

@@ -221,6 +221,8 @@ bool rg_gate_outputs_print(const struct rg_gate_outputs *outputs, const struct r
     bool ok = true;
     for (int i = 0; i < RG_REPORT_FORM_COUNT; i++)
         ok = (!outputs->are_written[i] || put(gate, i, outputs->files[i])) && ok;
+    if (outputs->is_part)
+        return ok;
     ok = write_page(outputs, gate) && ok;
     return (!(outputs->updates || outputs->are_written[RG_AS_TEXT]) ||
             mend_files(outputs, known, gate)) &&

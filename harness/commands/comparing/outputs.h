@@ -19,6 +19,8 @@ struct rg_gate_outputs {
     char junit[PATH_MAX];                    // JUnit's file, which two options can name
     char pictures[PATH_MAX];                 // folder of pictures; "": none
     bool is_folder_asked;                    // an option asks for the folder, not only JUnit's file
+    bool is_part;                            // of a shard: without a page, and files of
+                                             // expectations are not held against it
     bool updates;                            // files of expectations are written anew
     int today;                               // harness/compare/gate/text/date.h
 };

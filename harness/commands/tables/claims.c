@@ -139,7 +139,8 @@ static int measure(const struct claims_options *o, const struct rg_words *argume
 static int judge(const struct claims_options *o, const struct rg_words *arguments)
 {
     struct rg_stored stored = {0};
-    bool ok = rg_stored_read(&stored, o->from);
+    bool ok = rg_stored_read(&stored, o->from) &&
+              rg_verdicts_can_be_of(o->outcomes, &stored, arguments, o->from);
     for (int i = 0; ok && i < stored.count; i++)
         if (rg_words_name(arguments, stored.results[i].table))
             ok = rg_claims_add(o->outcomes, &stored.results[i], NULL, &all);

@@ -137,13 +137,13 @@ static bool print_missing(const struct rg_farm_plan *plan, const struct rg_farm_
 {
     int *shard_of = rg_alloc((size_t)plan->group_count, sizeof(*shard_of), "shards");
     bool *lacks = rg_alloc((size_t)shards, sizeof(*lacks), "shards");
-    char *text = rg_alloc((size_t)shards, RG_FARM_NUMBER, "shards");
+    char *text = rg_alloc((size_t)shards, RG_SHARD_NUMBER, "shards");
     const bool ok = shard_of && lacks && text && rg_farm_cut(plan, shards, shard_of, NULL);
     for (int64_t g = 0; ok && g < plan->group_count; g++)
         if (found->first_of[g] < 0)
             lacks[shard_of[g] - 1] = true;
     if (ok)
-        rg_farm_array(lacks, shards, text, (size_t)shards * RG_FARM_NUMBER);
+        rg_shard_array(lacks, shards, text, (size_t)shards * RG_SHARD_NUMBER);
     if (ok && *text)
         printf("%s\n", text);
     free(shard_of);

@@ -2,7 +2,8 @@
 #ifndef RG_HARNESS_COMMANDS_TABLES_SHARD_H
 #define RG_HARNESS_COMMANDS_TABLES_SHARD_H
 
-#include "harness/tables/farm/cut.h"
+#include "harness/commands/cli/shard.h"
+#include "harness/tables/farm/plan.h"
 
 struct rg_shard_asked {
     char *plan;    // a file; NULL: none is measured
@@ -11,9 +12,9 @@ struct rg_shard_asked {
     int timeout_s; // of devices
 };
 
-// Finds the shard in "2/8", or by the variables of Slurm's arrays, of CI_NODE_INDEX or of
-// googletest for "auto". NULL is all. False, with one logged line, where it is none of the plan's.
-bool rg_shard_find(const struct rg_farm_plan *plan, const char *asked, struct rg_farm_shard *shard);
+// Finds the shard of a plan that was asked for (rg_shard_read). NULL is all. False, with one logged
+// line, where it is none of the plan's.
+bool rg_shard_find(const struct rg_farm_plan *plan, const char *asked, struct rg_shard *shard);
 
 // Measures a shard of a plan. Returns an enum rg_exit.
 int rg_shard_run(const struct rg_shard_asked *asked);

@@ -21,7 +21,7 @@
 #include "harness/console/started.h"
 #include "harness/record/disk/stored.h"
 #include "harness/record/output.h"
-#include "harness/tables/claims/text.h"
+#include "harness/tables/claims/outcomes.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/compile.h"
@@ -100,10 +100,7 @@ static const struct rg_option options[] = {
      .offset = AT(plan), .names = RG_NAMES_FILE,
      .excludes = "rows work variant set quick full budget fresh from compile device require claims "
                  "kept format wide json"},
-    {RG_OPTION_TEXT, "shard", .argument = "I/N|auto",
-     .about = "measures only shard I of N, counted from 1; auto reads the variables of Slurm, "
-              "CI_NODE_INDEX or those of googletest",
-     .offset = AT(shard)},
+    RG_INCLUDE(rg_shard_option, AT(shard), NULL),
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -142,20 +139,35 @@ static int form_of(const struct table_options *o)
     return o->json ? RG_RESULT_JSON : o->wide ? RG_RESULT_WIDE : o->format;
 }
 
+// The folder for a machine's tables: that of -o, or one in it if there are several machines. False,
+// and one logged line, if its name is too long.
+static bool folder_of(const struct table_options *o, const struct rg_result *result,
+                      char folder[PATH_MAX])
+{
+    const struct rg_origins *origins = &o->outcomes->origins;
+    const int origin = origins->count > 1 ? rg_origins_known(origins, result->passport) : -1;
+    return snprintf(folder, PATH_MAX, "%s%s%s", o->output, origin < 0 ? "" : "/",
+                    origin < 0 ? "" : origins->all[origin].key) < PATH_MAX ||
+           rg_error("-o %.80s...: is too long a path; choose a shorter one", o->output);
+}
+
 // Prints a table, and writes it when it is complete; with --claims only judges it.
 static int print(const struct rg_result *result, const void *user)
 {
     const struct table_options *o = user;
+    char folder[PATH_MAX];
     struct rg_place first = rg_result_start(result);
+    if (o->output && !folder_of(o, result, folder))
+        return rg_exit_of_error();
     if (!o->claims && rg_result_next(result, &first) && (*o->printed)++)
         printf("\n");
     if (!o->claims)
-        return rg_result_finish(result, form_of(o), o->output);
+        return rg_result_finish(result, form_of(o), o->output ? folder : NULL);
     const bool is_whole = rg_result_first_missing(result) > result->last_row;
     const struct rg_claims_shown shown = {o->variant, o->rows.first, o->rows.last};
     int exit = rg_claims_add(o->outcomes, result, o->kept_results, &shown) ? rg_result_exit(result)
                                                                            : rg_exit_of_error();
-    if (is_whole && o->output && !rg_result_write(result, o->output))
+    if (is_whole && o->output && !rg_result_write(result, folder))
         exit = rg_exit_worse(exit, rg_exit_of_error());
     return exit;
 }
@@ -301,14 +313,32 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
 
 // --- results that lie on disk ---
 
-// Whether -o does not overwrite the input of --from, since only a part of that would be left.
-// False, and one logged line, if it would.
-static bool spares_stored(const struct table_options *o)
+// Whether -o names no folder that --from reads, or that is a machine's in one, since only a part of
+// its results would be left. False, and one logged line, if it does.
+static bool spares_stored(const struct table_options *o, const char *folder)
 {
-    return !o->output || !rg_file_is_in(o->from, o->output) ||
+    char found[PATH_MAX], *slash = realpath(folder, found) ? strrchr(found, '/') : NULL;
+    const bool is_machine = slash && rg_key_is(slash + 1);
+    if (is_machine)
+        *slash = 0;
+    return (!rg_file_is_in(o->from, folder) && !(is_machine && rg_file_is_same(o->from, found))) ||
            rg_error("%s: holds what --from reads, which would be replaced; name another folder "
                     "with -o, or leave it out",
-                    o->output);
+                    folder);
+}
+
+// Finds the machines of the results that are asked for, and makes the folder of their folders.
+static bool find_machines(const struct rg_stored *stored, const struct table_options *o,
+                          const struct rg_words *ids)
+{
+    char folder[PATH_MAX];
+    bool ok = true;
+    for (int i = 0; ok && i < stored->count; i++)
+        ok = !rg_words_name(ids, stored->results[i].table) ||
+             rg_origins_find(&o->outcomes->origins, stored->results[i].passport) >= 0;
+    for (int i = 0; ok && o->output && i < stored->count; i++)
+        ok = folder_of(o, &stored->results[i], folder) && spares_stored(o, folder);
+    return ok && (!o->output || o->outcomes->origins.count < 2 || rg_output_folder(o->output));
 }
 
 // Drops the parts of a result that were not requested. False if nothing is left. Claims are judged
@@ -323,43 +353,47 @@ static bool keep(struct rg_result *result, const struct table_options *o)
            (!o->variant || rg_result_keep_variant(result, o->variant));
 }
 
-// Verdicts on a table must come from one measurement. False, and one logged line, if there are two.
-static bool have_one_length(const struct rg_stored *stored, const struct table_options *o,
-                            const struct rg_words *ids)
+// Names the machine of the tables that follow, in the forms that have room for it.
+static void print_machine(const struct table_options *o, int origin)
 {
-    for (int i = 0; o->claims && i < stored->count; i++) {
-        for (int k = 0; k < i; k++) {
-            char here[RG_CLAIMS_LENGTH], before[RG_CLAIMS_LENGTH];
-            const char *table = stored->results[i].table;
-            if (strcmp(table, stored->results[k].table) != 0 || !rg_words_name(ids, table))
-                continue;
-            rg_claims_length(&stored->results[i], here, sizeof(here));
-            rg_claims_length(&stored->results[k], before, sizeof(before));
-            if (strcmp(here, before) != 0)
-                return rg_error("%s: holds table '%s' measured %s, and %s, which no verdict mixes; "
-                                "name the file of one of them",
-                                o->from, table, before, here);
-            return rg_error("%s: holds table '%s' twice, as results do that lie beside a journal; "
-                            "name the file of one of them",
-                            o->from, table);
-        }
+    const struct rg_origin *of = &o->outcomes->origins.all[origin];
+    const int form = form_of(o);
+    char name[RG_ORIGIN_NAME];
+    if (o->claims || form == RG_RESULT_CSV || form == RG_RESULT_JSON)
+        return;
+    rg_origin_name(origin, name);
+    printf("%s%s %s: %s, key %s\n\n", *o->printed ? "\n" : "", form == RG_RESULT_TEX ? "%" : "#",
+           name, of->text, of->key);
+    *o->printed = 0;
+}
+
+// Prints the results of a machine that are asked for; returns their number.
+static int print_origin(struct rg_stored *stored, const struct table_options *o,
+                        const struct rg_words *ids, int origin, int *exit)
+{
+    const struct rg_origins *origins = &o->outcomes->origins;
+    int printed = 0;
+    for (int i = 0; i < stored->count; i++) {
+        struct rg_result *result = &stored->results[i];
+        if (!rg_words_name(ids, result->table) ||
+            rg_origins_known(origins, result->passport) != origin || !keep(result, o))
+            continue;
+        if (!printed++ && origins->count > 1)
+            print_machine(o, origin);
+        *exit = rg_exit_worse(*exit, print(result, o));
     }
-    return true;
+    return printed;
 }
 
 static int print_stored(struct rg_stored *stored, const struct table_options *o,
                         const struct rg_words *ids)
 {
     int exit = RG_EXIT_PASS, printed = 0;
-    if (!have_one_length(stored, o, ids))
+    if (!find_machines(stored, o, ids) ||
+        (o->claims && !rg_verdicts_can_be_of(o->outcomes, stored, ids, o->from)))
         return rg_exit_of_error();
-    for (int i = 0; i < stored->count; i++) {
-        struct rg_result *result = &stored->results[i];
-        if (!rg_words_name(ids, result->table) || !keep(result, o))
-            continue;
-        printed++;
-        exit = rg_exit_worse(exit, print(result, o));
-    }
+    for (int i = 0; i < o->outcomes->origins.count; i++)
+        printed += print_origin(stored, o, ids, i, &exit);
     if (printed && exit == RG_EXIT_NOTHING)
         rg_error("%s: of some of its cells, or all, nothing was measured; measure the table anew",
                  o->from);
@@ -380,7 +414,7 @@ static int print_tables(const struct table_options *o, const struct rg_words *ar
     struct rg_stored stored = {0};
     if (!o->from)
         return measure(o, arguments);
-    if (!spares_stored(o))
+    if (o->output && !spares_stored(o, o->output))
         return rg_exit_of_error();
     const int exit =
         rg_stored_read(&stored, o->from) ? print_stored(&stored, o, arguments) : rg_exit_of_error();

@@ -1,6 +1,5 @@
 #include "harness/compare/verify/checks.h"
 
-#include <jansson.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,8 +9,6 @@
 #include "core/base/log.h"
 #include "harness/console/exit.h"
 #include "harness/record/named.h"
-#include "harness/record/passport/driver.h"
-#include "harness/record/passport/passport.h"
 
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
                    const char *device, enum rg_outcome status, const char *format, ...)
@@ -48,7 +45,9 @@ void rg_checks_add_error(struct rg_checks *checks, const char *technique, const 
     rg_checks_add_failure(checks, technique, check, device, &failure);
 }
 
-static void print_json(const struct rg_checks *checks, json_t *devices)
+// --- the JSON form ---
+
+json_t *rg_checks_document(const struct rg_checks *checks, json_t *devices)
 {
     json_t *rows = json_array();
     for (int i = 0; i < checks->count; i++) {
@@ -59,11 +58,30 @@ static void print_json(const struct rg_checks *checks, json_t *devices)
         json_object_set_new(json, "detail", rg_json_text(row->detail));
         json_array_append_new(rows, json);
     }
-    json_t *root = json_pack("{sisoso}", "format", 1, "devices", devices, "checks", rows);
-    json_dumpf(root, stdout, JSON_INDENT(2));
-    printf("\n");
-    json_decref(root);
+    return json_pack("{sisoso}", "format", 1, "devices", devices, "checks", rows);
 }
+
+bool rg_checks_read(struct rg_checks *checks, const json_t *row)
+{
+    const char *technique, *check, *device, *status, *detail, *fault = "";
+    enum rg_outcome outcome;
+    if (json_unpack((json_t *)row, "{ss ss ss ss ss s?s}", "technique", &technique, "check", &check,
+                    "device", &device, "status", &status, "detail", &detail, "fault", &fault) ||
+        !rg_outcome_find(status, &outcome))
+        return rg_error("a record of verify has a check without a name or a status; run its shard "
+                        "again");
+    if (*fault)
+        outcome = strcmp(fault, "set-up") ? RG_LACKING : RG_SETUP;
+    struct rg_check plain; // texts from outside
+    rg_text_copy(plain.technique, sizeof(plain.technique), technique);
+    rg_text_copy(plain.check, sizeof(plain.check), check);
+    rg_text_copy(plain.device, sizeof(plain.device), device);
+    rg_text_copy(plain.detail, sizeof(plain.detail), detail);
+    rg_checks_add(checks, plain.technique, plain.check, plain.device, outcome, "%s", plain.detail);
+    return true;
+}
+
+// --- text ---
 
 static int longer(int width, const char *text)
 {
@@ -106,14 +124,17 @@ static void print_count(const struct rg_checks *checks)
     printf("\n");
 }
 
-void rg_checks_print(const struct rg_checks *checks, const struct rg_device_info *const devices[],
-                     int device_count, bool json)
+void rg_checks_print(const struct rg_checks *checks, const char *note, json_t *devices, bool json)
 {
+    json_t *document = json ? rg_checks_document(checks, devices) : NULL;
     if (json) {
-        print_json(checks, rg_passport_devices(devices, device_count));
+        json_dumpf(document, stdout, JSON_INDENT(2));
+        printf("\n");
+        json_decref(document);
         return;
     }
-    rg_drivers_print(devices, device_count, stdout);
+    json_decref(devices);
+    fputs(note, stdout);
     print_lines(checks);
     print_count(checks);
 }

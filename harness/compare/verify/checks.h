@@ -2,6 +2,7 @@
 #ifndef RG_HARNESS_COMPARE_VERIFY_CHECKS_H
 #define RG_HARNESS_COMPARE_VERIFY_CHECKS_H
 
+#include <jansson.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -35,10 +36,13 @@ void rg_checks_add_failure(struct rg_checks *checks, const char *technique, cons
 void rg_checks_add_error(struct rg_checks *checks, const char *technique, const char *check,
                          const char *device);
 
-// Prints to stdout: a line for each device, with its driver, and a line for each check, or one JSON
-// object {"format":1, "devices":[...], "checks":[...]}.
-void rg_checks_print(const struct rg_checks *checks, const struct rg_device_info *const devices[],
-                     int device_count, bool json);
+// Adds a check from its JSON form. False, and one logged line, if it is none.
+bool rg_checks_read(struct rg_checks *checks, const json_t *row);
+
+// The JSON form, "verify" in docs/records.schema.json, which the caller owns; takes over `devices`.
+json_t *rg_checks_document(const struct rg_checks *checks, json_t *devices);
+// Prints to stdout: `note` and a line for each check, or the JSON form; takes over `devices`.
+void rg_checks_print(const struct rg_checks *checks, const char *note, json_t *devices, bool json);
 
 // An enum rg_exit: the worse of `exit` and rg_exit_of_all of the results. If some results are of
 // devices, only these count, because a good model proves no device.

@@ -12,6 +12,7 @@
 #include "core/base/log.h"
 #include "harness/record/disk/cells.h"
 #include "harness/record/disk/document.h"
+#include "harness/record/passport/key.h"
 
 static const char mend[] = "name a file as `raingauge table -o` writes it";
 
@@ -69,33 +70,62 @@ static int holds_result(const struct dirent *entry)
     return ends_in(entry->d_name, ".json") || ends_in(entry->d_name, ".journal");
 }
 
-static bool read_folder(struct rg_stored *stored, const char *folder)
+// `raingauge merge` names a machine's folder by its comparison key.
+static int is_of_machine(const struct dirent *entry)
+{
+    return rg_key_is(entry->d_name);
+}
+
+typedef bool (*reader)(struct rg_stored *stored, const char *path);
+
+// Reads what a folder has, by name. Returns the number of entries; -1, with one logged line, if one
+// cannot be read.
+static int read_entries(struct rg_stored *stored, const char *folder,
+                        int (*is_read)(const struct dirent *entry), reader read)
 {
     struct dirent **entries;
-    const int count = scandir(folder, &entries, holds_result, alphasort);
-    bool ok = count > 0 ||
-              (rg_system_error(errno, "%s: %s; name a folder that `raingauge table -o` wrote to",
-                               folder, count ? strerror(errno) : "holds no .json and no .journal"),
-               false);
+    const int count = scandir(folder, &entries, is_read, alphasort);
+    bool ok = count >= 0 || rg_system_error(errno,
+                                            "%s: %s; name a folder that `raingauge table "
+                                            "-o` wrote to",
+                                            folder, strerror(errno));
     for (int i = 0; i < count; i++) {
         char path[4096];
         const int length = snprintf(path, sizeof(path), "%s/%s", folder, entries[i]->d_name);
         ok = ok &&
              (length < (int)sizeof(path) ||
               rg_error("%.80s...: its name is too long; move it", path)) &&
-             read_file(stored, path);
+             read(stored, path);
         free(entries[i]);
     }
     if (count >= 0)
         free(entries);
-    return ok;
+    return ok ? count : -1;
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+static bool read_machine(struct rg_stored *stored, const char *path)
+{
+    return !is_folder(path) || read_entries(stored, path, holds_result, read_file) >= 0;
+}
+
+static bool read_folder(struct rg_stored *stored, const char *folder)
+{
+    const int files = read_entries(stored, folder, holds_result, read_file);
+    return files >= 0 && read_entries(stored, folder, is_of_machine, read_machine) >= 0 &&
+           (stored->count || rg_error("%s: holds no .json and no .journal; name a folder that "
+                                      "`raingauge table -o` wrote to",
+                                      folder));
 }
 
 bool rg_stored_read(struct rg_stored *stored, const char *path)
 {
-    struct stat found;
-    return stat(path, &found) == 0 && S_ISDIR(found.st_mode) ? read_folder(stored, path)
-                                                             : read_file(stored, path);
+    return is_folder(path) ? read_folder(stored, path) : read_file(stored, path);
 }
 
 void rg_stored_free(struct rg_stored *stored)

@@ -10,9 +10,10 @@ struct rg_stored {
     struct rg_result *results; // owned, with everything that they own
 };
 
-// Reads one or several results from a file, or from all .json and .journal files of a folder, by
-// name. Zero `stored` before. False, with one logged line that names the file, the place and the
-// mend, if a file is no result, or there is none. The caller calls rg_stored_free in either case.
+// Reads one or several results from a file, or from all .json and .journal files of a folder and of
+// the folders in it that a comparison key names, by name. Zero `stored` before. False, with one
+// logged line that names the file, the place and the mend, if a file is no result, or there is
+// none. The caller calls rg_stored_free in either case.
 bool rg_stored_read(struct rg_stored *stored, const char *path);
 void rg_stored_free(struct rg_stored *stored);
 

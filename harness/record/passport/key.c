@@ -106,6 +106,11 @@ void rg_key_hash(const json_t *parts, char key[RG_KEY_SIZE])
     free(text);
 }
 
+bool rg_key_is(const char *text)
+{
+    return strlen(text) == RG_KEY_SIZE - 1 && strspn(text, "0123456789abcdef") == RG_KEY_SIZE - 1;
+}
+
 static const char *or_nothing(const char *text)
 {
     return *text ? text : "unknown";

@@ -7,6 +7,7 @@
 #define RG_HARNESS_RECORD_PASSPORT_KEY_H
 
 #include <jansson.h>
+#include <stdbool.h>
 
 enum { RG_KEY_SIZE = 17, RG_KEY_TEXT = 1024 };
 
@@ -16,6 +17,8 @@ json_t *rg_key_parts(const json_t *passport, const json_t *device);
 
 // The hash of the parts, in 16 hexadecimal digits; "" when memory runs out.
 void rg_key_hash(const json_t *parts, char key[RG_KEY_SIZE]);
+// Whether a text is such a hash.
+bool rg_key_is(const char *text);
 
 // "cores 2 and not 4; driver Mesa 22.3.6 and not Mesa 23.1.0": the parts that differ between now
 // and then. "" if none does.

@@ -128,6 +128,20 @@ const objectsOf = x => arrayOf(x).filter(y => y && typeof y === "object" && !Arr
 const records = (kind, source = DATA) => arrayOf(source.records).filter(record => record.kind === kind);
 const picture = name => DATA.pictures[DATA.files[name]] || null;
 
+// Machines that records come from, by their keys: those of tables, then those of documents of claims, which name theirs from A on, too.
+const MACHINES = (() => {
+  const found = new Map();
+  for (const document of [DATA, ...records("claims").map(record => objectOf(record.document))])
+    for (const machine of objectsOf(document.machines)) if (typeof machine.key === "string" && !found.has(machine.key)) found.set(machine.key, machine);
+  return [...found.values()].map((machine, i) => ({...machine, name: i < 26 ? String.fromCharCode(65 + i) : `A${i - 25}`}));
+})();
+const SEVERAL = MACHINES.length > 1;
+// The key of the machine that a document calls by this name, and this page's name for it.
+const machineKey = (document, name) => (objectsOf(document.machines).find(machine => machine.name === name) || {}).key;
+const machineName = key => (MACHINES.find(machine => machine.key === key) || {}).name;
+// What stands on a machine, if there are several: "cpu on A".
+const onMachine = (text, key) => SEVERAL && machineName(key) ? `${text} on ${machineName(key)}` : text;
+
 // Devices by name, in one order everywhere, so that each keeps its colour and its mark.
 const DEVICES = (() => {
   const usual = ["cpu", "cpu:reference", "gl", "vulkan", "opencl"], found = new Map();

@@ -7,11 +7,16 @@ const RUNS_DIFFER = 0.1;
 
 const keyOf = (table, device) => (arrayOf(objectOf(table.document.passport).devices).find(d => d.name === device) || {}).key;
 
+// The earlier verdict on the same device: of several machines that of the same one.
+function judgedThen(before, verdict) {
+  const then = before.verdicts.filter(v => v.device === verdict.device), same = then.find(v => v.key === verdict.key);
+  return same || (then.length === 1 && !SEVERAL ? then[0] : null);
+}
 // Verdicts that are others now: claim, device, then, now.
 function changedVerdicts() {
   return CLAIMS.flatMap(claim => {
     const before = BEFORE.claims.find(c => c.id === claim.id);
-    return before ? claim.verdicts.map(v => [claim, v.device, judged(before, v.device), v]).filter(([, , then, now]) => then && then.verdict !== now.verdict) : [];
+    return before ? claim.verdicts.map(v => [claim, v.on, judgedThen(before, v), v]).filter(([, , then, now]) => then && then.verdict !== now.verdict) : [];
   });
 }
 function changedEndings() {
@@ -30,7 +35,7 @@ function casesThatChanged() {
 const changedCells = (() => {
   let found = null;
   return () => found || (found = TABLES.flatMap(table => {
-    const before = BEFORE.tables.find(t => t.id === table.id);
+    const then = BEFORE.tables.filter(t => t.name === table.name), before = then.find(t => t.key === table.key) || (then.length === 1 && !SEVERAL ? then[0] : null);
     return before ? cellsOfBoth(table, before) : [];
   }));
 })();

@@ -28,16 +28,20 @@ const verdictOf = text => VERDICTS[text] || {mark: "•", word: String(text), cl
 const FIGURES = {fits: "fits", misses: "misses", near: "near the bound"};
 const withFigures = v => v.verdict === "one launch" && FIGURES[v.figures] ? {...v, verdict: `one launch: ${FIGURES[v.figures]}`} : v;
 
+// Where a verdict stands: its device, and of several machines which.
+const withMachine = (v, document) => { const key = machineKey(document, v.machine); return {...v, key, on: onMachine(v.device, key)}; };
+
 // Claims of the records, and those that were judged from their tables; each once.
 function claimsOf(source) {
   const all = new Map();
   for (const document of [objectOf(source.claims), ...records("claims", source).map(record => objectOf(record.document))])
-    for (const claim of objectsOf(document.claims)) if (typeof claim.id === "string") all.set(claim.id, {...claim, verdicts: objectsOf(claim.verdicts).map(withFigures)});
+    for (const claim of objectsOf(document.claims)) if (typeof claim.id === "string") all.set(claim.id, {...claim, verdicts: objectsOf(claim.verdicts).map(withFigures).map(v => withMachine(v, document))});
   return [...all.values()];
 }
 const CLAIMS = claimsOf(DATA);
-const CLAIM_DEVICES = DEVICES.filter(d => CLAIMS.some(c => c.verdicts.some(v => v.device === d.name))).map(d => d.name);
-const judged = (claim, device) => claim.verdicts.find(v => v.device === device);
+// Devices that have verdicts, each on every machine: "cpu", or "cpu on A", "cpu on B".
+const CLAIM_PLACES = DEVICES.flatMap(d => [...new Set(CLAIMS.flatMap(c => c.verdicts.filter(v => v.device === d.name).map(v => v.on)))].sort());
+const judged = (claim, place) => claim.verdicts.find(v => v.on === place);
 
 // Explains words of the totals and of the verdicts.
 const LAUNCH_ABOUT = "A launch is a new process, which gives one figure. One launch decides nothing; a verdict takes many.";
@@ -45,14 +49,28 @@ const OPEN_ABOUT = "Open: not measured, measured by other work than the paper's,
 // How a claim stands on all devices together. Verdicts go before figures of one launch.
 const STANDS = {holds: ["holds", "hold", "yes"], mixed: ["holds on some devices only", "hold on some devices only", "bound"], fails: ["does not hold", "do not hold", "no"],
   fits: ["fits by one launch alone", "fit by one launch alone", "fits"], misses: ["misses by one launch alone", "miss by one launch alone", "misses"], open: ["is open", "are open", "open"]};
-function standOf(claim) {
-  const has = verdict => claim.verdicts.some(v => v.verdict === verdict);
+function standOf(claim, key = null) {
+  const has = verdict => claim.verdicts.some(v => v.verdict === verdict && (!key || v.key === key));
   if (has("reproduced") || has("not reproduced")) return has("reproduced") ? has("not reproduced") ? "mixed" : "holds" : "fails";
   return has("one launch: misses") ? "misses" : has("one launch: fits") ? "fits" : "open";
 }
 const standing = (stand, claims = CLAIMS) => claims.filter(claim => standOf(claim) === stand).length;
 // How claims stand, of those that there are: [stand, "14 hold", class, how many].
 const standings = (claims = CLAIMS) => Object.entries(STANDS).map(([stand, [one, many, cls]]) => [stand, `${standing(stand, claims)} ${standing(stand, claims) === 1 ? one : many}`, cls, standing(stand, claims)]).filter(([, , , n]) => n);
+
+// Verdicts on a device that differ between machines: [claim, device, verdicts]. Those that are not seen do not count.
+const differing = claims => claims.flatMap(claim => [...new Set(claim.verdicts.map(v => v.device))].map(device => [claim, device, claim.verdicts.filter(v => v.device === device && !["not seen", "one launch"].includes(v.verdict))]))
+  .filter(([, , verdicts]) => new Set(verdicts.map(v => v.verdict)).size > 1);
+// How many of the claims that were judged on a machine stand so there: "5 of 8".
+const standingOn = (stand, key, claims = CLAIMS) => { const here = claims.filter(c => c.verdicts.some(v => v.key === key)); return `${here.filter(c => standOf(c, key) === stand).length} of ${here.length}`; };
+function machinesPart(claims) {
+  const judgedOn = MACHINES.filter(m => claims.some(c => c.verdicts.some(v => v.key === m.key))), differ = differing(claims);
+  if (judgedOn.length < 2) return null;
+  return [part("Machines", sheet("How claims stand on each machine", ["machine", "", ...Object.values(STANDS).map(([one]) => ({text: one, number: true}))],
+      judgedOn.map(m => [m.name, [m.text, m.differs ? el("small", {}, `not as ${MACHINES[0].name}: ${m.differs}`) : null], ...Object.keys(STANDS).map(stand => standingOn(stand, m.key, claims))]), "machines")),
+    part("Verdicts that differ between machines", differ.length ? sheet("Claims with another verdict on another machine", ["claim", "device", ...judgedOn.map(m => m.name)],
+      differ.map(([claim, device, verdicts]) => [link("claim", {id: claim.id}, claimWords(claim)), device, ...judgedOn.map(m => { const v = verdicts.find(x => x.key === m.key); return v ? badge(v.verdict) : "–"; })]), "differing") : note("None: every verdict that is seen on several machines is the same on each."))];
+}
 
 const claimWords = claim => [claim.source === "said" ? `“${claim.words}”` : claim.words, claim.part ? `, ${claim.part}` : ""].join("");
 // Tests in words; `row` names a row by its number and its place on the axis.
@@ -80,18 +98,18 @@ function badge(verdict, isShort = false) {
   const v = verdictOf(verdict);
   return el("span", {class: "verdict claimed " + v.cls, title: v.about}, el("span", {"aria-hidden": "true"}, v.mark), isShort ? el("span", {class: "unseen"}, v.word) : " " + v.word);
 }
-const badges = claim => el("ul", {class: "badges"}, CLAIM_DEVICES.map(device => judged(claim, device)).filter(Boolean)
-  .map(v => el("li", {}, el("span", {class: "device"}, v.device), " ", badge(v.verdict))));
+const badges = claim => el("ul", {class: "badges"}, CLAIM_PLACES.map(place => judged(claim, place)).filter(Boolean)
+  .map(v => el("li", {}, el("span", {class: "device"}, v.on), " ", badge(v.verdict))));
 
 // Claims as rows, devices as columns, by paper.
 function matrix(claims) {
   const papers = [...new Set(claims.map(claim => claim.paper))];
   return el("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Claims by paper and device"}, el("table", {class: "matrix"},
     el("caption", {class: "unseen"}, "What papers claim, and whether it holds on each device"),
-    el("thead", {}, el("tr", {}, el("th", {scope: "col"}, "claim"), CLAIM_DEVICES.map(d => el("th", {scope: "col"}, d)))),
-    papers.map(paper => el("tbody", {}, el("tr", {class: "paper"}, el("th", {scope: "rowgroup", colspan: CLAIM_DEVICES.length + 1}, paperTitle(paper), PAPERS[paper] ? el("small", {}, " " + PAPERS[paper].about) : null)),
+    el("thead", {}, el("tr", {}, el("th", {scope: "col"}, "claim"), CLAIM_PLACES.map(p => el("th", {scope: "col"}, p)))),
+    papers.map(paper => el("tbody", {}, el("tr", {class: "paper"}, el("th", {scope: "rowgroup", colspan: CLAIM_PLACES.length + 1}, paperTitle(paper), PAPERS[paper] ? el("small", {}, " " + PAPERS[paper].about) : null)),
       claims.filter(c => c.paper === paper).map(claim => el("tr", {}, el("th", {scope: "row"}, link("claim", {id: claim.id}, claimWords(claim)), el("small", {}, " " + claim.table)),
-        CLAIM_DEVICES.map(device => { const v = judged(claim, device); return el("td", {class: v ? verdictOf(v.verdict).cls : null}, v ? badge(v.verdict, true) : ""); })))))));
+        CLAIM_PLACES.map(place => { const v = judged(claim, place); return el("td", {class: v ? verdictOf(v.verdict).cls : null}, v ? badge(v.verdict, true) : ""); })))))));
 }
 const verdictKey = claims => el("ul", {class: "key"}, el("li", {}, LAUNCH_ABOUT), Object.keys(VERDICTS).filter(v => claims.some(c => c.verdicts.some(x => x.verdict === v)))
   .map(v => el("li", {}, badge(v), ": ", verdictOf(v).about)));
@@ -110,7 +128,7 @@ function foundClaims(found, paper) {
 function viewClaims(params) {
   const asked = {paper: params.get("paper") || "", verdict: params.get("verdict") || "", device: params.get("device") || "", stand: params.get("stand") || "", q: params.get("q") || ""};
   const found = CLAIMS.filter(claim => (!asked.paper || claim.paper === asked.paper) && (!asked.stand || standOf(claim) === asked.stand)
-    && (!(asked.verdict || asked.device) || claim.verdicts.some(v => (!asked.verdict || v.verdict === asked.verdict) && (!asked.device || v.device === asked.device)))
+    && (!(asked.verdict || asked.device) || claim.verdicts.some(v => (!asked.verdict || v.verdict === asked.verdict) && (!asked.device || v.on === asked.device)))
     && (!asked.q || [claim.words, claim.part, claim.table, claim.id].join(" ").toLowerCase().includes(asked.q.toLowerCase())));
   const any = [["", "all"]];
   return [head("Claims", el("p", {}, "A claim is a sentence of a paper about its table, or what the table shows. Each is put to a test on each device.")),
@@ -119,26 +137,26 @@ function viewClaims(params) {
       choice("claims-paper", "Paper", [...any, ...[...new Set(CLAIMS.map(c => c.paper))].map(p => [p, paperTitle(p)])], asked.paper, paper => choose({paper})),
       choice("claims-stand", "Claims that", [...any, ...standings().map(([stand]) => [stand, STANDS[stand][1]])], asked.stand, stand => choose({stand})),
       choice("claims-verdict", "Verdict", [...any, ...Object.keys(VERDICTS).map(v => [v, verdictOf(v).word])], asked.verdict, verdict => choose({verdict})),
-      choice("claims-device", "Device", [...any, ...CLAIM_DEVICES.map(d => [d, d])], asked.device, device => choose({device}))),
+      choice("claims-device", "Device", [...any, ...CLAIM_PLACES.map(d => [d, d])], asked.device, device => choose({device}))),
     el("p", {role: "status", class: "lead"}, foundClaims(found, asked.paper)),
-    found.length ? [verdictKey(found), matrix(found)] : note("No claim is so. Choose less.")];
+    found.length ? [verdictKey(found), matrix(found), machinesPart(found)] : note("No claim is so. Choose less.")];
 }
 
 // The rows that decide a claim, of which the plot shows the medians with their intervals.
-function evidence(claim) {
-  const table = tableOf(claim.table), span = arrayOf(claim.rows);
-  if (!table || span.length < 2) return null;
+function evidence(claim, table) {
+  const span = arrayOf(claim.rows);
+  if (span.length < 2) return null;
   const work = worksOf(table)[0], inside = [...table.rows.keys()].filter(n => ["ratio", "times"].includes(claim.test) ? span.includes(n) : n >= Math.min(...span) && n <= Math.max(...span));
   if (claim.test === "flattens") return errorPlot(table, inside, claim.variant, work);
   const variants = [claim.variant, claim.other_variant].filter(v => v && table.variants.includes(v));
   return variants.map(variant => {
     const lines = linesOf(table, inside, variant, work), {axis} = axisOf(table);
-    return lines.length ? [variants.length > 1 ? el("h3", {}, words(variant)) : null, plot({lines, axis: axis && axisOf(table).groups.length === 1 && inside.length > 2 ? words(axis) : null, value: "frames a second", name: `${claim.table}-${variant}`, isLog: true})] : null;
+    return lines.length ? [variants.length > 1 ? el("h3", {}, words(variant)) : null, plot({lines, axis: axis && axisOf(table).groups.length === 1 && inside.length > 2 ? words(axis) : null, value: "frames a second", name: `${table.id}-${variant}`, isLog: true})] : null;
   });
 }
 // The error of each row's picture, which is the same on every device.
 function errorPlot(table, numbers, variant, work) {
-  const {axis} = axisOf(table), device = CLAIM_DEVICES[0];
+  const {axis} = axisOf(table), device = (DEVICES.find(d => table.cells.some(c => c.device === d.name)) || {}).name;
   const points = numbers.map(n => ({row: n, x: axis ? table.rows.get(n)[axis] : null, label: rowText(table.rows.get(n), keysOf(table)),
     value: objectOf((cellOf(table, n, device, variant, work) || {}).error).flip_mask_mean, low: null, high: null})).filter(p => isNumber(p.value));
   return points.length ? plot({lines: [{name: device, points}], axis: axis && words(axis), value: "error of the picture, FLIP", name: table.id + "-error", isLog: false}) : null;
@@ -159,7 +177,7 @@ function launchesText(claim) {
 const hoursText = hours => hours < 1 ? `about ${Math.max(1, Math.round(60 * hours))} min` : `about ${digits(hours)} h`;
 // What a verdict says besides, as newer records have it: launches, intervals.
 function extras(verdict) {
-  const known = ["device", "verdict", "why", "probability", "rows_judged", "rows_needed", "figures", "launches", "launches_disturbed", "launches_needed", "hours_needed", "kept", "today"];
+  const known = ["device", "machine", "on", "key", "verdict", "why", "probability", "rows_judged", "rows_needed", "figures", "launches", "launches_disturbed", "launches_needed", "hours_needed", "kept", "today"];
   return Object.entries(verdict).filter(([key, x]) => !known.includes(key) && (isNumber(x) || typeof x === "string" || (Array.isArray(x) && x.length <= 4 && x.every(isNumber))))
     .map(([key, x]) => `${words(key)}: ${Array.isArray(x) ? x.map(digits).join(" to ") : isNumber(x) ? digits(x) : x}`).join("; ");
 }
@@ -176,9 +194,9 @@ function viewClaim(params) {
       el("p", {}, "It holds where ", testOf(claim), `. ${boundText(claim)}`), el("p", {}, `${rowsText(claim)}${claim.variant && claim.variant !== "full" ? `; what is timed is ${words(claim.variant)}` : ""}.`),
       claim.print_contradicts ? el("p", {class: "warn"}, "The paper's own table contradicts it.") : null),
     part("Verdicts", sheet("The verdict on each device, and why", ["device", "verdict, and why", ...(hasChance ? [{text: "chance", number: true, title: "How probable such samples would be if the opposite were true"}] : [])],
-      claim.verdicts.map(v => [v.device, [badge(v.verdict), " ", v.why || "", v.rows_judged < v.rows_needed ? ` (by ${v.rows_judged} of ${v.rows_needed} rows)` : "", launchesOf(v) ? el("small", {}, launchesOf(v)) : null, extras(v) ? el("small", {}, extras(v)) : null], ...(hasChance ? [isNumber(v.probability) ? v.probability < 0.001 ? "< 0.001" : digits(v.probability) : "–"] : [])])),
+      claim.verdicts.map(v => [v.on, [badge(v.verdict), " ", v.why || "", v.rows_judged < v.rows_needed ? ` (by ${v.rows_judged} of ${v.rows_needed} rows)` : "", launchesOf(v) ? el("small", {}, launchesOf(v)) : null, extras(v) ? el("small", {}, extras(v)) : null], ...(hasChance ? [isNumber(v.probability) ? v.probability < 0.001 ? "< 0.001" : digits(v.probability) : "–"] : [])])),
       hasChance ? note("Chance: how probable such samples would be if the opposite were true.") : null),
-    tableOf(claim.table) ? part("The rows that decide", evidence(claim)) : null,
+    tablesNamed(claim.table).map(table => part(SEVERAL ? `The rows that decide, ${table.id}` : "The rows that decide", evidence(claim, table))),
     part(open ? "What would decide it" : "Measure it yourself", open ? el("p", {}, isByLaunches ? launchesText(claim) : "More samples, of the paper's own settings.") : null,
       command(isByLaunches ? `raingauge claims ${shell(claim.table)} -o mine` : `raingauge table ${shell(claim.table)} --full --claims -o mine`)),
     paper ? part("Cite", el("pre", {}, bibtex(claim.paper, paper) + "\n\n" + bibtex("raingauge", {...SOFTWARE, type: "misc"}))) : null,

@@ -49,6 +49,7 @@ function bisectPart(record) {
 function viewDevices() {
   const doctors = records("doctor");
   return [head("Devices", el("p", {}, "A device is an API with a driver. Each is asked for the same work.")),
+    SEVERAL ? part("Machines", sheet("Machines that tables were measured on; another driver or setting makes another machine", ["machine", "processor", "comparison key", `not as ${MACHINES[0].name}`], MACHINES.map(m => [m.name, m.text || "", m.key, m.differs || ""]))) : null,
     doctors.map(record => {
       const devices = objectsOf(record.document.devices), others = notExamined(record);
       return part("Doctor", el("p", {}, wellText(devices), others.length ? ` ${othersText(others)}` : ""), arrayOf(record.document.warnings).map(w => el("p", {class: "warn"}, w)), arrayOf(record.document.missing).map(m => note(m)),

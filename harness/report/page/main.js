@@ -18,7 +18,8 @@ function claimsTotal() {
   const stands = standings(), decided = ["holds", "mixed", "fails"].map(stand => standing(stand)), open = CLAIMS.length - d3.sum(decided);
   return total("Claims", [`${decided[0]} ${decided[0] === 1 ? "holds" : "hold"}, ${decided[1] + decided[2]} ${decided[1] + decided[2] === 1 ? "does" : "do"} not`, " ", el("small", {}, `of ${plural(CLAIMS.length, "claim")}${open ? `; ${open} ${open === 1 ? "has" : "have"} no verdict yet` : ""}`)],
     [LAUNCH_ABOUT, stands.some(([stand]) => stand === "open") ? ` ${OPEN_ABOUT}` : ""], [bar(stands.map(([, , cls, n]) => [cls, n])),
-      el("ul", {class: "plain"}, stands.map(([stand, text, cls]) => el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, text))))]);
+      el("ul", {class: "plain"}, stands.map(([stand, text, cls]) => el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, text))),
+      SEVERAL ? el("li", {}, el("span", {class: "dot", "aria-hidden": "true"}), "Hold: ", list(MACHINES.map(m => `${standingOn("holds", m.key)} on ${m.name}`))) : null)]);
 }
 function devicesTotal() {
   const doctor = records("doctor")[0], asked = doctor ? objectsOf(doctor.document.devices) : DEVICES.filter(d => CELLS.some(c => c.device === d.name));
@@ -46,7 +47,7 @@ function gateTotal() {
 
 function foundText() {
   const papers = new Set(CLAIMS.map(c => c.paper)).size, texts = [];
-  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${list(standings().map(([, text]) => text))}.${standing("fits") + standing("misses") ? " One launch is no verdict." : ""}`);
+  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${list(standings().map(([, text]) => text))}.${standing("fits") + standing("misses") ? " One launch is no verdict." : ""}${SEVERAL ? ` ${plural(differing(CLAIMS).length, "verdict")} of devices ${differing(CLAIMS).length === 1 ? "differs" : "differ"} between ${MACHINES.length} machines.` : ""}`);
   for (const gate of GATES.slice(-1)) texts.push(verdictOfGate(gate));
   const checks = records("verify").flatMap(r => objectsOf(r.document.checks)), bad = checks.filter(c => statusClass(c.status) === "no");
   if (checks.length) texts.push(bad.length ? `${bad.length} of ${plural(checks.length, "check")} of the models ${bad.length === 1 ? "does" : "do"} not hold.` : `None of ${plural(checks.length, "check")} of the models fails.`);

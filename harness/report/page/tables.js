@@ -6,12 +6,14 @@ const tablesOf = source => records("table", source).map(record => {
   const rows = new Map();
   for (const cell of cells) if (!rows.has(cell.row_number)) rows.set(cell.row_number, objectOf(cell.row));
   const variants = arrayOf(document.variants).length ? document.variants : [...new Set(cells.map(c => c.variant))];
-  return {id: String(document.table), document, cells, printed, rows, variants, file: record.file,
+  const name = String(document.table), key = machineKey(source, record.machine);
+  return {id: onMachine(name, key), name, key, document, cells, printed, rows, variants, file: record.file,
     works: arrayOf(document.works).map(w => w.name), paper: printed ? printed.paper : "", about: printed ? printed.about : words(document.table),
     isTimed: document.timed !== false};
 });
 const TABLES = tablesOf(DATA);
-const tableOf = id => TABLES.find(table => table.id === id);
+const tablesNamed = name => TABLES.filter(table => table.name === name);
+const tableOf = id => TABLES.find(table => table.id === id) || tablesNamed(id)[0];
 const worksOf = table => table.works.length ? table.works : [undefined];
 const isCell = (cell, variant, work) => cell.variant === variant && (work === undefined || cell.work === work);
 const cellOf = (table, row, device, variant, work) =>
@@ -108,7 +110,7 @@ function viewTables() {
   const papers = [...new Set(TABLES.map(table => table.paper))];
   return [head("Tables", el("p", {}, "Each table of a paper, measured anew: print's numbers beside ours, on every device.")),
     papers.map(paper => part(paperTitle(paper), el("ul", {class: "cards"}, TABLES.filter(t => t.paper === paper).map(table => {
-      const claims = CLAIMS.filter(claim => claim.table === table.id);
+      const claims = CLAIMS.filter(claim => claim.table === table.name);
       return el("li", {}, link("table", {id: table.id}, el("strong", {}, table.id)), el("p", {}, table.about),
         el("p", {class: "note"}, plural(table.rows.size, "row"), ", ", plural(new Set(table.cells.map(c => c.device)).size, "device"),
           claims.length ? [", ", plural(claims.length, "claim")] : null));
@@ -196,7 +198,7 @@ function viewTable(params) {
   const hidden = (params.get("hide") || "").split(",").filter(Boolean), isBy = params.get("scale") !== "fps" && params.get("scale") === "first";
   const rates = linesOf(table, group[1], variant, work), lines = (isBy ? normalised(rates) : rates).filter(line => !hidden.includes(line.name));
   const beside = besideRows(table, [...table.rows.keys()], variant, work);
-  const claims = CLAIMS.filter(claim => claim.table === table.id), sweep = sweepOf(table, axis);
+  const claims = CLAIMS.filter(claim => claim.table === table.name), sweep = sweepOf(table, axis);
   const rowChoice = table.rows.has(Number(params.get("row"))) ? Number(params.get("row")) : [...table.rows.keys()][0];
   return [head(table.id, el("p", {class: "lead"}, table.about), paperTitle(table.paper) && PAPERS[table.paper] ? el("p", {}, PAPERS[table.paper].title, ", ", PAPERS[table.paper].author) : null),
     el("form", {class: "choices", onsubmit: event => event.preventDefault()},
@@ -215,6 +217,6 @@ function viewTable(params) {
     table.isTimed ? part("Where a frame's time goes", choice("choose-row", "Row", [...table.rows].map(([n, row]) => [String(n), rowText(row, keysOf(table))]), String(rowChoice), n => choose({row: n})),
       passesOf(table, rowChoice, variant, work)) : null,
     claims.length ? part("What the paper claims of it", el("div", {class: "claims"}, claims.map(claim => claimBrief(claim)))) : null,
-    part("What was run", tableFacts(table), el("h3", {}, "Measure it yourself"), command(`raingauge table ${shell(table.id)} --full -o mine`),
+    part("What was run", tableFacts(table), el("h3", {}, "Measure it yourself"), command(`raingauge table ${shell(table.name)} --full -o mine`),
       sweep ? [el("h3", {}, "Vary it"), command(sweep)] : null)];
 }

@@ -37,18 +37,40 @@ static json_t *text_or_null(const char *text)
     return *text ? json_string(text) : json_null();
 }
 
+static json_t *machine_json(const struct rg_origins *origins, int number)
+{
+    const struct rg_origin *origin = &origins->all[number];
+    char name[RG_ORIGIN_NAME], differs[RG_KEY_TEXT] = "";
+    rg_origin_name(number, name);
+    if (number)
+        rg_origin_difference(origin, &origins->all[0], differs);
+    return json_pack("{ss ss so so}", "name", name, "key", origin->key, "text",
+                     rg_json_text(origin->text), "differs",
+                     *differs ? rg_json_text(differs) : json_null());
+}
+
+json_t *rg_claims_machines_json(const struct rg_origins *origins)
+{
+    json_t *machines = json_array();
+    for (int i = 0; i < origins->count; i++)
+        json_array_append_new(machines, machine_json(origins, i));
+    return machines;
+}
+
 static json_t *verdict_json(const struct rg_claim_outcome *outcome)
 {
     static const char *const figures[RG_FIGURES_COUNT] = {"fits", "misses", "near", ""};
     const struct rg_judgement *j = &outcome->judgement;
     const int left = j->needed > j->launches ? j->needed - j->launches : 0;
-    return json_pack("{so ss so sn si si so si si si so sb so}", "device",
-                     rg_json_text(outcome->device), "verdict", rg_claim_verdict_text(j->verdict),
-                     "why", rg_json_text(j->why), "probability", "rows_judged", j->rows,
-                     "rows_needed", j->rows_needed, "figures", text_or_null(figures[j->figures]),
-                     "launches", j->launches, "launches_disturbed", j->disturbed, "launches_needed",
-                     left, "hours_needed", rg_number_json(left * j->launch_s / 3600), "kept",
-                     outcome->is_kept, "today",
+    char machine[RG_ORIGIN_NAME];
+    rg_origin_name(outcome->origin, machine);
+    return json_pack("{so ss ss so sn si si so si si si so sb so}", "device",
+                     rg_json_text(outcome->device), "machine", machine, "verdict",
+                     rg_claim_verdict_text(j->verdict), "why", rg_json_text(j->why), "probability",
+                     "rows_judged", j->rows, "rows_needed", j->rows_needed, "figures",
+                     text_or_null(figures[j->figures]), "launches", j->launches,
+                     "launches_disturbed", j->disturbed, "launches_needed", left, "hours_needed",
+                     rg_number_json(left * j->launch_s / 3600), "kept", outcome->is_kept, "today",
                      text_or_null(rg_claim_agreement_text(outcome->agreement)));
 }
 
@@ -67,6 +89,6 @@ json_t *rg_claims_json(const struct rg_claim_outcomes *o)
         }
         json_array_append_new(verdicts, verdict_json(outcome));
     }
-    return json_pack("{sisOso}", "format", RG_FORMAT_VERSION, "tables", o->tables, "claims",
-                     claims);
+    return json_pack("{siso sO so}", "format", RG_FORMAT_VERSION, "machines",
+                     rg_claims_machines_json(&o->origins), "tables", o->tables, "claims", claims);
 }

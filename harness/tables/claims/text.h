@@ -3,65 +3,19 @@
 #define RG_HARNESS_TABLES_CLAIMS_TEXT_H
 
 #include "harness/console/sheet.h"
-#include "harness/record/disk/stored.h"
-#include "harness/tables/claims/claim.h"
+#include "harness/tables/claims/outcomes.h"
 
-enum { RG_CLAIMS_LENGTH = RG_TITLE_SIZE + 64 };
-
-// Whether today's figures agree with the kept verdict.
-enum rg_claim_agreement {
-    RG_AGREEMENT_NONE, // no verdict is kept
-    RG_AGREEMENT_AGREES,
-    RG_AGREEMENT_DIFFERS,
-    RG_AGREEMENT_NOT_SEEN, // today's figures do not show it
-};
-const char *rg_claim_agreement_text(enum rg_claim_agreement agreement);
-
-// A claim's verdict on one device.
-struct rg_claim_outcome {
-    const struct rg_claim *claim;
-    char device[RG_NAME_SIZE];
-    // The length of the judged measurement: "full", or "quick (atlas=small), with 1/4 of the width
-    // and height".
-    char length[RG_CLAIMS_LENGTH];
-    struct rg_judgement judgement;     // by launches, if there are any
-    bool is_kept;                      // the launches are those of the kept records
-    enum rg_claim_agreement agreement; // with figures measured now
-    char machine[RG_TITLE_SIZE];       // on which the launches were taken
-};
-
-struct rg_claim_outcomes {
-    int count;
-    int64_t room;                      // capacity, for rg_array_fit
-    struct rg_claim_outcome *outcomes; // owned; a claim's are contiguous
-    json_t *tables;                    // owned; the JSON description of each judged table
-};
-
-// "full", or "quick" with its settings, either with the ratio of the pictures' size to the table's.
-void rg_claims_length(const struct rg_result *result, char *text, size_t size);
-
-// The part of the claims that is shown: those about a variant (NULL: all) and some of the rows,
-// from 1 (0: all).
-struct rg_claims_shown {
-    const char *variant;
-    int first_row, last_row;
-};
-
-// Adds the outcomes of a table's claims, of those that are shown. If the result has no launches,
-// takes the verdicts of `kept` (NULL: none), and compares the result's figures with them. Zero the
-// outcomes before the first call. False, with one logged line, when memory runs out.
-bool rg_claims_add(struct rg_claim_outcomes *outcomes, const struct rg_result *result,
-                   const struct rg_stored *kept, const struct rg_claims_shown *shown);
-void rg_claims_free(struct rg_claim_outcomes *outcomes);
-
-// Makes a row for each claim and a column for each device, below one sentence and the totals: how
-// many claims hold, do not hold, and are open. Notes list the lengths of measurements by table, and
-// three kinds of claims: judged by some of their rows, contradicted by the paper's own table, and
-// different by today's figures. `wide` adds verdicts in words, with section and reason; otherwise
-// the page fits a screen. Zero the sheet before; the caller frees it.
+// Makes a row for each claim and machine and a column for each device, below one sentence and the
+// totals: how many claims hold, do not hold, and are open. Notes name the machines if there are
+// several, with the verdicts that differ between them, and list the lengths of measurements by
+// table, and three kinds of claims: judged by some of their rows, contradicted by the paper's own
+// table, and different by today's figures. `wide` adds verdicts in words, with section and reason;
+// otherwise the page fits a screen. Zero the sheet before; the caller frees it.
 void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool wide, struct rg_sheet *sheet);
 
 // Adds the sentence and the totals: the sheet's lead.
 void rg_claims_total(const struct rg_claim_outcomes *outcomes, struct rg_sheet *sheet);
+// Adds the notes about machines, if there are several: what each is, and the verdicts that differ.
+void rg_claims_compare(const struct rg_claim_outcomes *outcomes, struct rg_sheet *sheet);
 
 #endif

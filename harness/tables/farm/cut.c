@@ -3,67 +3,14 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "core/base/text/add.h"
 
-struct load {
-    double seconds;
-    int64_t group;
-};
-
-// The largest first; of equal ones the first.
-static int compare(const void *a, const void *b)
+bool rg_farm_cut(const struct rg_farm_plan *plan, int shards, int *shard_of, double *longest_s)
 {
-    const struct load *x = a, *y = b;
-    return x->seconds != y->seconds ? (x->seconds < y->seconds ? 1 : -1)
-                                    : (x->group > y->group) - (x->group < y->group);
-}
-
-static int least(const double *seconds, int count)
-{
-    int found = 0;
-    for (int i = 1; i < count; i++)
-        found = seconds[i] < seconds[found] ? i : found;
-    return found;
-}
-
-bool rg_farm_cut(const struct rg_farm_plan *plan, int shards, int *shard_of, double *seconds)
-{
-    const int64_t count = plan->group_count;
-    const int used = shards < count ? shards : (int)count; // the others get nothing
-    struct load *loads = rg_alloc((size_t)count, sizeof(*loads), "shards");
-    double *taken = rg_alloc((size_t)used, sizeof(*taken), "shards");
-    const bool ok = loads && taken;
-    for (int64_t g = 0; ok && g < count; g++)
-        loads[g] = (struct load){plan->groups[g].seconds, g};
-    if (ok && count)
-        qsort(loads, (size_t)count, sizeof(*loads), compare);
-    for (int64_t i = 0; ok && i < count; i++) {
-        const int shard = least(taken, used);
-        taken[shard] += loads[i].seconds;
-        shard_of[loads[i].group] = shard + 1;
-    }
-    if (ok && seconds) {
-        *seconds = 0;
-        for (int i = 0; i < used; i++)
-            *seconds = taken[i] > *seconds ? taken[i] : *seconds;
-    }
-    free(loads);
-    free(taken);
+    double *seconds = rg_alloc((size_t)plan->group_count, sizeof(*seconds), "shards");
+    for (int64_t g = 0; seconds && g < plan->group_count; g++)
+        seconds[g] = plan->groups[g].seconds;
+    const bool ok =
+        seconds && rg_shard_cut(seconds, plan->group_count, shards, shard_of, longest_s);
+    free(seconds);
     return ok;
-}
-
-void rg_farm_array(const bool *has, int count, char *text, size_t size)
-{
-    *text = 0;
-    for (int i = 0; i < count; i++) {
-        int end = i;
-        while (end < count && has[end])
-            end++;
-        if (end == i)
-            continue;
-        rg_text_add(text, size, ",", "%d", i + 1);
-        if (end - i > 1)
-            rg_text_add(text, size, "", "-%d", end);
-        i = end;
-    }
 }

@@ -2,11 +2,9 @@
 
 #include <dirent.h>
 #include <errno.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <xxhash.h>
 
 #include "core/base/alloc.h"
 #include "core/base/array.h"
@@ -51,42 +49,12 @@ static bool name_groups(struct finding *f)
 
 // --- machines ---
 
-// What a reader knows a machine by, of the parts of its key.
-static void name_machine(const json_t *parts, char text[RG_KEY_TEXT])
-{
-    const char *cpu = json_string_value(json_object_get(parts, "cpu"));
-    const char *cores = json_string_value(json_object_get(parts, "cores"));
-    char name[RG_KEY_TEXT];
-    rg_text_copy(name, sizeof(name), cpu && *cpu ? cpu : "unknown processor");
-    snprintf(text, RG_KEY_TEXT, "%.200s, %.20s cores", name, cores ? cores : "unknown");
-}
-
-// Finds the comparison keys of a record's devices. They are made of the parts, for a key that was
-// written may be another version's.
-static void find_machine(const json_t *passport, struct rg_farm_machine *machine)
-{
-    const json_t *devices = json_object_get(passport, "devices"), *device;
-    char all[RG_MAX_DEVICES * RG_KEY_SIZE] = "";
-    size_t i;
-    *machine = (struct rg_farm_machine){.key = ""};
-    json_array_foreach(devices, i, device)
-    {
-        json_t *parts = rg_key_parts(passport, device);
-        rg_key_hash(parts, machine->key);
-        if (!i)
-            name_machine(parts, machine->text);
-        snprintf(all + i * (RG_KEY_SIZE - 1), RG_KEY_SIZE, "%s", machine->key);
-        json_decref(parts);
-    }
-    if (json_array_size(devices) > 1)
-        snprintf(machine->key, RG_KEY_SIZE, "%016" PRIx64, (uint64_t)XXH3_64bits(all, strlen(all)));
-}
-
 // The index of a machine, which is added if it is new; -1, with one logged line, without memory.
 static int machine_of(struct rg_farm_records *found, const json_t *passport)
 {
     struct rg_farm_machine machine;
-    find_machine(passport, &machine);
+    rg_origin_key(passport, machine.key);
+    rg_origin_text(passport, machine.text);
     for (int64_t i = 0; i < found->machine_count; i++)
         if (!strcmp(found->machines[i].key, machine.key))
             return (int)i;

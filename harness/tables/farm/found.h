@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_TABLES_FARM_FOUND_H
 #define RG_HARNESS_TABLES_FARM_FOUND_H
 
-#include "harness/record/passport/key.h"
+#include "harness/record/passport/origins.h"
 #include "harness/tables/farm/plan.h"
 
 // A machine, by the comparison keys of the plan's devices on it.

@@ -100,7 +100,7 @@ static int do_group(struct measuring *m, const struct rg_farm_group *group)
     return exit;
 }
 
-static int measure_all(struct measuring *m, const struct rg_farm_shard *shard, const int *shard_of)
+static int measure_all(struct measuring *m, const struct rg_shard *shard, const int *shard_of)
 {
     int exit = RG_EXIT_PASS;
     for (int64_t g = 0; g < m->plan->group_count && !rg_interrupted() && !m->is_lost; g++)
@@ -125,7 +125,7 @@ static int measure_all(struct measuring *m, const struct rg_farm_shard *shard, c
     return exit;
 }
 
-int rg_farm_measure(const struct rg_farm_plan *plan, const struct rg_farm_shard *shard,
+int rg_farm_measure(const struct rg_farm_plan *plan, const struct rg_shard *shard,
                     const struct rg_devices *devices, rg_farm_find *find, const char *folder)
 {
     struct measuring m = {

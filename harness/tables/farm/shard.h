@@ -13,7 +13,7 @@ typedef const struct rg_table *rg_farm_find(const char *id);
 // Groups whose record is there are not measured again, so that a shard goes on where it ended.
 // Prints a line for each group. Returns an enum rg_exit: the worst of all its records, or of an
 // interruption, which loses the group under way.
-int rg_farm_measure(const struct rg_farm_plan *plan, const struct rg_farm_shard *shard,
+int rg_farm_measure(const struct rg_farm_plan *plan, const struct rg_shard *shard,
                     const struct rg_devices *devices, rg_farm_find *find, const char *folder);
 
 #endif

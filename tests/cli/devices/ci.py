@@ -64,6 +64,22 @@ def check_gitlab(runner):
     return problems
 
 
+def check_gitlab_shards(runner):
+    """docs/ci/gitlab-shards.yml: four jobs report as one, whether the driver works, crashes or is missing, and a job that is lost fails"""
+    problems = []
+    for new, lost, status, says in ((runner.misbehaver, (), 0, "3 cases, 3 pass"), (runner.crasher, (), 1, "3 cases, 3 crash"), ("/nonexistent", (), 1, "1 case, 1 error"),
+                                    (runner.misbehaver, (2,), 3, "of 4 shards are missing: 2;")):
+        with tempfile.TemporaryDirectory() as folder:
+            drivers(runner, folder, new)
+            bisecting.write(folder, "cells.txt", QUICK + THIRD)
+            found, log, kept = runners.gitlab_shards(runner, folder, lost)
+            if found != status or says not in log or kept != (["gate-results"] if lost else ["gate.xml", "gate-results"]):
+                problems.append("%s: %s, %s, %s" % (new, found, kept, log))
+            elif not lost:
+                problems += lint(os.path.join(folder, "gate.xml"))
+    return problems
+
+
 def check_github(runner):
     """docs/ci/github.yml: annotations, a summary and files for the upload, whether the gate passes or not"""
     problems = []
@@ -211,4 +227,4 @@ def check_shards(runner):
     return problems
 
 
-CHECKS = [check_gitlab, check_github, check_deqp_runner, check_meson, check_pictures, check_gtest_flags, check_shards]
+CHECKS = [check_gitlab, check_gitlab_shards, check_github, check_deqp_runner, check_meson, check_pictures, check_gtest_flags, check_shards]

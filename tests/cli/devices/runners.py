@@ -36,6 +36,19 @@ def gitlab(runner, folder, **variables):
     return status, ran.stdout + ran.stderr, kept, os.path.join(folder, job["artifacts"]["reports"]["junit"])
 
 
+def gitlab_shards(runner, folder, lost=()):
+    """Runs the jobs of gitlab-shards.yml but those that are lost, then the report: its exit status, its log, the files that it keeps."""
+    jobs = read("gitlab-shards.yml")
+    for number in range(1, jobs["raingauge"]["parallel"] + 1):
+        node = {"CI_NODE_INDEX": str(number), "CI_NODE_TOTAL": str(jobs["raingauge"]["parallel"])}
+        if number not in lost:
+            subprocess.run(["bash", "-eo", "pipefail", "-c", "\n".join(jobs["raingauge"]["script"])], cwd=folder, capture_output=True, timeout=240,
+                           env=environment(runner, folder, {**jobs["raingauge"]["variables"], **node}), check=False)
+    ran = subprocess.run(["bash", "-eo", "pipefail", "-c", "\n".join(jobs["report"]["script"])], cwd=folder, capture_output=True, text=True, timeout=240,
+                         env=environment(runner, folder, {}), check=False)
+    return ran.returncode, ran.stdout + ran.stderr, [name for name in jobs["report"]["artifacts"]["paths"] if os.path.exists(os.path.join(folder, name))]
+
+
 # --- GitHub ---
 
 

@@ -233,5 +233,21 @@ def check_two_shards(runner):
         return problems
 
 
+def check_two_machines(runner):
+    """records of two comparison keys merge into a folder each, from which claims stand side by side"""
+    made, problems = farm(runner), []
+    number = next(i for i, shard in enumerate(made.measured, 1) if "stuppacher-2/" in shard.stdout)
+    with tempfile.TemporaryDirectory() as tmp:
+        other = runner.run(made.shard("%d/%d" % (number, SHARDS), tmp + "/other"), {"OMP_NUM_THREADS": "1"})
+        merged = runner.run(["merge", made.plan, made.records, tmp + "/other", "-o", tmp + "/out"])
+        keys = re.findall(r"/out/(\w{16}): ", merged.stdout)
+        if other.returncode or merged.returncode or len(set(keys)) != 2 or sorted(os.listdir(tmp + "/out")) != sorted(keys):
+            problems.append("%s, %s" % (other, merged))
+        shown = runner.run(["table", "--claims", "--from", tmp + "/out"])
+        if shown.returncode or " of 2 machines: " not in shown.stdout or "OMP_NUM_THREADS=1" not in shown.stdout:
+            problems.append("%s" % shown)
+    return problems
+
+
 FEW = [check_two_shards]
-CHECKS = [check_plan, check_one_run, check_again, check_missing, check_refused, check_auto, check_script]
+CHECKS = [check_plan, check_one_run, check_again, check_missing, check_refused, check_auto, check_two_machines, check_script]

@@ -240,11 +240,11 @@ static void test_array(void **state)
                 {".xx.x", "2-3,5"}, {"x.x.xxx", "1,3,5-7"}, {"xx.xx", "1-2,4-5"}};
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         bool has[8];
-        char text[8 * RG_FARM_NUMBER];
+        char text[8 * RG_SHARD_NUMBER];
         const int count = (int)strlen(rows[i].has);
         for (int k = 0; k < count; k++)
             has[k] = rows[i].has[k] == 'x';
-        rg_farm_array(has, count, text, sizeof(text));
+        rg_shard_array(has, count, text, sizeof(text));
         assert_string_equal(text, rows[i].text);
     }
 }

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "harness/record/passport/key.h"
+#include "harness/record/passport/origins.h"
 
 static json_t *make_passport(void)
 {
@@ -150,6 +150,79 @@ static void parts_are_told(void **state)
     json_decref(passport);
 }
 
+// A record's passport with some devices; `driver` is that of gl.
+static json_t *passport_of(const char *cpu, const char *first, const char *second,
+                           const char *driver)
+{
+    json_t *passport = make_passport(), *devices = json_array();
+    for (int i = 0; i < 2; i++) {
+        const char *name = i ? second : first;
+        json_t *device = make_device();
+        json_object_set_new(device, "name", json_string(name ? name : ""));
+        if (name && !strcmp(name, "gl"))
+            json_object_set_new(device, "driver", json_string(driver));
+        if (name)
+            json_array_append(devices, device);
+        json_decref(device);
+    }
+    json_object_set_new(passport, "devices", devices);
+    json_object_set_new(json_object_get(passport, "machine"), "cpu", json_string(cpu));
+    return passport;
+}
+
+// Records are of one machine if no device that they share, nor the machine, has another key.
+static void records_have_origins(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *cpu, *first, *second, *driver;
+        int origin;
+    } rows[] = {{"Toy", "cpu", NULL, "", 0},          {"Toy", "cpu", "gl", "Mesa 22", 0},
+                {"Toy", "gl", "cpu", "Mesa 25", 1},   {"Toy", "gl", NULL, "Mesa 25", 1},
+                {"Toy", "vulkan", NULL, "", 0},       {"Other", "cpu", NULL, "", 2},
+                {"Toy", NULL, NULL, "", 0},           {"Toy", "cpu", "gl", "Mesa 22", 0},
+                {"Other", "cpu", "gl", "Mesa 22", 2}, {"Third", NULL, NULL, "", 3}};
+    struct rg_origins origins = {0};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        json_t *passport = passport_of(rows[i].cpu, rows[i].first, rows[i].second, rows[i].driver);
+        const bool is_new = rows[i].origin == origins.count;
+        assert_int_equal(rg_origins_known(&origins, passport), is_new ? -1 : rows[i].origin);
+        assert_int_equal(rg_origins_find(&origins, passport), rows[i].origin);
+        json_decref(passport);
+    }
+    char text[RG_KEY_TEXT], key[RG_KEY_SIZE];
+    rg_origin_difference(&origins.all[1], &origins.all[0], text);
+    assert_string_equal(text, "driver Mesa 25 and not Mesa 22");
+    rg_origin_difference(&origins.all[2], &origins.all[0], text);
+    assert_string_equal(text, "cpu Other and not Toy");
+    assert_string_equal(origins.all[2].text, "Other, 4 cores");
+    json_t *one = passport_of("Toy", "gl", NULL, "Mesa 22"), *device = make_device();
+    json_object_set_new(device, "driver", json_string("Mesa 22"));
+    json_t *parts = rg_key_parts(one, device);
+    rg_key_hash(parts, key);
+    rg_origin_key(one, text);
+    assert_string_equal(text, key); // of an only device its own key
+    assert_true(rg_key_is(key) && !rg_key_is("0123456789abcdeg") && !rg_key_is("0123456789abcde"));
+    json_decref(parts);
+    json_decref(device);
+    json_decref(one);
+    rg_origins_free(&origins);
+}
+
+static void origins_have_names(void **state)
+{
+    (void)state;
+    static const struct {
+        int origin;
+        const char *name;
+    } rows[] = {{0, "A"}, {25, "Z"}, {26, "AA"}, {27, "AB"}, {51, "AZ"}, {52, "BA"}, {702, "AAA"}};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        char name[RG_ORIGIN_NAME];
+        rg_origin_name(rows[i].origin, name);
+        assert_string_equal(name, rows[i].name);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +231,8 @@ int main(void)
         cmocka_unit_test(quotas_are_rounded),
         cmocka_unit_test(parts_are_told),
         cmocka_unit_test(libraries_that_differ_are_named),
+        cmocka_unit_test(records_have_origins),
+        cmocka_unit_test(origins_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

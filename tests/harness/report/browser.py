@@ -435,6 +435,36 @@ def check_changes(browser, page):
     return problems + ([] if browser.ask("changedEndings().find(([c]) => c.name === 'flow/pane.new')[1].ending") == "pass" else ["an ending"])
 
 
+def check_machines(browser, page):
+    """claims of two machines stand side by side, with a count of each and what differs; each has its own tables, and a plot in a claim"""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        result = made.report(browser.raingauge, folder, made.machines(folder / "all"), "--against", made.TABLES, "-o", "page.html")
+        if result.returncode or result.stderr:
+            return [result.stderr]
+        browser.open(folder / "page.html", "#claims")
+        cells = lambda selector: browser.ask(f"[...document.querySelectorAll('{selector}')].map(c => c.innerText.trim())")
+        problems = [] if cells(".matrix thead th")[:3] == ["claim", "cpu on A", "cpu on B"] else [cells(".matrix thead th")]
+        if [row.split("\t")[2:4] for row in cells(".machines tbody tr")] != [["2 of 5", "0 of 5"], ["0 of 5", "0 of 5"]]:
+            problems.append(cells(".machines tbody tr"))
+        if len(cells(".differing tbody tr")) != 2 or any("holds" not in row or "does not hold" not in row for row in cells(".differing tbody tr")):
+            problems.append(cells(".differing tbody tr"))
+        browser.go("#claim?id=creus-5.4%2Fsmall-values-achieve-faster-framerates")
+        heads = cells("h2")
+        if "The rows that decide, creus-5.4 on A" not in heads or "The rows that decide, creus-5.4 on B" not in heads:
+            problems.append(heads)
+        browser.go("#table?id=creus-5.4+on+B")
+        if cells("h1") != ["creus-5.4 on B"] or "Second CPU" not in cells(".facts")[0] or not cells(".claims article"):
+            problems.append(cells("h1") + cells(".facts"))
+        browser.go("#overview")
+        if "Hold: 2 of 5 on A and 0 of 5 on B" not in cells(".total")[0] or "2 verdicts of devices differ between 2 machines" not in cells(".found")[0]:
+            problems.append(cells(".total") + cells(".found"))
+        for view in ("tables", "changes", "devices"):
+            browser.go("#" + view)
+            problems += ["%s: %s" % (view, browser.find("main")[0].text)] * ("cannot be shown" in browser.find("h1")[0].text)
+        return problems + browser.messages()
+
+
 def check_looks(browser, page):
     """the page is dark if the reader prefers it, and a print has all rows, whole tables and no controls"""
     browser.open(page)
@@ -474,7 +504,7 @@ def main():
         page = make_page(raingauge, pathlib.Path(folder), odd=True)
         browser = Browser(raingauge)
         try:
-            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_broken, check_gate, check_news, check_jumps, check_pictures, check_changes, check_looks], browser, page)
+            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_broken, check_gate, check_news, check_jumps, check_pictures, check_changes, check_machines, check_looks], browser, page)
             if len(sys.argv) > 2:
                 with tempfile.TemporaryDirectory() as shown:
                     keep_pictures(browser, make_page(raingauge, pathlib.Path(shown)), pathlib.Path(sys.argv[2]))

@@ -57,6 +57,21 @@ def diff(raingauge, folder, a, b, *words):
     return json.loads(text)["pairs"][0]
 
 
+def machines(folder):
+    """Records of two machines, in folders that comparison keys name: on the first one's cpu Chin's frame is fast enough, on the second's it is not."""
+    for key, cpu, frame_ms in (("a" * 16, "First CPU", 10), ("b" * 16, "Second CPU", 50)):
+        (folder / key).mkdir(parents=True)
+        for table in ("chin-timing", "creus-5.4"):
+            record = json.loads((TABLES / f"{table}.json").read_text(encoding="utf-8"))
+            record["passport"]["machine"]["cpu"] = cpu
+            for cell in record["cells"]:
+                del cell["checksum"]
+                if (table, cell["device"]) == ("chin-timing", "cpu"):
+                    cell["measured"]["launches"] = [[i + 1, frame_ms + 0.01 * (i * 7 % 12), 0, 0, 1] for i in range(24)]
+            write(folder / key / f"{table}.json", record)
+    return folder
+
+
 def bounded(value=None, width=0.01):
     return {"value": value, "low": value and value * (1 - width), "high": value and value * (1 + width)}
 

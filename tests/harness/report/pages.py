@@ -101,6 +101,18 @@ def check_older(raingauge, folder):
     return [] if data["records"][0]["document"]["table"] == "stuppacher-2" and data["claims"]["claims"] else [data]
 
 
+def check_machines(raingauge, folder):
+    """a page of several machines has each one's tables, and names the machine of each table and verdict"""
+    data = page_of(raingauge, folder, made.machines(folder / "all"))
+    names = [machine["name"] for machine in data["machines"]]
+    tables = sorted((record["machine"], record["document"]["table"]) for record in data["records"])
+    problems = [] if names == ["A", "B"] and data["machines"][1]["differs"] == "cpu Second CPU and not First CPU" else [data["machines"]]
+    if tables != [(name, table) for name in names for table in ("chin-timing", "creus-5.4")]:
+        problems.append(tables)
+    found = {(v["machine"], v["verdict"]) for claim in data["claims"]["claims"] for v in claim["verdicts"] if claim["table"] == "chin-timing" and v["device"] == "cpu"}
+    return problems + ([] if found == {("A", "reproduced"), ("B", "not reproduced")} else [found])
+
+
 # Refused records: the files, the arguments, and a pattern of the one line.
 TABLE = (made.TABLES / "raster-1.json").read_text(encoding="utf-8")
 REFUSED = [
@@ -242,7 +254,7 @@ def main():
                     return [error]
         checked.__doc__ = check.__doc__
         return checked
-    return made.run([in_folder(check) for check in (check_tables, check_policy, check_hostile, check_kinds, check_older, check_refused, check_pictures, check_markdown, check_verified, check_many, check_stands, check_badge)])
+    return made.run([in_folder(check) for check in (check_tables, check_policy, check_hostile, check_kinds, check_older, check_machines, check_refused, check_pictures, check_markdown, check_verified, check_many, check_stands, check_badge)])
 
 
 if __name__ == "__main__":

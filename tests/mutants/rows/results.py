@@ -5,7 +5,7 @@ TESTS = ("claims by launches", "claims", "launches", "courses of claims", "order
 
 JUDGE, EVIDENCE, ORDER, PARTS = ("harness/tables/claims/judge.c", "harness/tables/claims/evidence.c",
                                 "harness/tables/claims/order.c", "harness/tables/claims/parts.c")
-SETTLE, COURSE, TEXT = "harness/judge/settle.c", "harness/tables/launching/course.c", "harness/tables/claims/text.c"
+SETTLE, COURSE, TEXT, OUTCOMES = "harness/judge/settle.c", "harness/tables/launching/course.c", "harness/tables/claims/text.c", "harness/tables/claims/outcomes.c"
 MARGIN, SLOPE = "harness/tables/claims/margin.c", "harness/record/slope.c"
 TREND, COSTS, PREPARE, BEGIN = ("harness/tables/sheet/trend.c", "harness/tables/sheet/costs.c",
                                 "harness/tables/measuring/prepare.c", "harness/tables/begin.c")
@@ -34,7 +34,7 @@ ROWS = [
     Fault(COURSE, "before = «is_by_row(claim) ? -1 : before»;", "before", "cells that nobody compares are open together", tests=("launches",)),
     Fault(COURSE, "return «j.verdict == RG_CLAIM_ONE_LAUNCH» ||", "false", "a course never begins", tests=("launches",)),
     Fault(COURSE, "j.more && «!is_hopeless(&j)»", "true", "a course on a busy machine never ends", tests=("launches",)),
-    Fault(TEXT, "return today == due || «today == RG_FIGURES_NEAR» ?", "false", "figures at the bound differ", tests=("launches",)),
+    Fault(OUTCOMES, "return today == due || «today == RG_FIGURES_NEAR» ?", "false", "figures at the bound differ", tests=("launches",)),
     Fault(MARGIN, "larger * (1 - «rg_margin_rounding(larger)»)", "0", "the larger number has no margin", tests=("order",)),
     Fault(MARGIN, "larger * (1 - «rg_margin_rounding(larger)»)", "rg_margin_rounding(smaller)", "the larger number has the smaller one's margin", tests=("order",)),
     Fault(MARGIN, "? «0.5» * pow(10, -decimals)", "1.0", "print is rounded to two of its last digits"),
@@ -78,11 +78,18 @@ ROWS = [
     Fault(BEGIN, "result->check_frames = table->check_frames ? «table->check_frames» : RG_CHECK_FRAMES;", "RG_CHECK_FRAMES", "each table is checked after ten frames"),
     Fault(BEGIN, "«result->full || !table->quick ? \"\" : table->quick»,", "\"\"", "quick rows are full ones"),
     Fault(BEGIN, "if («rg_table_is_extra(table, c)»)", "true", "keys are told as printed numbers"),
-    Fault("harness/commands/tables/table.c", "if («strcmp(here, before) != 0»)\n                return rg_error", "false", "verdicts mix quick and full", tests=("command line, kept",)),
+    Fault("harness/commands/tables/verdicts.c", "if («strcmp(here, there) != 0»)\n        return rg_error", "false", "verdicts mix quick and full", tests=("command line, kept", "command line, machines")),
+    Fault("harness/record/passport/origins.c", "same = same && («!known || json_equal(known, parts)»);", "true", "a machine with another driver is the same one", tests=("key",)),
+    Fault("harness/record/passport/origins.c", "bool same = «json_equal(origin->host, host)»;", "true", "all machines are one", tests=("key", "command line, machines")),
+    Fault("harness/tables/claims/totals.c", "(of.origin == EVERY || «outcome->origin == of.origin»)", "true", "each machine is told the counts of all", tests=("command line, machines",)),
+    Fault("harness/tables/claims/compare.c", "!is_same_place(outcome, first) || «!is_seen(outcome)»)", "false", "verdicts that are not seen differ", tests=("command line, machines",)),
+    Fault(OUTCOMES, "(«own ? outcome->origin : -1»))", "-1", "kept launches of a machine itself give no verdict", tests=("command line, machines",)),
+    Fault("harness/commands/tables/table.c", "origins->count > 1 ? «rg_origins_known(origins, result->passport)» : -1;", "-1", "the tables of a machine replace another's", tests=("command line, machines",)),
+    Fault("harness/record/disk/stored.c", "return «rg_key_is(entry->d_name)»;", "true", "results of any folder inside are read as a machine's", tests=("command line, machines",)),
     Fault("harness/tables/claims/json.c", "if (!i || «outcome->claim != o->outcomes[i - 1].claim») {", "true", "programs are told a claim once a device", tests=("command line, kept",)),
     Fault("harness/tables/claims/json.c", "bound(«test->needs & RG_CLAIM_LEAST», claim->least)", "true", "programs are told bounds that a test has not", tests=("command line, kept",)),
     Fault("harness/tables/claims/claims.c", "part = is_of_word ? 0 : *c == ',' || part == '/' ? part : «'-'»;", "0", "ids of claims run their words together", tests=("command line, kept",)),
-    Fault("harness/tables/claims/text.c", "const char *length = «result->full ? \"full\" : \"quick\"»;", "\"quick\"", "claims of full tables are told as quick", tests=("command line, kept",)),
+    Fault(OUTCOMES, "const char *length = «result->full ? \"full\" : \"quick\"»;", "\"quick\"", "claims of full tables are told as quick", tests=("command line, kept",)),
     Fault(TEXT, "if («*devices»)\n            rg_sheet_note(sheet, \"%s, %s, %s on %s: %s.\"", "true", "a reason of several devices is told again for each of them", tests=("command line, kept",)),
     Fault("harness/tables/own/grid.c", "snprintf(set, sizeof(set), \"%s\", «grid->set ? grid->set : \"\"»);", "\"\"", "what a file sets in all rows is lost", tests=("command line, results",)),
     Fault("harness/tables/own/file.c", "own->table.variants[v].fps = «column»;", "NULL", "printed rates of a file stand beside no variant", tests=("command line, results",)),

@@ -18,7 +18,9 @@ BLAME, DIFFERENCE = "harness/compare/blame/blame.c", "harness/compare/blame/diff
 SHRINKING = ("command line, shrinking",)
 
 ROWS = [
-    Fault("harness/commands/comparing/verify.c", "if («check_frames(o)» && choose_all(arguments", "true", "stages of no frame are compared, and pass"),
+    Fault("harness/compare/verify/shards.c", "units->all[i].is_here = «shard_of[i] == shard->number»;", "true", "each shard verifies all", tests=("command line, parts",)),
+    Fault("harness/compare/verify/shards.c", "drop_again(checks, «first»);", "checks->count", "cpu:reference is told once a shard", tests=("command line, long",)),
+    Fault("harness/commands/comparing/verify.c", "if («check_frames(o)» && find_shard(o, &shard) &&", "true", "stages of no frame are compared, and pass"),
     Fault("harness/compare/diff/devices.c", "rg_outcome_set(row, «outcome»);", "RG_OK", "diff tells that a driver which fell is well", tests=("command line, misbehaving",)),
     Fault(REPORT, "rg_plain(plain);", ";", "a file's name steers the terminal"),
     Fault(SNAPSHOT, "for (int i = 0; equal && i < «a->state_count»; i++)", "0", "states are never compared"),

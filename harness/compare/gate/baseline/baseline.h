@@ -31,6 +31,7 @@ struct rg_baseline_row {
     // Filled in only if the outcome is OK.
     struct rg_slot slot;         // used for timing; zeroed: not timed
     struct rg_launches launches; // of a frame
+    double seconds;              // that all of it took; 0: unknown
 };
 
 struct rg_baseline_device {

@@ -35,12 +35,13 @@ static json_t *states_json(const struct rg_baseline_row *row)
 static json_t *row_json(const struct rg_baseline_row *row)
 {
     json_t *json = json_pack(
-        "{sssssssosssssosososisisoso}", "cell", row->cell, "technique", row->technique, "settings",
-        row->settings, "device", rg_json_text(row->device), "outcome",
+        "{sssssssosssssosososisisososo}", "cell", row->cell, "technique", row->technique,
+        "settings", row->settings, "device", rg_json_text(row->device), "outcome",
         rg_outcome_name(row->outcome), "picture", row->picture, "states", states_json(row),
         "counters", rg_counts_json(row->counters.counters, row->counters.count), "work",
         rg_tally_json(&row->work), "frames", row->slot.frames, "timings", row->slot.timings,
-        "launches_ms", launches_json(&row->launches), "why", rg_json_text(row->why));
+        "launches_ms", launches_json(&row->launches), "seconds", rg_number_json(row->seconds),
+        "why", rg_json_text(row->why));
     return json;
 }
 
@@ -160,6 +161,7 @@ static bool read_row(struct rg_reader *r, const json_t *object, struct rg_baseli
                       &row->slot.timings) ||
         !read_launches(r, object, "launches_ms", &row->launches))
         return false;
+    row->seconds = json_number_value(json_object_get(object, "seconds")); // older files have none
     if (!rg_outcome_find(outcome, &row->outcome))
         return rg_reader_refuse(r, "outcome", "is no outcome");
     if (!rg_baseline_device(baseline, row->device))

@@ -5,6 +5,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/console/progress.h"
 #include "harness/measure/serving/fixed.h"
@@ -57,6 +58,7 @@ static bool take_all(struct make *m, const struct rg_devices *devices, struct rg
             const struct rg_gate_cell *cell = &m->asked->cells->cells[i];
             struct rg_baseline_row *row = rg_baseline_add(m->made);
             struct rg_picture picture = {0};
+            const double start_ms = rg_now_ms();
             ok = row && !rg_interrupted();
             if (!ok)
                 break;
@@ -64,6 +66,7 @@ static bool take_all(struct make *m, const struct rg_devices *devices, struct rg
             rg_baseline_take(cell, devices->devices[d], row, &picture);
             check(&truth, cell, devices->devices[d], &picture, row);
             rg_picture_destroy(&picture);
+            row->seconds = (rg_now_ms() - start_ms) / 1000;
             rg_progress_add(bar, 1);
         }
     m->clean = rg_truth_close(&truth) && m->clean;
@@ -145,6 +148,7 @@ static bool time_all(struct make *m, struct rg_gate_times *times, struct rg_prog
     for (int i = 0; i < count; i++) {
         struct rg_baseline_row *row = &m->made->rows[i];
         row->slot = m->cells[i].slot;
+        row->seconds += m->cells[i].seconds;
         if (row->outcome == m->cells[i].outcome)
             continue;
         row->outcome = m->cells[i].outcome;

@@ -1,4 +1,4 @@
-// The JSON forms: Bencher's, and our own.
+// The JSON forms: Bencher's, and our own, which is read again as well.
 #include <jansson.h>
 #include <math.h>
 #include <string.h>
@@ -66,17 +66,18 @@ static json_t *bounded_json(struct rg_bounded number)
 
 static json_t *case_json(const struct rg_report_case *told)
 {
-    return json_pack(
-        "{ss ss so so ss ss ss so so so so so}", "name", told->name, "technique", told->technique,
-        "devices", texts_json(told->devices, told->device_count), "seconds",
-        rg_number_json(told->seconds), "ending", rg_ending_name(told->ending), "message",
-        told->message, "details", told->details, "attachments",
-        texts_json(told->attachments, told->attachment_count), "ratio", bounded_json(told->ratio),
-        "smallest_visible", rg_number_json(told->smallest_visible), "time_ms",
-        bounded_json(told->time_ms), "baseline_ms", rg_number_json(told->baseline_ms));
+    return json_pack("{ss ss so so ss sb sb ss ss so so so so so}", "name", told->name, "technique",
+                     told->technique, "devices", texts_json(told->devices, told->device_count),
+                     "seconds", rg_number_json(told->seconds), "ending",
+                     rg_ending_name(told->ending), "compared", told->is_compared, "over",
+                     told->is_over, "message", told->message, "details", told->details,
+                     "attachments", texts_json(told->attachments, told->attachment_count), "ratio",
+                     bounded_json(told->ratio), "smallest_visible",
+                     rg_number_json(told->smallest_visible), "time_ms", bounded_json(told->time_ms),
+                     "baseline_ms", rg_number_json(told->baseline_ms));
 }
 
-bool rg_report_json(const struct rg_report *report, FILE *out)
+json_t *rg_report_document(const struct rg_report *report)
 {
     json_t *cases = json_array(), *endings = json_object();
     for (int i = 0; i < RG_ENDING_COUNT; i++)
@@ -88,9 +89,77 @@ bool rg_report_json(const struct rg_report *report, FILE *out)
     json_t *json =
         json_pack("{si ss so so}", "format", 1, "passport_text",
                   report->passport ? report->passport : "", "endings", endings, "gated", cases);
-    if (!is_whole) {
-        json_decref(json);
-        json = NULL;
+    if (is_whole)
+        return json;
+    json_decref(json);
+    return NULL;
+}
+
+bool rg_report_json(const struct rg_report *report, FILE *out)
+{
+    return dump(rg_report_document(report), "JSON", out);
+}
+
+// --- reading ---
+
+static double number_of(const json_t *object, const char *name)
+{
+    const json_t *number = json_object_get(object, name);
+    return json_is_number(number) ? json_number_value(number) : NAN;
+}
+
+static struct rg_bounded bounded_of(const json_t *object, const char *name)
+{
+    const json_t *number = json_object_get(object, name);
+    return (struct rg_bounded){number_of(number, "value"), number_of(number, "low"),
+                               number_of(number, "high")};
+}
+
+static const char *text_of(const json_t *object, const char *name)
+{
+    return json_string_value(json_object_get(object, name));
+}
+
+// The texts of an array, as far as they are texts; returns their number.
+static int read_texts(const json_t *object, const char *name, const char *texts[], int most)
+{
+    const json_t *array = json_object_get(object, name), *text;
+    size_t i;
+    int count = 0;
+    json_array_foreach(array, i, text)
+    {
+        if (json_is_string(text) && count < most)
+            texts[count++] = json_string_value(text);
     }
-    return dump(json, "JSON", out);
+    return count;
+}
+
+bool rg_report_read(struct rg_report *report, const json_t *json)
+{
+    enum { MOST = 16 };
+    const char *devices[MOST], *attachments[MOST], *ending = text_of(json, "ending");
+    struct rg_report_case found = {.name = text_of(json, "name"),
+                                   .technique = text_of(json, "technique"),
+                                   .devices = devices,
+                                   .device_count = read_texts(json, "devices", devices, MOST),
+                                   .seconds = number_of(json, "seconds"),
+                                   .is_compared = json_is_true(json_object_get(json, "compared")),
+                                   .is_over = json_is_true(json_object_get(json, "over")),
+                                   .message = text_of(json, "message"),
+                                   .details = text_of(json, "details"),
+                                   .attachments = attachments,
+                                   .ratio = bounded_of(json, "ratio"),
+                                   .smallest_visible = number_of(json, "smallest_visible"),
+                                   .time_ms = bounded_of(json, "time_ms"),
+                                   .baseline_ms = number_of(json, "baseline_ms")};
+    found.attachment_count = read_texts(json, "attachments", attachments, MOST);
+    int number = 0;
+    while (ending && number < RG_ENDING_COUNT &&
+           strcmp(ending, rg_ending_name((enum rg_ending)number)) != 0)
+        number++;
+    found.ending = (enum rg_ending)number;
+    return found.name && ending && number < RG_ENDING_COUNT
+               ? rg_report_add(report, &found)
+               : rg_error("a gate's record has a case without a name or an ending; run its shard "
+                          "again");
 }

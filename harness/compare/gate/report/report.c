@@ -179,6 +179,8 @@ bool rg_report_add(struct rg_report *report, const struct rg_report_case *found)
         report->order[place] = report->order[place - 1];
     report->order[place] = report->case_count;
     report->cases[report->case_count++] = added;
+    report->idle_count += !added.is_compared && (added.ending == RG_ENDING_FLAKE ||
+                                                 added.ending == RG_ENDING_EXPECTED_FAILURE);
     return true;
 }
 

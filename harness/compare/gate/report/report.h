@@ -6,6 +6,7 @@
 #ifndef RG_HARNESS_COMPARE_GATE_REPORT_REPORT_H
 #define RG_HARNESS_COMPARE_GATE_REPORT_REPORT_H
 
+#include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -63,6 +64,8 @@ struct rg_report_case {
     int device_count;
     double seconds; // run time of the case
     enum rg_ending ending;
+    bool is_compared;               // its pictures were; any other end proves nothing
+    bool is_over;                   // the time was over before
     const char *message;            // the reason, in one line; "": nothing to say
     const char *details;            // several lines; "": none
     const char *const *attachments; // paths of pictures
@@ -102,6 +105,9 @@ enum { RG_REPORT_NAME = 1000, RG_REPORT_LINE = 4000 };
 //
 // False, and one logged line, without memory.
 bool rg_report_add(struct rg_report *report, const struct rg_report_case *found);
+// Adds a case from its JSON form (rg_report_json). False, and one logged line, without memory, or
+// if it is none.
+bool rg_report_read(struct rg_report *report, const json_t *found);
 bool rg_report_set_passport(struct rg_report *report, const char *passport);
 void rg_report_free(struct rg_report *report);
 
@@ -128,8 +134,10 @@ bool rg_report_junit(const struct rg_report *report, FILE *out);
 // Bencher's metric format: the timed cases, with measures "latency" (ns) and "ratio".
 // https://bencher.dev/docs/reference/bencher-metric-format/
 bool rg_report_bmf(const struct rg_report *report, FILE *out);
-// Our own machine form, "gate" in docs/records.schema.json.
+// Our own machine form, "gate" in docs/records.schema.json, as text and as a document, which the
+// caller owns; NULL without memory.
 bool rg_report_json(const struct rg_report *report, FILE *out);
+json_t *rg_report_document(const struct rg_report *report);
 
 // Text for people, RG_REPORT_WIDTH columns wide, coloured if `out` is a terminal that shows
 // colours.

@@ -286,6 +286,8 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
                                     .device_count = c->device_count,
                                     .seconds = c->seconds,
                                     .ending = judged.ending,
+                                    .is_compared = rg_gate_case_was_compared(c),
+                                    .is_over = c->is_over,
                                     .message = c->message,
                                     .details = c->details,
                                     RG_UNMEASURED};

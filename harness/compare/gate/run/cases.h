@@ -9,6 +9,7 @@
 #include "harness/compare/gate/sides/alike.h"
 #include "harness/compare/gate/sides/pairs.h"
 #include "harness/compare/gate/sides/times.h"
+#include "harness/record/shard.h"
 
 // Owns nothing.
 struct rg_gate_request {
@@ -27,7 +28,11 @@ struct rg_gate_request {
     double budget_s;    // from then on, shared by the pairs; nothing begins after it; 0: no limit
     bool pictures_only; // nothing is timed
     const char *filter; // of googletest, for case names; NULL: all
-    struct rg_gtest_shards shards; // of the cases that the filter selects
+    // Of the cases that the filter selects. Shards share the error, and each leaves a part of one
+    // report; `is_apart`: each is a gate of its own, as of googletest.
+    struct rg_shard shard;
+    bool is_apart;
+    const json_t *times;  // seconds that cases take, by name; NULL: unknown
     const char *pictures; // folder for pictures that differ, created if missing; NULL: none
     const char *folder;   // existing folder for the journal; NULL: none
     bool fresh;           // ignores an existing journal
@@ -36,6 +41,7 @@ struct rg_gate_request {
 struct rg_gate_case {
     const struct rg_gate_cell *cell;
     char *name; // owned by the gate
+    int place;  // among the cases that the filter selects
     double seconds;
     int pair; // index in the request's pairs; 0 with a baseline
     // B is compared with A, or with its row of a baseline; A is NULL then.

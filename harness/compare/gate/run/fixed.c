@@ -61,7 +61,7 @@ static const char *digest_of(const json_t *digests, int draw)
 }
 
 static bool add_case(const struct held *h, const char *cell, enum rg_ending ending,
-                     const char *message, double seconds)
+                     bool is_compared, const char *message, double seconds)
 {
     char *name = rg_gate_case_name(cell, h->device);
     const bool ok = name && rg_report_add(&h->run->gate->report,
@@ -71,6 +71,7 @@ static bool add_case(const struct held *h, const char *cell, enum rg_ending endi
                                                                    .device_count = 1,
                                                                    .seconds = seconds,
                                                                    .ending = ending,
+                                                                   .is_compared = is_compared,
                                                                    .message = message,
                                                                    RG_UNMEASURED});
     free(name);
@@ -103,7 +104,7 @@ static bool hold(struct held *h, int draw)
         rg_known_judge(asked->known, row, result, rg_ending_of(result->outcome), asked->today);
     const char *word = rg_judged_word(&judged);
     snprintf(message, sizeof(message), "%s%s%s", word, *word && *own ? ": " : "", own);
-    return add_case(h, cell, judged.ending, message, 0);
+    return add_case(h, cell, judged.ending, true, message, 0);
 }
 
 // --- a device ---
@@ -113,7 +114,7 @@ static bool skip(const struct held *h, enum rg_ending ending, const char *why)
     char message[RG_KEY_TEXT + 100];
     snprintf(message, sizeof(message), "%zu digests are not compared: %s",
              json_object_size(h->then), why);
-    return add_case(h, RG_GATE_FIXED, ending, message, 0);
+    return add_case(h, RG_GATE_FIXED, ending, false, message, 0);
 }
 
 static bool hold_all(struct held *h, struct rg_side *side)
@@ -123,7 +124,7 @@ static bool hold_all(struct held *h, struct rg_side *side)
     char why[RG_AGREEMENT_TEXT];
     if (!rg_side_launch(side)) {
         const enum rg_outcome outcome = rg_side_failure(&is_ours, why, sizeof(why));
-        return add_case(h, RG_GATE_FIXED, rg_ending_of(outcome), why, 0);
+        return add_case(h, RG_GATE_FIXED, rg_ending_of(outcome), false, why, 0);
     }
     int failed;
     json_t *now = rg_fixed_digests(side->device, &failed);
@@ -135,8 +136,8 @@ static bool hold_all(struct held *h, struct rg_side *side)
     if (h->other)
         snprintf(why, sizeof(why), "%d digests are the baseline's, and %d are not", h->same,
                  h->other);
-    return rg_interrupted() ||
-           (ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS, why, (rg_now_ms() - start_ms) / 1000));
+    return rg_interrupted() || (ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS, true, why,
+                                               (rg_now_ms() - start_ms) / 1000));
 }
 
 static bool hold_side(struct rg_running_gate *r, int side)

@@ -9,86 +9,16 @@
 #include "core/base/log.h"
 #include "harness/compare/gate/cells/unused.h"
 #include "harness/compare/gate/run/agree.h"
+#include "harness/compare/gate/run/choose.h"
 #include "harness/compare/gate/run/fixed.h"
 #include "harness/compare/gate/run/timing.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
-#include "harness/devices/names.h"
 #include "harness/measure/serving/fixed.h"
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
-
-// --- choosing cells ---
-
-// Whether the filter selects a case of this name, and the shard includes it.
-static bool is_chosen(struct rg_running_gate *r, const char *name)
-{
-    char gtest[RG_GTEST_NAME];
-    rg_gtest_name(name, gtest);
-    return (!r->asked->filter || rg_gtest_matches(r->asked->filter, gtest)) &&
-           r->gate->chosen++ % r->asked->shards.total == r->asked->shards.index;
-}
-
-// Adds a cell's case of a pair if it is chosen. False, and one logged line, without memory.
-static bool add_case(struct rg_running_gate *r, const struct rg_gate_cell *cell, int pair)
-{
-    const struct rg_baseline *baseline = r->asked->baseline;
-    struct rg_side *sides = &r->sides[pair * RG_SIDES];
-    const char *device = sides[RG_SIDE_B].name;
-    char *name = rg_gate_case_name(cell->name, device);
-    if (!name || !is_chosen(r, name)) {
-        free(name);
-        return name != NULL;
-    }
-    struct rg_gate_case *c = &r->gate->cases[r->gate->case_count++];
-    *c = (struct rg_gate_case){.cell = cell, .name = name, .expectation = -1};
-    c->pair = baseline ? 0 : pair; // all devices of a baseline are timed together
-    c->before = baseline ? rg_baseline_find(baseline, cell->name, device) : NULL;
-    for (int side = 0; side < RG_SIDES; side++) {
-        if (!sides[side].name)
-            continue;
-        c->sides[side] = &sides[side];
-        c->devices[c->device_count++] = sides[side].name;
-    }
-    return true;
-}
-
-// The fixed functions of a device are one more case if the baseline has digests of them.
-static bool add_fixed(struct rg_running_gate *r, int pair)
-{
-    const int b = pair * RG_SIDES + RG_SIDE_B;
-    const struct rg_baseline *baseline = r->asked->baseline;
-    if (!baseline || !rg_fixed_kept(baseline->passport, r->sides[b].name))
-        return true;
-    char *name = rg_gate_case_name(RG_GATE_FIXED, r->sides[b].name);
-    const bool is_named = name;
-    r->has_fixed[b] = is_named && is_chosen(r, name);
-    free(name);
-    return is_named;
-}
-
-// All pairs become sides, even those without a chosen case.
-static bool choose(struct rg_running_gate *r)
-{
-    const struct rg_gate_cells *cells = r->asked->cells;
-    const struct rg_gate_pairs *pairs = r->asked->pairs;
-    r->side_count = pairs->count * RG_SIDES;
-    r->gate->cases =
-        rg_alloc((size_t)(cells->count * pairs->count), sizeof(*r->gate->cases), "gate");
-    bool ok = r->gate->cases;
-    for (int i = 0; i < r->side_count; i++) {
-        const char *name = pairs->all[i / RG_SIDES].names[i % RG_SIDES];
-        r->sides[i].name = *name ? name : NULL;
-    }
-    for (int pair = 0; ok && pair < pairs->count; pair++) {
-        for (int64_t i = 0; ok && i < cells->count; i++)
-            ok = add_case(r, &cells->cells[i], pair);
-        ok = ok && add_fixed(r, pair);
-    }
-    return ok;
-}
 
 // --- sides ---
 
@@ -199,11 +129,10 @@ static json_t *key_of(const struct rg_running_gate *r)
         rg_digest_of(launches->ms, (size_t)launches->count * sizeof(*launches->ms), digest);
         json_object_set_new(before, r->gate->cases[i].name, json_string(digest));
     }
-    const struct rg_gtest_shards *shards = &asked->shards; // shards may use the same folder
     return json_pack("{s:o, s:o, s:o, s:O, s:f, s:s, s:i, s:i}", "cells", cells, "pairs", pairs,
                      "baseline", before, "passport", r->passport, "margin", asked->margin, "filter",
-                     asked->filter ? asked->filter : "", "shard", shards->index, "shards",
-                     shards->total);
+                     asked->filter ? asked->filter : "", "shard", asked->shard.number, "shards",
+                     asked->shard.count); // shards may use the same folder
 }
 
 static bool open_journal(struct rg_running_gate *r)
@@ -347,7 +276,7 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
 {
     struct rg_running_gate r = {.asked = request, .gate = gate};
     rg_interrupt_watch();
-    const bool is_chosen = choose(&r);
+    const bool is_chosen = rg_gate_choose(&r);
     int found = is_chosen ? look_at_sides(&r) : rg_exit_of_error();
     const bool are_there = found == RG_EXIT_PASS;
     bool ok = is_chosen && found != RG_EXIT_USAGE && set_passport(&r) &&
@@ -361,10 +290,10 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     const int kept = is_kept ? RG_EXIT_PASS : rg_exit_of_error();
     if (rg_interrupted() && request->folder)
         rg_info("gate: interrupted; the same command goes on");
-    if (!close_all(&r))
-        found = rg_exit_worse(found, RG_EXIT_FAIL);
+    gate->beyond = rg_exit_worse(kept, close_all(&r) ? RG_EXIT_PASS : RG_EXIT_FAIL);
+    if (was_lacking(&r))
+        gate->beyond = rg_exit_worse(gate->beyond, RG_EXIT_HARNESS);
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    return rg_exit_worse(rg_exit_worse(found, kept),
-                         was_lacking(&r) ? RG_EXIT_HARNESS : RG_EXIT_PASS);
+    return rg_exit_worse(found, gate->beyond);
 }

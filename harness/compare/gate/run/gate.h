@@ -7,9 +7,12 @@
 
 // The results of a gate; they point into the request. Zeroed before; the owner calls rg_gate_free.
 struct rg_gate {
-    int chosen; // cases that the filter selects, of which the shard has some
+    int chosen;    // cases that the filter selects, of which the shard has some
+    json_t *names; // of all of them; owned
     struct rg_report report;
-    bool is_told; // the report is complete
+    bool is_told;   // the report is complete
+    int told_count; // the first so many cases of the report are those of cells, in their order
+    int beyond;     // an enum rg_exit of what the report does not tell
     int case_count;
     struct rg_gate_case *cases;
     int64_t result_count;
@@ -29,7 +32,11 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate);
 
 // Makes the report of all cases, and their results. False, and one logged line, without memory.
 bool rg_gate_report(const struct rg_gate_request *request, struct rg_gate *gate);
-// The exit status of a gate whose report is complete; if nothing was compared, logs one line.
+// Adds a failing case for each device that `require` names (NULL: none) which has cases in the
+// report and none that was compared. False, and one logged line, if a name is malformed.
+bool rg_gate_hold_required(const char *require, struct rg_report *report);
+// The exit status of a gate whose report is complete, without `beyond`; if nothing was compared,
+// logs one line.
 int rg_gate_exit(const struct rg_gate_request *request, const struct rg_gate *gate);
 
 #endif

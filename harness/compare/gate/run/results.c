@@ -34,25 +34,33 @@ static bool make_results(const struct rg_gate_request *asked, struct rg_gate *ga
 
 // Adds a failing case, as for a missing device, if a required device has cells but none was
 // compared, failed or ran out of time. Unsupported cells do not count: they do not pass anyway.
-static void hold_required(struct rg_gate *gate, const char *name)
+static void hold_required(struct rg_report *report, const char *name)
 {
     bool any = false, is_told = false;
-    for (int i = 0; i < gate->case_count; i++) {
-        const struct rg_gate_case *c = &gate->cases[i];
-        const enum rg_ending ending = gate->report.cases[i].ending;
+    for (int i = 0; i < report->case_count; i++) {
+        const struct rg_report_case *c = &report->cases[i];
         for (int d = 0; d < c->device_count; d++) {
             const bool is_of =
-                rg_device_is_of(c->devices[d], name) && ending != RG_ENDING_UNSUPPORTED;
+                rg_device_is_of(c->devices[d], name) && c->ending != RG_ENDING_UNSUPPORTED;
             any = any || is_of;
             is_told =
-                is_told ||
-                (is_of && (rg_gate_case_was_compared(c) || c->is_over || rg_ending_fails(ending)));
+                is_told || (is_of && (c->is_compared || c->is_over || rg_ending_fails(c->ending)));
         }
     }
     if (!any || is_told)
         return;
     rg_driver_error("--require %s: none of its cells was compared", name);
-    rg_side_is_missing(name, NULL, &gate->report);
+    rg_side_is_missing(name, NULL, report);
+}
+
+bool rg_gate_hold_required(const char *require, struct rg_report *report)
+{
+    struct rg_device_name name;
+    bool ok = true;
+    for (const char *rest = require; ok && rest && *rest;)
+        if ((ok = rg_device_name_read(&rest, &name)))
+            hold_required(report, name.name);
+    return ok;
 }
 
 bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
@@ -66,16 +74,12 @@ bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
         if (!c->is_compared && !c->is_skipped &&
             (result->outcome == RG_UNSUPPORTED || result->is_foreign))
             *result = unknown(c->cell->name, rg_gate_case_device(c));
-        gate->report.idle_count +=
-            (told.ending == RG_ENDING_FLAKE || told.ending == RG_ENDING_EXPECTED_FAILURE) &&
-            !rg_gate_case_was_compared(c);
         ok = (c->details || rg_harness_error("gate: no memory for what a case tells")) &&
              rg_report_add(&gate->report, &told);
     }
-    struct rg_device_name name;
-    for (const char *rest = asked->require; ok && rest && *rest;)
-        if ((ok = rg_device_name_read(&rest, &name)))
-            hold_required(gate, name.name);
+    const bool is_part = asked->shard.count > 1 && !asked->is_apart; // others may have compared it
+    ok = ok && (is_part || rg_gate_hold_required(asked->require, &gate->report));
+    gate->told_count = ok ? gate->case_count : 0;
     gate->is_told = ok;
     return ok;
 }
@@ -83,13 +87,13 @@ bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
 // Logs why a gate without a failure proves nothing.
 static void tell_nothing(const struct rg_gate_request *asked, const struct rg_gate *gate)
 {
-    const struct rg_gtest_shards *shards = &asked->shards;
-    if (gate->case_count)
+    const struct rg_shard *shard = &asked->shard;
+    if (gate->report.case_count)
         rg_error("gate: none of %d cases was compared to its end; mend what their lines name",
-                 gate->case_count);
+                 gate->report.case_count);
     else if (gate->chosen)
-        rg_error("gate: shard %d of %d has none of %d cases; set GTEST_TOTAL_SHARDS to %d at most",
-                 shards->index + 1, shards->total, gate->chosen, gate->chosen);
+        rg_error("gate: shard %d of %d has none of %d cases; make it %d shards at most",
+                 shard->number, shard->count, gate->chosen, gate->chosen);
     else
         rg_error("gate: no case has a name of --gtest_filter; --gtest_list_tests prints names");
 }
@@ -122,5 +126,6 @@ void rg_gate_free(struct rg_gate *gate)
     free(gate->cases);
     free(gate->results);
     free(gate->note);
+    json_decref(gate->names);
     *gate = (struct rg_gate){.results = NULL};
 }

@@ -64,13 +64,14 @@ static bool make_lot(struct rg_gate_case *cases, int count, bool is_advice, stru
     return true;
 }
 
-// Advice takes one look, and no change matters to it: it is reported and decides nothing.
-static struct rg_gate_rule rule_of(const struct rg_running_gate *r, const struct lot *lot,
-                                   bool is_advice)
+struct rg_gate_rule rg_gate_rule_in(const struct rg_running_gate *r, int course, int count,
+                                    bool is_advice)
 {
-    struct rg_gate_rule rule =
-        r->asked->baseline ? rg_gate_rule_apart(lot->count) : rg_gate_rule_of(lot->count);
-    rule.margin = is_advice ? INFINITY : r->asked->margin;
+    const struct rg_gate_request *asked = r->asked;
+    struct rg_gate_rule rule = asked->baseline ? rg_gate_rule_apart(count) : rg_gate_rule_of(count);
+    if (asked->shard.count > 1 && !asked->is_apart)
+        rule.error *= (double)count / r->family[course];
+    rule.margin = is_advice ? INFINITY : asked->margin;
     if (is_advice)
         rule.look_count = 1;
     rule.error /= rg_gate_courses(r);
@@ -121,7 +122,7 @@ static void tell_row(struct rg_running_gate *r, const struct lot *lot, int row,
 static bool time_lot(struct rg_running_gate *r, const struct lot *lot, bool is_advice,
                      struct rg_gate_times *times)
 {
-    const struct rg_gate_rule rule = rule_of(r, lot, is_advice);
+    const struct rg_gate_rule rule = rg_gate_rule_in(r, lot->cases[0]->pair, lot->count, is_advice);
     const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, times,
                                           r->asked->baseline ? lot->before : NULL};
     times->cell_count = lot->count;

@@ -11,7 +11,8 @@ enum { RG_GATE_MOST_SIDES = RG_SIDES * RG_MAX_DEVICES };
 // A gate while it runs.
 struct rg_running_gate {
     const struct rg_gate_request *asked;
-    struct rg_gate *gate; // one case per cell that the filter selects
+    struct rg_gate *gate;       // one case per cell that the filter selects
+    int family[RG_MAX_DEVICES]; // of each course: the cells that all shards may time
     // The sides of the pairs, two by two, A first. With a baseline A has no name.
     int side_count;
     struct rg_side sides[RG_GATE_MOST_SIDES];
@@ -34,6 +35,11 @@ struct rg_running_gate {
 int rg_gate_courses(const struct rg_running_gate *run);
 // Whether the time of the pair that runs is over.
 bool rg_gate_is_over(const struct rg_running_gate *run);
+// The rule for `count` cells of a course that are timed. Shards share the error of all cells that
+// any of them may time. Advice takes one look, and no change matters to it: it is reported and
+// decides nothing.
+struct rg_gate_rule rg_gate_rule_in(const struct rg_running_gate *run, int course, int count,
+                                    bool is_advice);
 // Times the cases of a pair, or all that run alone, and notes when a first look was due.
 bool rg_gate_time(struct rg_running_gate *run, struct rg_gate_case *cases, int count);
 

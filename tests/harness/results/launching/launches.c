@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/tables/claims/text.h"
+#include "harness/tables/claims/outcomes.h"
 #include "harness/tables/launching/course.h"
 #include "harness/tables/papers/papers.h"
 #include "tests/tools/expect.h"

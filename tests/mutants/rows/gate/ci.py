@@ -6,6 +6,7 @@ TESTS = ("command line, ci", "command line, reports")
 SHARDS, PARSE, FLAGS = "harness/compare/gate/report/gtest.c", "harness/commands/cli/parse.c", "harness/commands/comparing/gtest.c"
 RUN, RESULTS, CASES, HELD = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "results", "cases", "agree"))
 AGREE, SIDES, TIMES = (f"harness/compare/gate/sides/{name}.c" for name in ("alike", "sides", "times"))
+CHOOSE, MERGE = "harness/compare/gate/run/choose.c", "harness/compare/gate/shards/merge.c"
 UNUSED = "harness/compare/gate/cells/unused.c"
 CELLS = "harness/compare/gate/cells/cells.c"
 FILE = "core/base/files/file.c"
@@ -32,7 +33,19 @@ ROWS = [
     Fault(SHARDS, "    if («!has_total || !has_index»)", "false", "half of a shard is taken for all of it"),
     Fault(SHARDS, "&& «value >= 0» && value", "true", "shards are counted below 0"),
     Fault(SHARDS, "(«shards->index < shards->total» ||", "true", "a shard beyond the last passes"),
-    Fault(RUN, "«r->gate->chosen++ % r->asked->shards.total» == r->asked->shards.index;", "r->gate->chosen++ % 2", "shards have cases of each other"),
+    Fault(CHOOSE, "if («c->shard_of[i] == shard->number» && chosen->cell)", "true", "shards have cases of each other"),
+    Fault(CHOOSE, "c->seconds[i] = c->run->asked->is_apart ? 0 : «seconds_of(c, &c->all[i])»;", "0", "shards are cut by the number of cells", tests=("command line, parts",)),
+    Fault(CHOOSE, "return earlier ? json_number_value(earlier) : row ? «row->seconds» : 0;", "0", "shards of a baseline are cut by the number of cells", tests=("command line, parts",)),
+    Fault("harness/compare/gate/run/timing.c", "rule.error *= «(double)count / r->family[course]»;", "1", "each shard has the error of a whole gate", tests=("shards of a gate",)),
+    Fault(MERGE, "at[number] = «json_array_get(cases, k)»;", "json_array_get(cases, 0)", "a shard's first case is told for all", tests=("command line, parts",)),
+    Fault(MERGE, "is_required && «!is_told(report, text_of(found, \"name\"))»)", "true", "a missing device is told once a shard", tests=("command line, parts",)),
+    Fault(MERGE, "«rg_gate_hold_required(text_of(parts->of, \"require\"), report)» &&", "true", "a required device that no shard compared passes", tests=("shards of a gate", "command line, parts")),
+    Fault(MERGE, "ok = «have_one_driver(then, k + 1, now, i + 1)»;", "true", "shards of two drivers make one report", tests=("shards of a gate",)),
+    Fault("harness/commands/comparing/outputs.c", "    if («outputs->is_part»)\n        return ok;", "false", "a shard tells how to mend expectations of other shards' cells", tests=("command line, parts",)),
+    Fault("harness/commands/comparing/gate.c", "return !known->file_count || «!strcmp(digest, rg_gate_merge_expectations(parts))» ||", "true", "expectations are held against shards that had others", tests=("command line, parts",)),
+    Fault("harness/record/disk/parts.c", "    if («*kept»)\n        rg_info(", "false", "a shard that is there twice is taken without a word", tests=("command line, parts",)),
+    Fault("harness/record/disk/parts.c", "!rg_document_unseal(path, document, «true», why))", "false", "a record that lost its checksum is taken", tests=("command line, parts",)),
+    Fault("harness/record/disk/parts.c", "return !«differs» || rg_error(\"%s: its %s", "NULL", "records of two gates make one report", tests=("command line, parts",)),
     Fault(RESULTS, "return rg_exit_with(RG_EXIT_PASS, «compared»);", "1", "a gate that compared nothing passes", tests=("command line, vacuous", "command line, ci")),
     Fault(RESULTS, "compared = «-report->idle_count»;", "0", "what fell as expected counts as compared", tests=("command line, gates", "command line, vacuous")),
     Fault(RESULTS, "    if («!any || is_told»)\n", "true", "a required device of which nothing was compared passes", tests=("command line, vacuous",)),
@@ -60,7 +73,7 @@ ROWS = [
     Fault(OUTPUTS, "        «adds_new = false;»", ";", "what nothing expects is added to every file", tests=("command line, reports",)),
     Fault(OUTPUTS, "if («is_read && !is_same»)", "false", "nobody is told that a file changed meanwhile", tests=("command line, reports",)),
     Fault(OUTPUTS, "if («!is_unchanged(lines)» ||", "false", "what somebody wrote meanwhile is lost", tests=("command line, reports",)),
-    Fault(COMMAND, "return («!request->filter && request->shards.total <= 1») ||", "true", "a part of the cells decides for all", tests=("command line, reports",)),
+    Fault(COMMAND, "return («!request->filter && request->shard.count <= 1») ||", "true", "a part of the cells decides for all", tests=("command line, reports",)),
     Fault(OUTPUTS, "return !report || «!file || !rg_file_is_same(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
     Fault(AGREE, "} else if («rg_comparison_outcome(&c, owed) == RG_NOTHING») {", "false", "a cell without rain is a difference", tests=("command line, gates",)),
     Fault(SIDES, "else if («!strcmp(name.name, other.name)»)", "false", "cells of a device that is named twice share a name", tests=("command line, gates",)),
@@ -69,7 +82,7 @@ ROWS = [
     Fault(SIDES, "                                                   .message = «rg_last_error()»,", "\"\"", "a report does not say which device is missing", tests=("command line, gates", "command line, ci")),
     Fault(RUN, "gate->is_told = «ok && !are_there && gate->report.case_count»;", "false", "a device that is missing leaves no report", tests=("command line, gates", "command line, ci")),
     Fault(COMMAND, "exit = rg_exit_worse(exit, «rg_exit_of_error()»); // a full disk", "RG_EXIT_FAIL", "a full disk is a regression", tests=("command line, gates",)),
-    Fault(RUN, "return rg_exit_worse(rg_exit_worse(found, «kept»),", "RG_EXIT_PASS", "launches that are lost are not told of", tests=("command line, gates",)),
+    Fault(RUN, "gate->beyond = rg_exit_worse(«kept», close_all(&r)", "RG_EXIT_PASS", "launches that are lost are not told of", tests=("command line, gates",)),
     Fault(RUN, "fmax(left_ms, 0) / «(rg_gate_courses(r) - pair)»", "(pair < 0 ? 2 : 1)", "a device of two builds leaves nothing of the budget to the next", tests=("command line, gates",)),
     Fault(RUN, "    if («exit != RG_EXIT_INCONCLUSIVE» ||", "true", "a budget in which nothing is decided is no bad budget", tests=("command line, gates",)),
     Fault(RUN, "|| !(asked->budget_s > 0) || «r->has_looked»)", "false", "a gate that decides something has a bad budget", tests=("command line, gates",)),
@@ -90,5 +103,5 @@ ROWS = [
     Fault(UNUSED, "«file->form == RG_FORM_OWN» &&", "true", "Mesa's lists of other suites are complained about", tests=("expectations",)),
     Fault(COMMAND, "if («is_read && !o->gtest.list»)", "false", "nobody is told of an expectation of no cell", tests=("command line, reports",)),
     Fault(CELLS, "           «has_keys_once(cell->assignments)»;", "true", "of a parameter that stands twice the last holds", tests=("gate cells",)),
-    Fault(COMMAND, "if («gate.is_told» && ", "true", "a gate that fails early leaves an empty report", tests=("command line, gates",)),
+    Fault(COMMAND, "    if («!gate->is_told»)\n        return exit;", "false", "a gate that fails early leaves an empty report", tests=("command line, gates",)),
 ]

@@ -10,7 +10,7 @@ BRIEF, STANDS = "harness/report/brief.c", "harness/report/stands.c"
 
 ROWS = [
     Fault(RECORDS, "if («json_integer_value(format) != RG_FORMAT_VERSION»)", "false", "a record of a newer format is shown as one of this"),
-    Fault(RECORDS, "if (other && «!strcmp(other, table)»)", "false", "a table of two files has two verdicts on each claim"),
+    Fault(RECORDS, "if («rg_page_is(record, \"machine\", machine)»)", "false", "a table of two files has two verdicts on each claim"),
     Fault(RECORDS, "if («++page->gates <= RG_PAGE_GATES»)", "true", "a thousand gates are a page that no browser opens"),
     Fault(RECORDS, "json_object_del(measured, \"samples_ms\");", ";", "every sample is in the page"),
     Fault(PICTURES, "realpath(path, found) && «(is_below(found, folder) || is_below(found, \".\"))»", "true", "a record has a private picture published"),
@@ -27,7 +27,7 @@ ROWS = [
     Fault(PAGE, "if («buffer[i] == '<'»)", "false", "a text of a record ends the page's data"),
     Fault(BRIEF, "if («c == '@'»)", "false", "a text calls a user"),
     Fault(BRIEF, "«brief->size + (size_t)length > RG_PAGE_BRIEF - ROOM_FOR_END»", "false", "a merge request is told more than it takes"),
-    Fault(BRIEF, "(is(record, \"kind\", \"gate\") && «i != last_gate»)", "false", "gates of earlier runs are told as found now"),
+    Fault(BRIEF, "(rg_page_is(record, \"kind\", \"gate\") && «i != last_gate»)", "false", "gates of earlier runs are told as found now"),
     Fault(BRIEF, "for (int i = 0; i < «4»; i++) {\n        f.wanted = statuses[i];", "3", "a merge request is not told which checks fail"),
     Fault(STANDS, "if («holds || fails»)", "holds && fails", "figures of one launch go before verdicts"),
 ]

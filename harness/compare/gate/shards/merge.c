@@ -1,0 +1,196 @@
+// The report of a gate from the records of its shards.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/compare/gate/shards/shards.h"
+#include "harness/console/exit.h"
+
+static const char *text_of(const json_t *object, const char *name)
+{
+    const char *text = json_string_value(json_object_get(object, name));
+    return text ? text : "";
+}
+
+static const json_t *array_of(const json_t *object, const char *name)
+{
+    return json_object_get(object, name);
+}
+
+// --- what shards say once ---
+
+// The driver of a device in a shard's passport; "" if it has none.
+static const char *driver_of(const json_t *passport, const char *name)
+{
+    const json_t *devices = json_object_get(passport, "devices"), *device;
+    size_t i;
+    json_array_foreach(devices, i, device)
+    {
+        if (!strcmp(text_of(device, "name"), name))
+            return text_of(device, "driver");
+    }
+    return "";
+}
+
+// Whether a shard ran each device with the driver with which an earlier one did. False, and one
+// logged line, if not: their cases would be of two drivers under one name.
+static bool have_one_driver(const json_t *then, int before, const json_t *now, int number)
+{
+    const json_t *devices = json_object_get(now, "devices"), *device;
+    size_t i;
+    json_array_foreach(devices, i, device)
+    {
+        const char *name = text_of(device, "name"), *driver = text_of(device, "driver");
+        const char *was = driver_of(then, name);
+        if (*was && strcmp(was, driver) != 0)
+            return rg_error(
+                "gate: shard %d ran '%s' with driver %s, and shard %d with %s; run them "
+                "with one driver",
+                number, name, driver, before, was);
+    }
+    return true;
+}
+
+static bool have_one_driver_each(const struct rg_parts *parts)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < parts->count; i++) {
+        json_t *now = json_loads(text_of(parts->documents[i], "passport_text"), 0, NULL);
+        for (int k = 0; ok && k < i; k++) {
+            json_t *then = json_loads(text_of(parts->documents[k], "passport_text"), 0, NULL);
+            ok = have_one_driver(then, k + 1, now, i + 1);
+            json_decref(then);
+        }
+        json_decref(now);
+    }
+    return ok;
+}
+
+// --- cases ---
+
+// Adds the cases of cells, in the order of a gate without shards.
+static bool add_cells(const struct rg_parts *parts, struct rg_report *report)
+{
+    const size_t count = json_array_size(json_object_get(parts->of, "names"));
+    const json_t **at = rg_alloc(count, sizeof(const json_t *), "gate");
+    bool ok = at;
+    for (int i = 0; ok && i < parts->count; i++) {
+        const json_t *places = array_of(parts->documents[i], "places"), *place;
+        const json_t *cases = array_of(parts->documents[i], "gated");
+        size_t k;
+        json_array_foreach(places, k, place)
+        {
+            const json_int_t number = json_integer_value(place);
+            if (number >= 0 && (size_t)number < count)
+                at[number] = json_array_get(cases, k);
+        }
+    }
+    for (size_t i = 0; ok && i < count; i++)
+        ok = !at[i] || rg_report_read(report, at[i]);
+    free(at);
+    return ok;
+}
+
+static bool is_told(const struct rg_report *report, const char *name)
+{
+    for (int i = 0; i < report->case_count; i++)
+        if (!strcmp(report->cases[i].name, name))
+            return true;
+    return false;
+}
+
+// Adds the other cases of a device: "" for devices that are required and not there, each once; else
+// its fixed functions.
+static bool add_others(const struct rg_parts *parts, const char *device, struct rg_report *report)
+{
+    bool ok = true;
+    for (int i = 0; i < parts->count; i++) {
+        const json_t *cases = array_of(parts->documents[i], "gated");
+        for (size_t k = json_array_size(array_of(parts->documents[i], "places"));
+             ok && k < json_array_size(cases); k++) {
+            const json_t *found = json_array_get(cases, k);
+            const bool is_required = !*text_of(found, "technique");
+            const char *own =
+                json_string_value(json_array_get(json_object_get(found, "devices"), 0));
+            if (*device ? !is_required && own && !strcmp(own, device)
+                        : is_required && !is_told(report, text_of(found, "name")))
+                ok = rg_report_read(report, found);
+        }
+    }
+    return ok;
+}
+
+static bool add_all(const struct rg_parts *parts, struct rg_report *report)
+{
+    const json_t *pairs = json_object_get(parts->of, "pairs"), *pair;
+    bool ok = add_cells(parts, report) &&
+              rg_gate_hold_required(text_of(parts->of, "require"), report) &&
+              add_others(parts, "", report);
+    size_t i;
+    json_array_foreach(pairs, i, pair)
+    {
+        const char *b = json_string_value(json_array_get(pair, RG_SIDE_B));
+        ok = ok && (!b || add_others(parts, b, report));
+    }
+    return ok;
+}
+
+// --- results, for files of expectations ---
+
+static double number_of(const json_t *object, const char *name)
+{
+    const json_t *number = json_object_get(object, name);
+    return json_is_number(number) ? json_number_value(number) : NAN;
+}
+
+static bool add_results(const struct rg_parts *parts, struct rg_gate *gate)
+{
+    size_t count = 0, k;
+    json_t *found;
+    for (int i = 0; i < parts->count; i++)
+        count += json_array_size(array_of(parts->documents[i], "results"));
+    gate->results = rg_alloc(count, sizeof(*gate->results), "gate");
+    for (int i = 0; gate->results && i < parts->count; i++) {
+        const json_t *results = array_of(parts->documents[i], "results");
+        json_array_foreach(results, k, found)
+        {
+            struct rg_known_result *result = &gate->results[gate->result_count];
+            *result = (struct rg_known_result){
+                .cell = text_of(found, "cell"),
+                .device = text_of(found, "device"),
+                .driver = json_string_value(json_object_get(found, "driver")),
+                .pixels = number_of(found, "pixels"),
+                .difference = number_of(found, "difference"),
+                .is_foreign = json_is_true(json_object_get(found, "foreign"))};
+            gate->result_count += rg_outcome_find(text_of(found, "outcome"), &result->outcome);
+        }
+    }
+    return gate->results;
+}
+
+// --- all ---
+
+const char *rg_gate_merge_expectations(const struct rg_parts *parts)
+{
+    return text_of(parts->of, "expectations");
+}
+
+bool rg_gate_merge(const struct rg_parts *parts, struct rg_gate *gate, int *beyond)
+{
+    char *passport = rg_parts_texts(parts, "passport_text", false);
+    *beyond = RG_EXIT_PASS;
+    for (int i = 0; i < parts->count; i++)
+        *beyond =
+            rg_exit_worse(*beyond, rg_exit_of_record(json_object_get(parts->documents[i], "exit")));
+    gate->note = rg_parts_texts(parts, "note", true);
+    gate->chosen = (int)json_array_size(json_object_get(parts->of, "names"));
+    if (passport && *passport)
+        passport[strlen(passport) - 1] = 0; // its last line's end
+    gate->is_told = passport && gate->note && have_one_driver_each(parts) &&
+                    rg_report_set_passport(&gate->report, passport) &&
+                    add_all(parts, &gate->report) && add_results(parts, gate);
+    free(passport);
+    return gate->is_told;
+}
