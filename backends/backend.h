@@ -11,7 +11,7 @@
 // Destroy functions are never called with NULL, and only when the device is idle (after a sync).
 //
 // Threads: a device is used by one thread at a time. Several devices live side by side. Order:
-// pass_run, buf_write, image_write, image_clear and reads take effect in the order of their calls,
+// pass_run, buf_write, calls for images and reads take effect in the order of their calls,
 // as if each ended before the next began. Only sync, reads and time wait.
 #ifndef RG_BACKENDS_BACKEND_H
 #define RG_BACKENDS_BACKEND_H
@@ -234,6 +234,9 @@ struct rg_backend {
     bool (*image_read)(struct rg_image *image, int layer, int level, void *texels);
     // Sets every texel of every layer and level. `texel` is one packed texel.
     bool (*image_clear)(struct rg_image *image, const void *texel);
+    // Has the driver make every level from `first` on, each from the one above. Only native devices
+    // are asked, for formats with RG_USE_FILTER. NULL: the API has no native devices.
+    bool (*image_make_levels)(struct rg_image *image, int first);
 
     // Compiles a kernel. The driver may finish compiling at the first run.
     struct rg_pass *(*pass_create)(struct rg_device *device, const struct rg_kernel *kernel);

@@ -222,6 +222,7 @@ void gl_image_destroy(struct rg_image *image);
 bool gl_image_write(struct rg_image *image, int layer, int level, const void *texels);
 bool gl_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool gl_image_clear(struct rg_image *image, const void *texel);
+bool gl_image_make_levels(struct rg_image *image, int first);
 
 // api/sampler.c
 

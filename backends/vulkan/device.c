@@ -183,6 +183,7 @@ const struct rg_backend rg_backend_vulkan = {
     .image_write = vk_image_write,
     .image_read = vk_image_read,
     .image_clear = vk_image_clear,
+    .image_make_levels = vk_image_make_levels,
     .pass_create = vk_pass_create,
     .pass_destroy = vk_pass_destroy,
     .pass_code = vk_pass_code,

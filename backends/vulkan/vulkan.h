@@ -199,6 +199,8 @@ bool vk_memory_is_direct(const VkPhysicalDeviceMemoryProperties *memory);
 // api/sampler.c
 bool vk_samplers_create(struct vk_device *device);
 void vk_samplers_destroy(struct vk_device *device);
+// Whether samplers that compare weigh four answers.
+bool vk_filters_depth(const struct vk_device *device);
 
 // api/batch.c
 bool vk_batches_create(struct vk_device *device);
@@ -243,6 +245,7 @@ void vk_image_destroy(struct rg_image *image);
 bool vk_image_write(struct rg_image *image, int layer, int level, const void *texels);
 bool vk_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool vk_image_clear(struct rg_image *image, const void *texel);
+bool vk_image_make_levels(struct rg_image *image, int first);
 
 // slots.c
 // Creates the layouts of pass->slots.
@@ -280,6 +283,9 @@ void vk_target_forget(struct vk_device *device, struct vk_image *image);
 void vk_targets_close(struct vk_device *device);
 
 // program.c
+// What a shader's constants are on this device: the first is whether its samplers filter depths
+// (kernels/build/flatten.py). Only shaders of native devices have any.
+const VkSpecializationInfo *vk_constants(const struct vk_device *device);
 // Compiles a pass's shaders: false, and one logged line, on failure. Destroying also accepts a
 // partly made pass.
 bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
