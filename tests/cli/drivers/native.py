@@ -12,11 +12,11 @@ STREAKS = ["streaks", "--set", "city=small", "--set", "atlas=small", "--set", "s
 SHOWER = ["shower", "--set", "city=small", "--set", "particles=3000", "--set", "shadow_map_px=256", "--size", "96x96", "--frame", "8"]
 DROPS = ["drops", "--set", "columns=96", "--set", "rows=64", "--set", "max_drops=100", "--size", "96x64", "--frame", "6"]
 RASTER = ["raster", "--size", "96x96", "--frame", "1"]
-# What turns a part of llvmpipe off, and the pictures that must tell. Under no_tex some kernels that compute never end, as buffers are
-# textures there.
+# What turns a part of llvmpipe off, and pictures of gl:native that must tell, beside that of streaks, which tells on both APIs. Under no_tex
+# some kernels that compute never end, as buffers are textures there.
 SWITCHES = {
-    "LP_PERF=no_linear": (FLOW, STREAKS),
-    "LP_PERF=no_mipmap": (STREAKS,),
+    "LP_PERF=no_linear": (FLOW,),
+    "LP_PERF=no_mipmap": (),
     "LP_PERF=no_mip_linear": (DROPS,),
     "LP_PERF=no_tex": (FLOW,),
     "LP_PERF=no_depth": (FLOW,),
@@ -81,16 +81,14 @@ def check_switches(runner):
         path, behind = os.path.join(folder, "picture.exr"), os.path.join(folder, "behind.png")
         runner.run(["render", *FLOW, "--device", "cpu", "-o", behind])
         for switch, scenes in SWITCHES.items():
-            for scene in scenes:
+            for api, scene in [(api, STREAKS) for api in APIS] + [("gl", scene) for scene in scenes]:
                 given = scene + ["--set", "background=" + behind] if scene is DROPS else scene
-                if scene[0] not in plain:
-                    plain[scene[0]] = digest(runner, given, "gl:native", path)
-                switched = digest(runner, given, "gl:native@" + switch, path)
-                for told in (plain[scene[0]], switched):
-                    if told.startswith("exit"):
-                        problems.append("%s, %s: %s" % (switch, scene[0], told))
-                if switched == plain[scene[0]]:
-                    problems.append("%s: %s does not notice" % (switch, scene[0]))
+                if (api, scene[0]) not in plain:
+                    plain[api, scene[0]] = digest(runner, given, api + ":native", path)
+                switched = digest(runner, given, "%s:native@%s" % (api, switch), path)
+                problems += ["%s, %s, %s: %s" % (switch, api, scene[0], told) for told in (plain[api, scene[0]], switched) if told.startswith("exit")]
+                if switched == plain[api, scene[0]]:
+                    problems.append("%s: %s does not notice on %s" % (switch, scene[0], api))
     return problems
 
 
