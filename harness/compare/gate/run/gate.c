@@ -15,7 +15,6 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/names.h"
-#include "harness/measure/serving/fixed.h"
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
@@ -55,12 +54,11 @@ static bool add_case(struct rg_running_gate *r, const struct rg_gate_cell *cell,
     return true;
 }
 
-// The fixed functions of a device are one more case if the baseline has digests of them.
+// The fixed functions of a device are one more case, if they are held against others.
 static bool add_fixed(struct rg_running_gate *r, int pair)
 {
     const int b = pair * RG_SIDES + RG_SIDE_B;
-    const struct rg_baseline *baseline = r->asked->baseline;
-    if (!baseline || !rg_fixed_kept(baseline->passport, r->sides[b].name))
+    if (!rg_gate_has_fixed(r->asked->baseline, &r->asked->pairs->all[pair]))
         return true;
     char *name = rg_gate_case_name(RG_GATE_FIXED, r->sides[b].name);
     const bool is_named = name;

@@ -22,7 +22,7 @@ static struct rg_known_result unknown(const char *cell, const char *device)
 static bool make_results(const struct rg_gate_request *asked, struct rg_gate *gate)
 {
     const int64_t left = asked->left.count * asked->cells->count;
-    const int64_t fixed = asked->baseline ? asked->pairs->count * RG_FIXED_MAX_DRAWS : 0;
+    const int64_t fixed = asked->pairs->count * RG_FIXED_MAX_DRAWS;
     const size_t count = (size_t)(gate->case_count + left + fixed);
     gate->results = rg_alloc(count ? count : 1, sizeof(*gate->results), "gate");
     for (int64_t i = 0; gate->results && i < left; i++)
@@ -84,9 +84,9 @@ bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
 static void tell_nothing(const struct rg_gate_request *asked, const struct rg_gate *gate)
 {
     const struct rg_gtest_shards *shards = &asked->shards;
-    if (gate->case_count)
+    if (gate->report.case_count)
         rg_error("gate: none of %d cases was compared to its end; mend what their lines name",
-                 gate->case_count);
+                 gate->report.case_count);
     else if (gate->chosen)
         rg_error("gate: shard %d of %d has none of %d cases; set GTEST_TOTAL_SHARDS to %d at most",
                  shards->index + 1, shards->total, gate->chosen, gate->chosen);
