@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "backends/labels.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 
@@ -133,6 +134,7 @@ static struct rg_device *gl_create(int index)
         return NULL;
     }
     describe(index, &gl->egl, &gl->pub.info);
+    gl->labels = rg_labels_are_asked();
     gl_debug_begin(gl);
     gl_images_begin();
     glCreateQueries(GL_TIMESTAMP, 1, &gl->timestamp);

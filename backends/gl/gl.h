@@ -116,6 +116,7 @@ struct gl_device {
     struct gl_queries queries;
     struct gl_fixed *fixed; // made by the first draw of a fixed function
     char fault[256];        // the driver's first message since the last gl_check; "": none
+    bool labels;            // passes are named for debuggers
     bool is_lost; // the driver reported a lost context, after which nothing more is logged
 };
 
@@ -177,6 +178,9 @@ bool gl_check_reported(struct gl_device *device, const char *call, const char *k
                        const char *name);
 // Names an object for debuggers.
 void gl_label(GLenum type, GLuint id, const char *name);
+// Names the calls between the two, if the device has labels.
+void gl_group_begin(const struct gl_device *device, const char *name);
+void gl_group_end(const struct gl_device *device);
 
 // formats.c
 

@@ -46,6 +46,9 @@ struct vk_batch {
     bool recording, in_flight;
 };
 
+// What an instance is opened with: nothing more, VK_EXT_debug_utils, or the validation layer too.
+enum vk_debug { VK_UNNAMED, VK_NAMED, VK_VALIDATED };
+
 // An instance, and the validation layer's complaints about our calls if RG_VK_VALIDATION=1.
 struct vk_instance {
     VkInstance handle;
@@ -95,8 +98,11 @@ struct vk_device {
     struct vk_framebuffer *framebuffers;                          // likewise; a list
     struct rg_buf *no_samples; // bound by draws that count nothing; made with the first DRAW pass
     struct rg_image *no_depth;
-    struct vk_fixed *fixed;                    // made by the first draw of a fixed function
-    PFN_vkSetDebugUtilsObjectNameEXT set_name; // NULL without the validation layer
+    struct vk_fixed *fixed; // made by the first draw of a fixed function
+    // All NULL unless the validation layer or RG_LABELS=1 is asked for.
+    PFN_vkSetDebugUtilsObjectNameEXT set_name;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_group;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_group;
 };
 
 struct vk_buf {
@@ -148,7 +154,8 @@ struct vk_pass {
 
 // api/instance.c
 // Opens an instance, with the validation layer if `validate`. `why` receives one line on failure.
-bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, size_t why_size);
+bool vk_instance_open(struct vk_instance *instance, enum vk_debug debug, char *why,
+                      size_t why_size);
 void vk_instance_close(struct vk_instance *instance);
 // backend->functions
 int vk_functions(struct rg_device *device, const void **functions, int max);
@@ -180,8 +187,11 @@ bool vk_check(VkResult result, const char *call, const char *noun, const char *n
 #define vk_try(noun, name, function, ...) vk_check(function(__VA_ARGS__), #function, noun, name)
 // False if the validation layer has complained since the last call.
 bool vk_healthy(struct vk_device *device);
-// Gives an object its name in the validation layer.
+// Gives an object its name in the validation layer and in debuggers.
 void vk_name(struct vk_device *device, VkObjectType type, uint64_t handle, const char *name);
+// Names the commands between the two there.
+void vk_group_begin(const struct vk_device *device, const struct vk_batch *batch, const char *name);
+void vk_group_end(const struct vk_device *device, const struct vk_batch *batch);
 #define VK_HANDLE(handle) ((uint64_t)(uintptr_t)(handle))
 
 // api/memory.c
