@@ -162,10 +162,7 @@ struct rg_packed {
     struct rg_buf *prims; // rg_prim of kernels/dialect/draw/draw.h, drawn in this order
     struct rg_buf *args;  // 5 uints: vertices, 1, 0, 0 (an indirect draw), then the number of prims
     int capacity;         // capacity of `prims`
-    // For draws with queries: an indirect draw of 4 uints for each of `queries` queries, which are
-    // numbered from `first_query` on.
-    struct rg_buf *query_args;
-    int queries, first_query;
+    struct rg_buf *query_args; // for draws with queries: an indirect draw of 4 uints for each
 };
 
 // Counts of a run's work (core/device/work.h). -1: not counted, because the device cannot count it
@@ -182,8 +179,20 @@ struct rg_run {
     struct rg_extent origin;               // first item; mostly 0
     const struct rg_draw *draw;            // for DRAW passes, whose items lie along x; else NULL
     const struct rg_packed *packed;        // set by core/device/packing.c; NULL for its callers
+    int queries, first_query;              // of draws with queries; set by core/device/draw.c
     struct rg_counts *counts;              // set by core/device/work.c; NULL: not counted
 };
+
+// The items of a run's query, for native devices, which draw items.
+struct rg_items {
+    int first, count;
+};
+static inline struct rg_items rg_query_items(const struct rg_run *run, int query)
+{
+    const int whole = run->draw->items_a_query, first = (run->first_query + query) * whole;
+    const int end = run->origin.width + run->extent.width;
+    return (struct rg_items){first, end - first < whole ? end - first : whole};
+}
 
 enum { RG_MAX_DEVICES = 32, RG_LIST_WHY_SIZE = 640 }; // length of a list; size of its reason
 // Returned in place of a number of devices.

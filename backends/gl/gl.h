@@ -270,8 +270,8 @@ bool gl_can_blend(const struct rg_device *device, const char **word);
 
 // api/query.c
 
-// Draws packed primitives query by query, and has the driver write the results to the draw's
-// samples. The caller has bound everything. False, and one logged line, on failure.
+// Draws query by query, and has the driver write the results to the draw's samples. The caller has
+// bound everything. False, and one logged line, on failure.
 bool gl_draw_queries(struct gl_device *device, const struct rg_kernel *kernel,
                      const struct rg_run *run);
 void gl_queries_end(struct gl_device *device);

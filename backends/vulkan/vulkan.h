@@ -329,7 +329,7 @@ void vk_draw_close(struct vk_device *device); // frees what passes share, before
 bool vk_queries_prepare(struct vk_device *device, const struct vk_batch *batch, int count);
 // Records the draws of a render pass, each in its query, and then the copy of their results.
 void vk_draw_queries(const struct vk_device *device, const struct vk_batch *batch,
-                     const struct rg_packed *packed);
+                     const struct rg_run *run);
 void vk_answer_queries(const struct vk_device *device, const struct vk_batch *batch,
                        const struct rg_run *run);
 void vk_queries_close(struct vk_device *device);
