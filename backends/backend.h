@@ -11,7 +11,7 @@
 // Destroy functions are never called with NULL, and only when the device is idle (after a sync).
 //
 // Threads: a device is used by one thread at a time. Several devices live side by side. Order:
-// pass_run, buf_write, image_write, image_clear and reads take effect in the order of their calls,
+// pass_run, buf_write, calls for images and reads take effect in the order of their calls,
 // as if each ended before the next began. Only sync, reads and time wait.
 #ifndef RG_BACKENDS_BACKEND_H
 #define RG_BACKENDS_BACKEND_H
@@ -162,10 +162,7 @@ struct rg_packed {
     struct rg_buf *prims; // rg_prim of kernels/dialect/draw/draw.h, drawn in this order
     struct rg_buf *args;  // 5 uints: vertices, 1, 0, 0 (an indirect draw), then the number of prims
     int capacity;         // capacity of `prims`
-    // For draws with queries: an indirect draw of 4 uints for each of `queries` queries, which are
-    // numbered from `first_query` on.
-    struct rg_buf *query_args;
-    int queries, first_query;
+    struct rg_buf *query_args; // for draws with queries: an indirect draw of 4 uints for each
 };
 
 // Counts of a run's work (core/device/work.h). -1: not counted, because the device cannot count it
@@ -182,8 +179,20 @@ struct rg_run {
     struct rg_extent origin;               // first item; mostly 0
     const struct rg_draw *draw;            // for DRAW passes, whose items lie along x; else NULL
     const struct rg_packed *packed;        // set by core/device/packing.c; NULL for its callers
+    int queries, first_query;              // of draws with queries; set by core/device/draw.c
     struct rg_counts *counts;              // set by core/device/work.c; NULL: not counted
 };
+
+// The items of a run's query, for native devices, which draw items.
+struct rg_items {
+    int first, count;
+};
+static inline struct rg_items rg_query_items(const struct rg_run *run, int query)
+{
+    const int whole = run->draw->items_a_query, first = (run->first_query + query) * whole;
+    const int end = run->origin.width + run->extent.width;
+    return (struct rg_items){first, end - first < whole ? end - first : whole};
+}
 
 enum { RG_MAX_DEVICES = 32, RG_LIST_WHY_SIZE = 640 }; // length of a list; size of its reason
 // Returned in place of a number of devices.
@@ -234,6 +243,9 @@ struct rg_backend {
     bool (*image_read)(struct rg_image *image, int layer, int level, void *texels);
     // Sets every texel of every layer and level. `texel` is one packed texel.
     bool (*image_clear)(struct rg_image *image, const void *texel);
+    // Has the driver make every level from `first` on, each from the one above. Only native devices
+    // are asked, for formats with RG_USE_FILTER. NULL: the API has no native devices.
+    bool (*image_make_levels)(struct rg_image *image, int first);
 
     // Compiles a kernel. The driver may finish compiling at the first run.
     struct rg_pass *(*pass_create)(struct rg_device *device, const struct rg_kernel *kernel);

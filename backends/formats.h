@@ -26,6 +26,8 @@ enum rg_format_use {
     RG_USE_DRAW = 4,
     RG_USE_BLEND = 8,
     RG_USE_ALL = 15,
+    RG_USE_FILTER = 16, // the driver's samplers weigh texels, and it makes levels; native devices
+                        // alone ask for it
 };
 
 // A device's limits for images of a format.

@@ -31,7 +31,8 @@ enum rg_sampler {
     RG_SAMPLED_FILTERED, // linear within and between levels, clamped at the edges
     RG_SAMPLED_TILED,    // the same, repeated
     RG_SAMPLED_CUBE,     // the same, of six layers as a cube
-    RG_SAMPLED_SHADOW,   // nearest, compared: 1 if the reference is at most the texel
+    RG_SAMPLED_SHADOW,   // compared: 1 if the reference is at most the texel; linear between four
+                         // answers if the device filters depths
     RG_SAMPLERS
 };
 

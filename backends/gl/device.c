@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "backends/labels.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 
@@ -36,8 +37,9 @@ static struct rg_limits read_limits(void)
     };
     // OpenGL 4.5 requires all formats for all uses.
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
-        limits.formats[f] = (struct rg_format_limits){
-            RG_USE_ALL, limits.max_image_px, limits.max_image_layers, RG_MAX_LEVELS, INT64_MAX};
+        limits.formats[f] =
+            (struct rg_format_limits){RG_USE_ALL | RG_USE_FILTER, limits.max_image_px,
+                                      limits.max_image_layers, RG_MAX_LEVELS, INT64_MAX};
     for (GLuint axis = 0; axis < 3; axis++) {
         GLint64 groups = 0;
         glGetInteger64i_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis, &groups);
@@ -132,6 +134,7 @@ static struct rg_device *gl_create(int index)
         return NULL;
     }
     describe(index, &gl->egl, &gl->pub.info);
+    gl->labels = rg_labels_are_asked();
     gl_debug_begin(gl);
     gl_images_begin();
     glCreateQueries(GL_TIMESTAMP, 1, &gl->timestamp);
@@ -161,6 +164,7 @@ const struct rg_backend rg_backend_gl = {
     .image_write = gl_image_write,
     .image_read = gl_image_read,
     .image_clear = gl_image_clear,
+    .image_make_levels = gl_image_make_levels,
     .pass_create = gl_pass_create,
     .pass_destroy = gl_pass_destroy,
     .pass_code = gl_pass_code,

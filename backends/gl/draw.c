@@ -110,25 +110,28 @@ static bool draw_packed(struct gl_device *device, const struct rg_kernel *kernel
                         const struct rg_run *run)
 {
     struct gl_bound *bound = &device->bound;
-    const int items_a_query = run->draw->items_a_query;
-    const struct rg_buf *arguments = items_a_query ? run->packed->query_args : run->packed->args;
+    const struct rg_buf *arguments = run->queries ? run->packed->query_args : run->packed->args;
     gl_bind_arguments(bound, ((const struct gl_buf *)arguments)->id);
     // Vertex shaders read corners from the storage block, fragment shaders read records from a
     // texture of words.
     gl_slot_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
     if (!gl_slot_words(bound, RG_SLOT_PRIMS, run->packed->prims))
         return false;
-    if (items_a_query)
+    if (run->queries)
         return gl_draw_queries(device, kernel, run);
     glDrawArraysIndirect(GL_TRIANGLES, NULL);
     return true;
 }
 
 // shaders/native.vert takes a vertex for each item.
-static void draw_items(const struct rg_run *run)
+static bool draw_items(struct gl_device *device, const struct rg_kernel *kernel,
+                       const struct rg_run *run)
 {
     const rg_draw_state *state = run->params; // an rg_draw_call begins with it
+    if (run->queries)
+        return gl_draw_queries(device, kernel, run);
     glDrawArrays(GL_POINTS, state->item_begin, state->item_end - state->item_begin);
+    return true;
 }
 
 bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const struct rg_run *run)
@@ -144,9 +147,7 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
     gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
     if (rg_draw_counts(draw))
         gl_slot_buffer(bound, RG_SLOT_SAMPLES, draw->samples);
-    if (device->pub.info.native)
-        draw_items(run);
-    else if (!draw_packed(device, kernel, run))
+    if (!(device->pub.info.native ? draw_items : draw_packed)(device, kernel, run))
         return false;
     // The next run may overwrite what this run reads, and read its counts.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);

@@ -116,6 +116,7 @@ struct gl_device {
     struct gl_queries queries;
     struct gl_fixed *fixed; // made by the first draw of a fixed function
     char fault[256];        // the driver's first message since the last gl_check; "": none
+    bool labels;            // passes are named for debuggers
     bool is_lost; // the driver reported a lost context, after which nothing more is logged
 };
 
@@ -177,6 +178,9 @@ bool gl_check_reported(struct gl_device *device, const char *call, const char *k
                        const char *name);
 // Names an object for debuggers.
 void gl_label(GLenum type, GLuint id, const char *name);
+// Names the calls between the two, if the device has labels.
+void gl_group_begin(const struct gl_device *device, const char *name);
+void gl_group_end(const struct gl_device *device);
 
 // formats.c
 
@@ -222,6 +226,7 @@ void gl_image_destroy(struct rg_image *image);
 bool gl_image_write(struct rg_image *image, int layer, int level, const void *texels);
 bool gl_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool gl_image_clear(struct rg_image *image, const void *texel);
+bool gl_image_make_levels(struct rg_image *image, int first);
 
 // api/sampler.c
 
@@ -265,8 +270,8 @@ bool gl_can_blend(const struct rg_device *device, const char **word);
 
 // api/query.c
 
-// Draws packed primitives query by query, and has the driver write the results to the draw's
-// samples. The caller has bound everything. False, and one logged line, on failure.
+// Draws query by query, and has the driver write the results to the draw's samples. The caller has
+// bound everything. False, and one logged line, on failure.
 bool gl_draw_queries(struct gl_device *device, const struct rg_kernel *kernel,
                      const struct rg_run *run);
 void gl_queries_end(struct gl_device *device);

@@ -98,3 +98,15 @@ bool gl_image_clear(struct rg_image *image, const void *texel)
         glClearTexImage(((struct gl_image *)image)->id, level, format.format, format.type, texel);
     return gl_check(gl, "glClearTexImage", "image", image->name);
 }
+
+bool gl_image_make_levels(struct rg_image *image, int first)
+{
+    struct gl_device *gl = (struct gl_device *)image->device;
+    const GLuint id = ((struct gl_image *)image)->id;
+    if (!gl_use(gl))
+        return false;
+    glTextureParameteri(id, GL_TEXTURE_BASE_LEVEL, first - 1);
+    glGenerateTextureMipmap(id);
+    glTextureParameteri(id, GL_TEXTURE_BASE_LEVEL, 0);
+    return gl_check(gl, "glGenerateTextureMipmap", "image", image->name);
+}

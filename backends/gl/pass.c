@@ -107,11 +107,10 @@ static GLuint program_of(struct gl_device *gl, struct gl_pass *mine, const struc
     return mine->blending;
 }
 
-bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)
+static bool run_pass(struct gl_device *gl, struct gl_pass *mine, const struct rg_run *run)
 {
-    struct gl_device *gl = (struct gl_device *)pass->device;
-    struct gl_pass *mine = (struct gl_pass *)pass;
-    if (!gl_use(gl) || !gl_params_bind(gl, mine, run))
+    const struct rg_kernel *kernel = mine->pub.kernel;
+    if (!gl_params_bind(gl, mine, run))
         return false;
     const GLuint program = program_of(gl, mine, run);
     if (!program)
@@ -119,10 +118,21 @@ bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)
     gl_bind_program(&gl->bound, program);
     if (!gl_slots_bind(&gl->bound, mine, run))
         return false;
-    if (pass->kernel->draw)
-        return gl_draw(gl, pass->kernel, run);
+    if (kernel->draw)
+        return gl_draw(gl, kernel, run);
     const int64_t columns = ((int64_t)run->extent.width + GL_GROUP_ITEMS - 1) / GL_GROUP_ITEMS;
     glDispatchCompute((GLuint)columns, (GLuint)run->extent.height, (GLuint)run->extent.depth);
     glMemoryBarrier(mine->after_runs);
-    return gl_check_reported(gl, "glDispatchCompute", "kernel", pass->kernel->name);
+    return gl_check_reported(gl, "glDispatchCompute", "kernel", kernel->name);
+}
+
+bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)
+{
+    struct gl_device *gl = (struct gl_device *)pass->device;
+    if (!gl_use(gl))
+        return false;
+    gl_group_begin(gl, pass->kernel->name);
+    const bool ok = run_pass(gl, (struct gl_pass *)pass, run);
+    gl_group_end(gl);
+    return ok;
 }

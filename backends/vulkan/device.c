@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "backends/labels.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 
@@ -12,7 +13,7 @@ static int vk_list(struct rg_device_info *infos, int max, char *why, size_t why_
     VkPhysicalDevice devices[RG_MAX_DEVICES];
     int count = 0;
     rg_manifests_begin(&vk_manifests);
-    if (vk_instance_open(&instance, false, why, why_size))
+    if (vk_instance_open(&instance, VK_UNNAMED, why, why_size))
         count = vk_physical_devices(&instance, devices, max < RG_MAX_DEVICES ? max : RG_MAX_DEVICES,
                                     why, why_size);
     for (int i = 0; i < count; i++)
@@ -25,10 +26,12 @@ static int vk_list(struct rg_device_info *infos, int max, char *why, size_t why_
     return count;
 }
 
-static bool validation_wanted(void)
+static enum vk_debug debug_wanted(void)
 {
     const char *wanted = getenv("RG_VK_VALIDATION");
-    return wanted && !strcmp(wanted, "1");
+    return wanted && !strcmp(wanted, "1") ? VK_VALIDATED
+           : rg_labels_are_asked()        ? VK_NAMED
+                                          : VK_UNNAMED;
 }
 
 static bool choose_physical(struct vk_device *device, int index)
@@ -72,6 +75,17 @@ static bool find_order(VkPhysicalDevice physical,
     return order->rasterizationOrderColorAttachmentAccess;
 }
 
+static void find_names(struct vk_device *device)
+{
+    const VkInstance instance = device->instance.handle;
+    device->set_name = (PFN_vkSetDebugUtilsObjectNameEXT)vkGetInstanceProcAddr(
+        instance, "vkSetDebugUtilsObjectNameEXT");
+    device->begin_group = (PFN_vkCmdBeginDebugUtilsLabelEXT)vkGetInstanceProcAddr(
+        instance, "vkCmdBeginDebugUtilsLabelEXT");
+    device->end_group = (PFN_vkCmdEndDebugUtilsLabelEXT)vkGetInstanceProcAddr(
+        instance, "vkCmdEndDebugUtilsLabelEXT");
+}
+
 static bool create_logical(struct vk_device *device)
 {
     const float priority = 1.0f;
@@ -107,9 +121,8 @@ static bool create_logical(struct vk_device *device)
                 &device->handle))
         return false;
     vkGetDeviceQueue(device->handle, device->family.index, 0, &device->queue);
-    if (device->instance.messenger)
-        device->set_name = (PFN_vkSetDebugUtilsObjectNameEXT)vkGetInstanceProcAddr(
-            device->instance.handle, "vkSetDebugUtilsObjectNameEXT");
+    if (debug_wanted() != VK_UNNAMED)
+        find_names(device);
     return true;
 }
 
@@ -152,7 +165,7 @@ static struct rg_device *vk_create(int index)
     if (!device)
         return NULL;
     char why[256];
-    if (!vk_instance_open(&device->instance, validation_wanted(), why, sizeof(why))) {
+    if (!vk_instance_open(&device->instance, debug_wanted(), why, sizeof(why))) {
         free(device);
         return rg_driver_error_null("device 'vulkan': %s", why);
     }
@@ -183,6 +196,7 @@ const struct rg_backend rg_backend_vulkan = {
     .image_write = vk_image_write,
     .image_read = vk_image_read,
     .image_clear = vk_image_clear,
+    .image_make_levels = vk_image_make_levels,
     .pass_create = vk_pass_create,
     .pass_destroy = vk_pass_destroy,
     .pass_code = vk_pass_code,

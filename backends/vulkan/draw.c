@@ -110,8 +110,7 @@ bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_p
         .framebuffer = pipeline ? vk_framebuffer(device, draw) : VK_NULL_HANDLE,
         .renderArea = {{0, 0}, {(uint32_t)width, (uint32_t)height}},
     };
-    const int queries = draw->items_a_query ? run->packed->queries : 0;
-    if (!pipeline || !begin.framebuffer || !vk_queries_prepare(device, batch, queries) ||
+    if (!pipeline || !begin.framebuffer || !vk_queries_prepare(device, batch, run->queries) ||
         (target.blends && !vk_slot_before(device, batch, pass, draw, &sets[1])))
         return false;
     VkCommandBuffer commands = batch->commands;
@@ -121,12 +120,12 @@ bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_p
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass->layout, 0,
                             target.blends ? 2 : 1, sets, 1, &params_offset);
     set_area(batch, run, width, height);
-    if (queries)
-        vk_draw_queries(device, batch, run->packed);
+    if (run->queries)
+        vk_draw_queries(device, batch, run);
     else
         draw_once(commands, run);
     vkCmdEndRenderPass(commands);
-    if (queries)
+    if (run->queries)
         vk_answer_queries(device, batch, run);
     vk_barrier_after_draw(device, batch);
     return true;

@@ -30,6 +30,15 @@ static bool create_module(struct vk_device *device, const struct rg_kernel *kern
     return ok;
 }
 
+const VkSpecializationInfo *vk_constants(const struct vk_device *device)
+{
+    static const VkSpecializationMapEntry first = {0, 0, sizeof(VkBool32)};
+    static const VkBool32 filters[] = {VK_FALSE, VK_TRUE};
+    static const VkSpecializationInfo infos[] = {{1, &first, sizeof(filters[0]), &filters[0]},
+                                                 {1, &first, sizeof(filters[0]), &filters[1]}};
+    return device->pub.info.native ? &infos[vk_filters_depth(device)] : NULL;
+}
+
 static bool create_pipeline(struct vk_device *device, const struct rg_kernel *kernel,
                             struct vk_pass *pass)
 {
@@ -41,7 +50,8 @@ static bool create_pipeline(struct vk_device *device, const struct rg_kernel *ke
         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                   .module = module,
-                  .pName = "main"},
+                  .pName = "main",
+                  .pSpecializationInfo = vk_constants(device)},
         .layout = pass->layout,
     };
     bool ok = vk_try("kernel", kernel->name, vkCreateComputePipelines, device->handle, pass->cache,

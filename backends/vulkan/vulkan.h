@@ -46,6 +46,9 @@ struct vk_batch {
     bool recording, in_flight;
 };
 
+// What an instance is opened with: nothing more, VK_EXT_debug_utils, or the validation layer too.
+enum vk_debug { VK_UNNAMED, VK_NAMED, VK_VALIDATED };
+
 // An instance, and the validation layer's complaints about our calls if RG_VK_VALIDATION=1.
 struct vk_instance {
     VkInstance handle;
@@ -95,8 +98,11 @@ struct vk_device {
     struct vk_framebuffer *framebuffers;                          // likewise; a list
     struct rg_buf *no_samples; // bound by draws that count nothing; made with the first DRAW pass
     struct rg_image *no_depth;
-    struct vk_fixed *fixed;                    // made by the first draw of a fixed function
-    PFN_vkSetDebugUtilsObjectNameEXT set_name; // NULL without the validation layer
+    struct vk_fixed *fixed; // made by the first draw of a fixed function
+    // All NULL unless the validation layer or RG_LABELS=1 is asked for.
+    PFN_vkSetDebugUtilsObjectNameEXT set_name;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_group;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_group;
 };
 
 struct vk_buf {
@@ -148,7 +154,8 @@ struct vk_pass {
 
 // api/instance.c
 // Opens an instance, with the validation layer if `validate`. `why` receives one line on failure.
-bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, size_t why_size);
+bool vk_instance_open(struct vk_instance *instance, enum vk_debug debug, char *why,
+                      size_t why_size);
 void vk_instance_close(struct vk_instance *instance);
 // backend->functions
 int vk_functions(struct rg_device *device, const void **functions, int max);
@@ -180,8 +187,11 @@ bool vk_check(VkResult result, const char *call, const char *noun, const char *n
 #define vk_try(noun, name, function, ...) vk_check(function(__VA_ARGS__), #function, noun, name)
 // False if the validation layer has complained since the last call.
 bool vk_healthy(struct vk_device *device);
-// Gives an object its name in the validation layer.
+// Gives an object its name in the validation layer and in debuggers.
 void vk_name(struct vk_device *device, VkObjectType type, uint64_t handle, const char *name);
+// Names the commands between the two there.
+void vk_group_begin(const struct vk_device *device, const struct vk_batch *batch, const char *name);
+void vk_group_end(const struct vk_device *device, const struct vk_batch *batch);
 #define VK_HANDLE(handle) ((uint64_t)(uintptr_t)(handle))
 
 // api/memory.c
@@ -199,6 +209,8 @@ bool vk_memory_is_direct(const VkPhysicalDeviceMemoryProperties *memory);
 // api/sampler.c
 bool vk_samplers_create(struct vk_device *device);
 void vk_samplers_destroy(struct vk_device *device);
+// Whether samplers that compare weigh four answers.
+bool vk_filters_depth(const struct vk_device *device);
 
 // api/batch.c
 bool vk_batches_create(struct vk_device *device);
@@ -243,6 +255,7 @@ void vk_image_destroy(struct rg_image *image);
 bool vk_image_write(struct rg_image *image, int layer, int level, const void *texels);
 bool vk_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool vk_image_clear(struct rg_image *image, const void *texel);
+bool vk_image_make_levels(struct rg_image *image, int first);
 
 // slots.c
 // Creates the layouts of pass->slots.
@@ -280,6 +293,9 @@ void vk_target_forget(struct vk_device *device, struct vk_image *image);
 void vk_targets_close(struct vk_device *device);
 
 // program.c
+// What a shader's constants are on this device: the first is whether its samplers filter depths
+// (kernels/build/flatten.py). Only shaders of native devices have any.
+const VkSpecializationInfo *vk_constants(const struct vk_device *device);
 // Compiles a pass's shaders: false, and one logged line, on failure. Destroying also accepts a
 // partly made pass.
 bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
@@ -313,7 +329,7 @@ void vk_draw_close(struct vk_device *device); // frees what passes share, before
 bool vk_queries_prepare(struct vk_device *device, const struct vk_batch *batch, int count);
 // Records the draws of a render pass, each in its query, and then the copy of their results.
 void vk_draw_queries(const struct vk_device *device, const struct vk_batch *batch,
-                     const struct rg_packed *packed);
+                     const struct rg_run *run);
 void vk_answer_queries(const struct vk_device *device, const struct vk_batch *batch,
                        const struct rg_run *run);
 void vk_queries_close(struct vk_device *device);

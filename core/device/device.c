@@ -154,7 +154,7 @@ static struct rg_device *create(const struct rg_backend *backend, int index, boo
     return device;
 }
 
-// Rounds and blends as the driver does; no program counts by the API's queries yet.
+// Rounds and blends as the driver does.
 static void tell_native(struct rg_device *device)
 {
     struct rg_device_info *info = &device->info;
@@ -162,7 +162,6 @@ static void tell_native(struct rg_device *device)
     snprintf(info->name + length, sizeof(info->name) - length, ":native");
     rg_question_note(device, "native");
     info->tier = RG_T2;
-    info->limits.has_queries = false;
 }
 
 struct rg_device *rg_device_open(const char *name)

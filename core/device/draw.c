@@ -55,6 +55,22 @@ static void leave_out_packing(struct rg_work *work, const struct rg_work *asked)
     work->bytes_read = asked->bytes_read;
 }
 
+// The items of a native device's draw: all, or those of as many queries as there are.
+static int native_batch(const struct rg_run *run)
+{
+    const int64_t most = (int64_t)run->draw->items_a_query * RG_MAX_QUERIES;
+    return most && most < run->extent.width ? (int)most : run->extent.width;
+}
+
+static void number_queries(struct rg_run *part, const rg_draw_state *state)
+{
+    const int whole = part->draw->items_a_query;
+    if (!whole)
+        return;
+    part->queries = (state->item_end - state->item_begin + whole - 1) / whole;
+    part->first_query = state->item_begin / whole;
+}
+
 bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)
 {
     if (!rg_run_check(pass, run) || !rg_target_check(pass, run) ||
@@ -71,11 +87,13 @@ bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)
     const struct rg_work asked = *pass->device->work;
     const int items = run->extent.width;
     const int whole = run->draw->items_a_query;
-    const int batch = packed ? rg_packing_prepare(pass, items, whole, &state.capacity) : items;
+    const int batch =
+        packed ? rg_packing_prepare(pass, items, whole, &state.capacity) : native_batch(run);
     for (int64_t done = 0; batch && done < items; done += batch) {
         state.item_begin = run->origin.width + (int)done;
         state.item_end = state.item_begin + (items - done < batch ? (int)(items - done) : batch);
         memcpy(call, &state, sizeof(state));
+        number_queries(&part, &state);
         if (!(packed ? rg_packing_run(pass, &part, &state) : rg_dispatch(pass, &part)))
             return false;
     }

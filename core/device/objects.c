@@ -246,6 +246,23 @@ bool rg_image_clear(struct rg_image *image, const void *texel)
     return is_counting(image->device) || image->device->backend->image_clear(image, texel);
 }
 
+bool rg_image_makes_levels(const struct rg_image *image)
+{
+    const struct rg_device_info *info = &image->device->info;
+    return info->native && info->limits.formats[image->desc.format].uses & RG_USE_FILTER;
+}
+
+bool rg_image_make_levels(struct rg_image *image, int first)
+{
+    require(rg_image_makes_levels(image), "image '%s': device '%s' makes no levels of %s",
+            image->name, image->device->info.name, rg_format_name(image->desc.format));
+    require(first >= 1 && first <= image->desc.levels,
+            "image '%s': no level %d is made of another; it has %d levels", image->name, first,
+            image->desc.levels);
+    rg_doing_begin("making levels of image", image->name);
+    return is_counting(image->device) || image->device->backend->image_make_levels(image, first);
+}
+
 struct rg_image *rg_image_create_with(struct rg_device *device, const struct rg_image_desc *desc,
                                       const void *texel, const char *name)
 {

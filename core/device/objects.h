@@ -28,5 +28,9 @@ void rg_image_destroy(struct rg_image *image);
 bool rg_image_write(struct rg_image *image, int layer, int level, const void *texels);
 bool rg_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool rg_image_clear(struct rg_image *image, const void *texel);
+// Whether the driver can make an image's levels: it does on native devices (docs/native.md).
+// rg_image_make_levels has it make every level from `first` on, each from the one above.
+bool rg_image_makes_levels(const struct rg_image *image);
+bool rg_image_make_levels(struct rg_image *image, int first);
 
 #endif

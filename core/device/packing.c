@@ -138,16 +138,11 @@ static bool draw_packed(struct rg_pass *pass, const struct rg_run *run, const rg
                         int chunks)
 {
     const struct rg_packing *packing = pass->device->packing;
-    struct rg_packed args = {packing->prims, packing->args, state->capacity, NULL, 0, 0};
-    const int whole = run->draw->items_a_query;
-    if (whole) {
-        args.query_args = packing->query_args;
-        args.queries = (state->item_end - state->item_begin + whole - 1) / whole;
-        args.first_query = state->item_begin / whole;
-        if (!find_ranges(packing, chunks, pass->kernel->draw->corners, whole / RG_DRAW_CHUNK,
-                         args.queries))
-            return false;
-    }
+    const struct rg_packed args = {packing->prims, packing->args, state->capacity,
+                                   run->queries ? packing->query_args : NULL};
+    if (run->queries && !find_ranges(packing, chunks, pass->kernel->draw->corners,
+                                     run->draw->items_a_query / RG_DRAW_CHUNK, run->queries))
+        return false;
     struct rg_run packed = *run;
     packed.packed = &args;
     packed.origin.width = state->item_begin;

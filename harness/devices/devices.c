@@ -192,6 +192,25 @@ bool rg_devices_are_apart(const struct rg_device_info *a, const struct rg_device
            rg_drivers_are_apart(a, of_a.environment, b, of_b.environment);
 }
 
+static struct rg_device_name read_name(const char *name)
+{
+    struct rg_device_name read = {0};
+    rg_device_name_read(&name, &read);
+    return read;
+}
+
+bool rg_devices_choose_drivers(const char *a, const char *b)
+{
+    const struct rg_device_name of_a = read_name(a), of_b = read_name(b);
+    return rg_drivers_are_chosen_apart(of_a.full, of_a.environment, of_b.full, of_b.environment);
+}
+
+void rg_devices_settings(const char *now, const char *then, char *text, size_t size)
+{
+    const struct rg_device_name is = read_name(now), was = read_name(then);
+    rg_drivers_settings(is.environment, was.environment, text, size);
+}
+
 // Short names must be unique, and two devices with different drivers in their names must run
 // different ones.
 static bool are_apart(const struct rg_devices *devices)

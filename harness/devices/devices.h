@@ -49,6 +49,10 @@ int rg_devices_exit(const struct rg_devices *devices);
 // Whether two devices may be compared (harness/devices/drivers/apart.h). False, and one logged
 // line, if both run one driver though their names choose two.
 bool rg_devices_are_apart(const struct rg_device_info *a, const struct rg_device_info *b);
+// The same of two valid names: whether they choose two drivers of one API, and the settings by
+// which they differ besides.
+bool rg_devices_choose_drivers(const char *a, const char *b);
+void rg_devices_settings(const char *now, const char *then, char *text, size_t size);
 // Closes the devices; false on a leak, or if a driver crashes meanwhile.
 bool rg_devices_close(struct rg_devices *devices);
 // Closes them at the end of a command with status `exit`; returns its final enum rg_exit.

@@ -55,6 +55,15 @@ VERSION = """#version 450 core
 #endif
 """
 
+# Of native devices: whether the driver's samplers filter depths, which OpenGL's do, and Vulkan's where RG_USE_FILTER
+# says so (backends/vulkan/program.c).
+NATIVE = """#ifdef VULKAN
+layout(constant_id = 0) const bool rg_filters_depth = true;
+#else
+const bool rg_filters_depth = true;
+#endif
+"""
+
 # A fragment's colour. Where RG_BLENDS is defined the program blends by itself, with what its pixel holds, and the API has the
 # driver run a pixel's fragments in their order.
 FRAGMENT = """#ifdef RG_BLENDS
@@ -294,7 +303,7 @@ def flatten(job):
     if language == "GLSL":
         try:
             text = add_varyings(add_struct_readers(make_precise(quotients.rewrite(text))))
-            text = VERSION + (FRAGMENT if shell.endswith(".frag") and not is_native else "") + text
+            text = VERSION + (NATIVE if is_native else FRAGMENT if shell.endswith(".frag") else "") + text
         except quotients.Refused as refused:
             return needs, f"{header}: {refused}"
     write_if_changed(output, text)

@@ -63,13 +63,18 @@ RG_FN int scenery_shadow_texel(float at, int size)
 
 #if RG_NATIVE
 
-// The driver compares.
-RG_FN float scenery_shadow_tap(rg_ctx rg, scenery_shadow_place place, int x, int y)
+// The driver compares, at a place in texels; between their centres it weighs four answers if its
+// samplers filter depths.
+RG_FN float scenery_shadow_at(rg_ctx rg, scenery_shadow_place place, float x, float y)
 {
     float over = 1.0f / rg_to_float(shadows_width(rg, 0));
-    vec4 at = vec4((rg_to_float(x) + 0.5f) * over, (rg_to_float(y) + 0.5f) * over,
-                   rg_to_float(place.layer), place.depth);
+    vec4 at = vec4(x * over, y * over, rg_to_float(place.layer), place.depth);
     return textureGrad(shadows_sampler, at, vec2(0.0f), vec2(0.0f));
+}
+
+RG_FN float scenery_shadow_tap(rg_ctx rg, scenery_shadow_place place, int x, int y)
+{
+    return scenery_shadow_at(rg, place, rg_to_float(x) + 0.5f, rg_to_float(y) + 0.5f);
 }
 
 #else
@@ -92,12 +97,14 @@ RG_FN float scenery_unshadowed(rg_ctx rg, scenery_light l, v3 at)
     return 1.0f - rg_to_float(place.known) * (1.0f - lit);
 }
 
-// The same interpolated between four texels, 0 to 1: for surfaces, on which a shadow's edge is
-// seen.
-RG_FN float scenery_unshadowed_soft(rg_ctx rg, scenery_light l, v3 at)
+// The same interpolated between four texels, 0 to 1.
+RG_FN float scenery_shadow_soft(rg_ctx rg, scenery_shadow_place place)
 {
+#if RG_NATIVE
+    if (rg_filters_depth)
+        return scenery_shadow_at(rg, place, place.x, place.y);
+#endif
     int size = shadows_width(rg, 0);
-    scenery_shadow_place place = scenery_shadow_locate(l, at, size);
     float x = rg_clamp(place.x, 0.0f, rg_to_float(size)) - 0.5f;
     float y = rg_clamp(place.y, 0.0f, rg_to_float(size)) - 0.5f;
     int left = scenery_shadow_texel(rg_floor(x), size);
@@ -110,7 +117,15 @@ RG_FN float scenery_unshadowed_soft(rg_ctx rg, scenery_light l, v3 at)
                   scenery_shadow_tap(rg, place, right, above) * fx;
     float lower = scenery_shadow_tap(rg, place, left, below) * (1.0f - fx) +
                   scenery_shadow_tap(rg, place, right, below) * fx;
-    return place.known != 0 ? upper * (1.0f - fy) + lower * fy : 1.0f;
+    return upper * (1.0f - fy) + lower * fy;
+}
+
+// For surfaces, on which a shadow's edge is seen.
+RG_FN float scenery_unshadowed_soft(rg_ctx rg, scenery_light l, v3 at)
+{
+    scenery_shadow_place place = scenery_shadow_locate(l, at, shadows_width(rg, 0));
+    float lit = scenery_shadow_soft(rg, place);
+    return place.known != 0 ? lit : 1.0f;
 }
 
 // The point to ask about for a point of a surface. It lies two texels' width off the surface, along

@@ -7,26 +7,27 @@
 #ifndef RG_KERNELS_SCENERY_TEXTURE_H
 #define RG_KERNELS_SCENERY_TEXTURE_H
 
-// The nearest level, if `texels` is the square of a pixel's width in texels of level 0: log2 of the
-// width, rounded, from the exponent of twice its square.
-RG_FN int scenery_texture_level(float texels, int last_level)
-{
-    uint bits = rg_float_bits(rg_clamp(texels + texels, 1.0f, 1e9f)) - 0x3f800000u;
-    return rg_imin(rg_to_int(bits >> 24), last_level);
-}
-
+// In all of these `texels` is the square of a pixel's width in texels of level 0.
 #if RG_NATIVE
 
-// The driver filters.
+// The driver filters, between two levels too: a pixel's width lies between those of their texels.
 RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
                            int last_level)
 {
-    float level = rg_to_float(scenery_texture_level(texels, last_level));
+    float level = 0.5f * log2(rg_clamp(texels, 1.0f, 1e9f));
     vec4 t = textureLod(textures_sampler, vec3(u, v, rg_to_float(layer)), level);
     return rg_rgba(t.x * t.x, t.y * t.y, t.z * t.z, t.w);
 }
 
 #else
+
+// The nearest level: log2 of a pixel's width in texels of level 0, rounded, from the exponent of
+// twice its square.
+RG_FN int scenery_texture_level(float texels, int last_level)
+{
+    uint bits = rg_float_bits(rg_clamp(texels + texels, 1.0f, 1e9f)) - 0x3f800000u;
+    return rg_imin(rg_to_int(bits >> 24), last_level);
+}
 
 // Channels r and b in one word, g and a in another, each in 16 bits.
 RG_STRUCT(scenery_texel)

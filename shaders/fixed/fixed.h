@@ -200,6 +200,9 @@ struct rg_fixed_draw {
     size_t changed; // offset of the neighbour's field
     int to;         // its other value
     const char *field;
+    // How many codes two drivers' channels may differ by, after the APIs' rules for weights of 8
+    // bits; 0: no bound is known. Only draws that leave RGBA8 alone have a bound.
+    int steps;
 };
 
 extern const struct rg_fixed_draw rg_fixed_draws[];
@@ -290,6 +293,8 @@ enum { RG_FIXED_PICTURE_BYTES = 1 << 20 }; // enough room for every draw
 void *rg_fixed_part(struct rg_fixed_picture *picture, size_t size);
 // Notes whether the last part, of texels of `texel` bytes, is constant.
 void rg_fixed_look(struct rg_fixed_picture *picture, size_t size, size_t texel);
+// The largest difference of two pictures' bytes; INT_MAX: they have other sizes.
+int rg_fixed_steps(const void *a, size_t size_a, const void *b, size_t size_b);
 // Notes what the device lacks, and returns true, since nothing failed.
 bool rg_fixed_lacks(struct rg_fixed_picture *picture, const char *what);
 

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,6 +70,25 @@ static void textures_fit_their_room(void **state)
         for (int level = 0; s->texels && level < rg_fixed_levels(s); level++)
             assert_at_most(rg_fixed_make_texels(s, 0, level, texels), sizeof(texels));
     }
+}
+
+// What may differ is compared byte by byte, so that such draws leave codes of 8 bits and no more.
+static void steps_are_of_codes(void **state)
+{
+    (void)state;
+    int allowed = 0;
+    for (int i = 0; i < rg_fixed_count(); i++) {
+        const struct rg_fixed_state *s = &rg_fixed_draws[i].state;
+        const bool is_of_codes = s->format == RG_FIXED_RGBA8 && !s->depth && !s->stores &&
+                                 !s->counts && !s->feedback && !s->queries;
+        allowed += rg_fixed_draws[i].steps > 0;
+        assert_true(!rg_fixed_draws[i].steps || is_of_codes);
+    }
+    assert_int_equal(allowed, 5);
+    assert_int_equal(rg_fixed_steps("ab\xf0", 3, "ab\xf0", 3), 0);
+    assert_int_equal(rg_fixed_steps("ab\xf0", 3, "cb\xef", 3), 2);
+    assert_int_equal(rg_fixed_steps("\x01", 1, "\xff", 1), 254);
+    assert_int_equal(rg_fixed_steps("ab", 2, "ab\xf0", 3), INT_MAX);
 }
 
 static void closed_cases_are_of_draws(void **state)
@@ -162,11 +182,9 @@ static int close_device(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest of_table[] = {
-        cmocka_unit_test(neighbours_differ_in_one_field),
-        cmocka_unit_test(shaders_are_there),
-        cmocka_unit_test(textures_fit_their_room),
-        cmocka_unit_test(closed_cases_are_of_draws),
-        cmocka_unit_test(pairs_are_judged),
+        cmocka_unit_test(neighbours_differ_in_one_field), cmocka_unit_test(shaders_are_there),
+        cmocka_unit_test(textures_fit_their_room),        cmocka_unit_test(steps_are_of_codes),
+        cmocka_unit_test(closed_cases_are_of_draws),      cmocka_unit_test(pairs_are_judged),
     };
     const struct CMUnitTest of_device[] = {
         cmocka_unit_test_setup_teardown(draws_are_told_from_their_neighbours, open_device,

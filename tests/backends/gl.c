@@ -134,6 +134,47 @@ static void a_kernel_that_does_not_compile_is_one_line(void **state)
     assert_int_equal(rg_failure_take().fault, RG_FAULT_DRIVER);
 }
 
+// The groups that were open one in another, and all that were opened, as the driver tells them.
+static struct {
+    int open, most_open, ended;
+    char last[64];
+} groups;
+
+static void APIENTRY note_group(GLenum source, GLenum type, GLuint id, GLenum severity,
+                                GLsizei length, const GLchar *message, const void *user)
+{
+    (void)source, (void)id, (void)severity, (void)length, (void)user;
+    groups.open += type == GL_DEBUG_TYPE_PUSH_GROUP;
+    groups.most_open = groups.open > groups.most_open ? groups.open : groups.most_open;
+    if (type == GL_DEBUG_TYPE_PUSH_GROUP)
+        snprintf(groups.last, sizeof(groups.last), "%s", message);
+    groups.open -= type == GL_DEBUG_TYPE_POP_GROUP;
+    groups.ended += type == GL_DEBUG_TYPE_POP_GROUP;
+}
+
+// A run of a kernel is a group of its name if RG_LABELS asks for it.
+static void runs_are_named_for_debuggers(void **state)
+{
+    (void)state;
+    for (int asked = 0; asked < 2; asked++) {
+        if (asked)
+            setenv("RG_LABELS", "1", 1);
+        struct rg_device *device = rg_device_open("gl");
+        unsetenv("RG_LABELS");
+        assert_non_null(device);
+        glDebugMessageCallback(note_group, NULL);
+        glDebugMessageControl(GL_DEBUG_SOURCE_APPLICATION, GL_DONT_CARE, GL_DONT_CARE, 0, NULL,
+                              GL_TRUE);
+        memset(&groups, 0, sizeof(groups));
+        walk(device, 3, 5);
+        assert_int_equal(groups.ended, 3 * asked);
+        assert_int_equal(groups.most_open, asked);
+        assert_int_equal(groups.open, 0);
+        assert_string_equal(groups.last, asked ? "probe_copy" : "");
+        assert_true(rg_device_close(device));
+    }
+}
+
 static void a_program_that_does_not_link_is_one_line(void **state)
 {
     const struct text texts[] = {
@@ -348,6 +389,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(a_sync_waits_for_the_driver, open_device, close_device),
         cmocka_unit_test_setup_teardown(what_the_driver_refuses_is_one_line, open_device,
                                         close_device),
+        cmocka_unit_test(runs_are_named_for_debuggers),
         cmocka_unit_test(drivers_are_silent),
     };
     const struct CMUnitTest without_driver[] = {

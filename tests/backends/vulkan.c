@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "backends/vulkan/vulkan.h"
 #include "core/base/log.h"
 #include "core/base/outcome.h"
 #include "core/device/device.h"
@@ -193,6 +194,71 @@ static void complaints_of_validation_fail_calls(void **state)
     free(code.bytes);
 }
 
+// The groups that were begun, in the place of the layer's functions.
+static int open_groups, begun_groups;
+static char last_group[64];
+
+static void VKAPI_CALL begin_group(VkCommandBuffer commands, const VkDebugUtilsLabelEXT *label)
+{
+    (void)commands;
+    open_groups++;
+    begun_groups++;
+    snprintf(last_group, sizeof(last_group), "%s", label->pLabelName);
+}
+
+static void VKAPI_CALL end_group(VkCommandBuffer commands)
+{
+    (void)commands;
+    open_groups--;
+}
+
+// A run of a kernel is a group of its name where RG_LABELS or validation asks for it.
+static void runs_are_named_for_debuggers(void **state)
+{
+    (void)state;
+    unsetenv("RG_VK_VALIDATION");
+    for (int asked = 0; asked < 2; asked++) {
+        if (asked)
+            setenv("RG_LABELS", "1", 1);
+        struct rg_device *device = rg_device_open("vulkan");
+        struct vk_device *vk = (struct vk_device *)device;
+        unsetenv("RG_LABELS");
+        assert_non_null(device);
+        assert_int_equal(asked, vk->set_name && vk->begin_group && vk->end_group);
+        if (asked) {
+            vk->begin_group = begin_group;
+            vk->end_group = end_group;
+        }
+        struct rg_buf *a = rg_buf_create(device, 4, "a"), *b = rg_buf_create(device, 4, "b");
+        struct rg_pass *pass = rg_pass_create(device, "probe_copy");
+        assert_true(a && b && pass && rg_buf_write(a, 0, &asked, 4) && run_copy(pass, a, b, 1, 3) &&
+                    run_copy(pass, b, a, 1, 3) && rg_device_sync(device));
+        assert_int_equal(begun_groups, 2 * asked);
+        assert_int_equal(open_groups, 0);
+        assert_string_equal(last_group, asked ? "probe_copy" : "");
+        rg_pass_destroy(pass);
+        rg_buf_destroy(a);
+        rg_buf_destroy(b);
+        assert_true(rg_device_close(device));
+    }
+    setenv("RG_VK_VALIDATION", "1", 1);
+}
+
+// A complaint about commands of a run names its kernel: nothing is bound that could be dispatched.
+static void complaints_name_the_kernel(void **state)
+{
+    struct vk_device *vk = *state;
+    struct vk_batch *batch = vk_record(vk);
+    assert_non_null(batch);
+    vk_group_begin(vk, batch, "our kernel");
+    vkCmdDispatch(batch->commands, 1, 1, 1);
+    vk_group_end(vk, batch);
+    assert_false(vk_healthy(vk));
+    assert_non_null(strstr(rg_last_error(), "Vulkan validation: kernel 'our kernel': "));
+    rg_failure_take();
+    batch->recording = false; // it is never submitted
+}
+
 static void drivers_that_are_named_and_are_not_there_fail(void **state)
 {
     (void)state;
@@ -232,6 +298,8 @@ int main(void)
         SILENT(time_never_goes_back),
         LOUD(files_that_are_no_spirv_are_refused),
         LOUD(complaints_of_validation_fail_calls),
+        LOUD(complaints_name_the_kernel),
+        cmocka_unit_test(runs_are_named_for_debuggers),
         cmocka_unit_test(drivers_that_are_named_and_are_not_there_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -74,9 +74,26 @@ bool gl_check_reported(struct gl_device *device, const char *call, const char *k
     return !device->fault[0] || gl_check(device, call, kind, name);
 }
 
+// The length of a label, as far as every driver takes one.
+static GLsizei length_of(const char *name)
+{
+    const size_t longest = 255, length = strlen(name);
+    return (GLsizei)(length < longest ? length : longest);
+}
+
 void gl_label(GLenum type, GLuint id, const char *name)
 {
-    const size_t longest = 255; // accepted by every driver
-    size_t length = strlen(name);
-    glObjectLabel(type, id, (GLsizei)(length < longest ? length : longest), name);
+    glObjectLabel(type, id, length_of(name), name);
+}
+
+void gl_group_begin(const struct gl_device *device, const char *name)
+{
+    if (device->labels)
+        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, length_of(name), name);
+}
+
+void gl_group_end(const struct gl_device *device)
+{
+    if (device->labels)
+        glPopDebugGroup();
 }

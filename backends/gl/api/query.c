@@ -28,23 +28,31 @@ static void *at_byte(size_t offset)
 // The driver writes results when it has them, so that nobody waits.
 static void answer(const struct gl_queries *queries, const struct rg_run *run)
 {
-    const struct rg_packed *packed = run->packed;
     glMemoryBarrier(GL_QUERY_BUFFER_BARRIER_BIT);
     glBindBuffer(GL_QUERY_BUFFER, ((const struct gl_buf *)run->draw->samples)->id);
-    for (int i = 0; i < packed->queries; i++)
+    for (int i = 0; i < run->queries; i++)
         glGetQueryObjectuiv(queries->ids[i], GL_QUERY_RESULT,
-                            at_byte(4 * ((size_t)packed->first_query + (size_t)i)));
+                            at_byte(4 * ((size_t)run->first_query + (size_t)i)));
     glBindBuffer(GL_QUERY_BUFFER, 0);
+}
+
+static void draw_query(const struct rg_run *run, int query)
+{
+    const struct rg_items items = rg_query_items(run, query);
+    if (run->packed)
+        glDrawArraysIndirect(GL_TRIANGLES, at_byte(16 * (size_t)query));
+    else
+        glDrawArrays(GL_POINTS, items.first, items.count);
 }
 
 bool gl_draw_queries(struct gl_device *device, const struct rg_kernel *kernel,
                      const struct rg_run *run)
 {
-    if (!make_queries(&device->queries, run->packed->queries))
+    if (!make_queries(&device->queries, run->queries))
         return false;
-    for (int i = 0; i < run->packed->queries; i++) {
+    for (int i = 0; i < run->queries; i++) {
         glBeginQuery(GL_SAMPLES_PASSED, device->queries.ids[i]);
-        glDrawArraysIndirect(GL_TRIANGLES, at_byte(16 * (size_t)i));
+        draw_query(run, i);
         glEndQuery(GL_SAMPLES_PASSED);
     }
     answer(&device->queries, run);

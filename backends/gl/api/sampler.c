@@ -9,8 +9,8 @@ static void set_state(GLuint view, enum rg_sampler sampling)
     const GLint wrap = sampling == RG_SAMPLED_TILED ? GL_REPEAT : GL_CLAMP_TO_EDGE;
     const bool compares = sampling == RG_SAMPLED_SHADOW;
     glTextureParameteri(view, GL_TEXTURE_MIN_FILTER,
-                        compares ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
-    glTextureParameteri(view, GL_TEXTURE_MAG_FILTER, compares ? GL_NEAREST : GL_LINEAR);
+                        compares ? GL_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(view, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(view, GL_TEXTURE_WRAP_S, wrap);
     glTextureParameteri(view, GL_TEXTURE_WRAP_T, wrap);
     if (compares) {

@@ -77,3 +77,17 @@ void vk_name(struct vk_device *device, VkObjectType type, uint64_t handle, const
                                              VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
                                              NULL, type, handle, name});
 }
+
+void vk_group_begin(const struct vk_device *device, const struct vk_batch *batch, const char *name)
+{
+    if (device->begin_group)
+        device->begin_group(batch->commands, &(VkDebugUtilsLabelEXT){
+                                                 .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                                 .pLabelName = name});
+}
+
+void vk_group_end(const struct vk_device *device, const struct vk_batch *batch)
+{
+    if (device->end_group)
+        device->end_group(batch->commands);
+}

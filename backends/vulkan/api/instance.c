@@ -17,7 +17,11 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBi
     (void)types;
     struct vk_instance *instance = user;
     instance->complaints++;
-    rg_driver_error("Vulkan validation: %s", data->pMessage);
+    if (data->cmdBufLabelCount)
+        rg_driver_error("Vulkan validation: kernel '%s': %s", data->pCmdBufLabels[0].pLabelName,
+                        data->pMessage);
+    else
+        rg_driver_error("Vulkan validation: %s", data->pMessage);
     return VK_FALSE;
 }
 
@@ -35,8 +39,9 @@ static VkDebugUtilsMessengerCreateInfoEXT messenger_info(struct vk_instance *ins
     };
 }
 
-static VkResult create_instance(struct vk_instance *instance, bool validate)
+static VkResult create_instance(struct vk_instance *instance, enum vk_debug debug)
 {
+    const bool validate = debug == VK_VALIDATED;
     static const char *const layers[] = {"VK_LAYER_KHRONOS_validation"};
     static const char *const extensions[] = {"VK_EXT_debug_utils", "VK_EXT_validation_features"};
     static const VkValidationFeatureEnableEXT enabled[] = {
@@ -59,7 +64,7 @@ static VkResult create_instance(struct vk_instance *instance, bool validate)
         .pApplicationInfo = &application,
         .enabledLayerCount = validate,
         .ppEnabledLayerNames = layers,
-        .enabledExtensionCount = validate ? 2 : 0,
+        .enabledExtensionCount = debug,
         .ppEnabledExtensionNames = extensions,
     };
     VkResult result = vkCreateInstance(&info, NULL, &instance->handle);
@@ -74,9 +79,13 @@ static VkResult create_instance(struct vk_instance *instance, bool validate)
     return result;
 }
 
-static void say_no_instance(VkResult result, char *why, size_t why_size)
+static void say_no_instance(VkResult result, enum vk_debug debug, char *why, size_t why_size)
 {
-    if (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT)
+    if (result == VK_ERROR_EXTENSION_NOT_PRESENT && debug == VK_NAMED)
+        snprintf(why, why_size,
+                 "no VK_EXT_debug_utils for RG_LABELS=1: vkCreateInstance failed with %s; unset it",
+                 vk_result_name(result));
+    else if (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT)
         snprintf(why, why_size,
                  "no validation layer for RG_VK_VALIDATION=1: vkCreateInstance failed with %s; "
                  "the Debian package vulkan-validationlayers brings it",
@@ -86,7 +95,7 @@ static void say_no_instance(VkResult result, char *why, size_t why_size)
                  vk_result_name(result));
 }
 
-bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, size_t why_size)
+bool vk_instance_open(struct vk_instance *instance, enum vk_debug debug, char *why, size_t why_size)
 {
     // Keeps lavapipe and others from announcing themselves on stderr. The 0 keeps the user's own
     // value.
@@ -100,16 +109,16 @@ bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, si
         return false;
     }
     if (instance->result == VK_SUCCESS)
-        instance->result = create_instance(instance, validate);
+        instance->result = create_instance(instance, debug);
     if (instance->result != VK_SUCCESS) {
-        say_no_instance(instance->result, why, why_size);
+        say_no_instance(instance->result, debug, why, why_size);
         instance->handle = VK_NULL_HANDLE;
         return false;
     }
     PFN_vkCreateDebugUtilsMessengerEXT create =
-        validate ? (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
-                       instance->handle, "vkCreateDebugUtilsMessengerEXT")
-                 : NULL;
+        debug == VK_VALIDATED ? (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
+                                    instance->handle, "vkCreateDebugUtilsMessengerEXT")
+                              : NULL;
     const VkDebugUtilsMessengerCreateInfoEXT info = messenger_info(instance);
     if (create)
         create(instance->handle, &info, NULL, &instance->messenger);

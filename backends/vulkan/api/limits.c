@@ -35,6 +35,11 @@ static unsigned uses_of(VkPhysicalDevice device, enum rg_format format, bool dra
         uses |= RG_USE_DRAW;
     if (uses && able & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT)
         uses |= RG_USE_BLEND;
+    const VkFormatFeatureFlags filtered =
+        VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
+        (format != RG_D32F ? VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT : 0);
+    if (uses && (able & filtered) == filtered)
+        uses |= RG_USE_FILTER;
     return uses;
 }
 

@@ -45,13 +45,15 @@ static VkPipelineDepthStencilStateCreateInfo depth_state(enum rg_depth_mode mode
     };
 }
 
-static VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShaderModule module)
+static VkPipelineShaderStageCreateInfo stage(const struct vk_device *device,
+                                             VkShaderStageFlagBits bit, VkShaderModule module)
 {
     return (VkPipelineShaderStageCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
         .stage = bit,
         .module = module,
         .pName = "main",
+        .pSpecializationInfo = vk_constants(device),
     };
 }
 
@@ -100,10 +102,10 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
     const char *name = pass->pub.kernel->name;
     const bool native = device->pub.info.native;
     const VkPipelineShaderStageCreateInfo stages[] = {
-        stage(VK_SHADER_STAGE_VERTEX_BIT, pass->drawing->vertex),
-        stage(VK_SHADER_STAGE_FRAGMENT_BIT,
+        stage(device, VK_SHADER_STAGE_VERTEX_BIT, pass->drawing->vertex),
+        stage(device, VK_SHADER_STAGE_FRAGMENT_BIT,
               state->target.blends ? pass->drawing->blending : pass->drawing->fragment),
-        stage(VK_SHADER_STAGE_GEOMETRY_BIT, pass->drawing->geometry)};
+        stage(device, VK_SHADER_STAGE_GEOMETRY_BIT, pass->drawing->geometry)};
     const VkPipelineInputAssemblyStateCreateInfo assembly = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology =

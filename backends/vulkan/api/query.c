@@ -17,13 +17,22 @@ bool vk_queries_prepare(struct vk_device *device, const struct vk_batch *batch, 
     return true;
 }
 
-void vk_draw_queries(const struct vk_device *device, const struct vk_batch *batch,
-                     const struct rg_packed *packed)
+static void draw_query(VkCommandBuffer commands, const struct rg_run *run, uint32_t query)
 {
-    const VkBuffer args = ((const struct vk_buf *)packed->query_args)->block.buffer;
-    for (uint32_t i = 0; i < (uint32_t)packed->queries; i++) {
+    const struct rg_items items = rg_query_items(run, (int)query);
+    if (run->packed)
+        vkCmdDrawIndirect(commands, ((const struct vk_buf *)run->packed->query_args)->block.buffer,
+                          sizeof(VkDrawIndirectCommand) * query, 1, 0);
+    else
+        vkCmdDraw(commands, (uint32_t)items.count, 1, (uint32_t)items.first, 0);
+}
+
+void vk_draw_queries(const struct vk_device *device, const struct vk_batch *batch,
+                     const struct rg_run *run)
+{
+    for (uint32_t i = 0; i < (uint32_t)run->queries; i++) {
         vkCmdBeginQuery(batch->commands, device->occlusion, i, VK_QUERY_CONTROL_PRECISE_BIT);
-        vkCmdDrawIndirect(batch->commands, args, sizeof(VkDrawIndirectCommand) * i, 1, 0);
+        draw_query(batch->commands, run, i);
         vkCmdEndQuery(batch->commands, device->occlusion, i);
     }
 }
@@ -33,9 +42,9 @@ void vk_answer_queries(const struct vk_device *device, const struct vk_batch *ba
 {
     const VkDeviceSize word = sizeof(uint32_t);
     vk_barrier(batch); // the copy of results is a transfer
-    vkCmdCopyQueryPoolResults(batch->commands, device->occlusion, 0, (uint32_t)run->packed->queries,
+    vkCmdCopyQueryPoolResults(batch->commands, device->occlusion, 0, (uint32_t)run->queries,
                               ((const struct vk_buf *)run->draw->samples)->block.buffer,
-                              word * (VkDeviceSize)run->packed->first_query, word,
+                              word * (VkDeviceSize)run->first_query, word,
                               VK_QUERY_RESULT_WAIT_BIT);
 }
 

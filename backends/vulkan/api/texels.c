@@ -215,3 +215,31 @@ bool vk_image_clear(struct rg_image *image, const void *texel)
         cleared = clear_by_copies(device, image, texel);
     return vk_healthy(device) && cleared;
 }
+
+// --- levels ---
+
+static VkImageBlit blit_of(const struct rg_image_desc *desc, int level)
+{
+    VkImageBlit blit = {
+        .srcSubresource = {vk_aspect(desc->format), (uint32_t)level - 1, 0, (uint32_t)desc->layers},
+        .dstSubresource = {vk_aspect(desc->format), (uint32_t)level, 0, (uint32_t)desc->layers}};
+    blit.srcOffsets[1] = (VkOffset3D){rg_level_size(desc->width, level - 1),
+                                      rg_level_size(desc->height, level - 1), 1};
+    blit.dstOffsets[1] =
+        (VkOffset3D){rg_level_size(desc->width, level), rg_level_size(desc->height, level), 1};
+    return blit;
+}
+
+bool vk_image_make_levels(struct rg_image *image, int first)
+{
+    struct vk_device *device = (struct vk_device *)image->device;
+    const VkImage handle = ((struct vk_image *)image)->handle;
+    struct vk_batch *batch = vk_record(device);
+    for (int level = first; batch && level < image->desc.levels; level++) {
+        const VkImageBlit blit = blit_of(&image->desc, level);
+        vk_barrier(batch);
+        vkCmdBlitImage(batch->commands, handle, VK_IMAGE_LAYOUT_GENERAL, handle,
+                       VK_IMAGE_LAYOUT_GENERAL, 1, &blit, VK_FILTER_LINEAR);
+    }
+    return vk_healthy(device) && batch;
+}

@@ -38,10 +38,11 @@ enum {
     RG_ATLAS_LIGHTS = 10, // elevations
     RG_ATLAS_PHIS = 9,    // azimuths
     RG_ATLAS_CELLS = RG_ATLAS_LIGHTS * RG_ATLAS_PHIS,
-    RG_ATLAS_CELL_PX = 32,     // a cell's width in level 0
-    RG_ATLAS_HEIGHT_PX = 3606, // of all five rows in level 0
-    RG_ATLAS_CELL_LEVELS = 6,  // levels 0 to 5 have separate texels for each cell
-    RG_ATLAS_MATERIALS = 4,    // a thin film of water, a puddle, dry asphalt, smooth metal or glass
+    RG_ATLAS_CELL_PX = 32,        // a cell's width in level 0
+    RG_ATLAS_HEIGHT_PX = 3606,    // of all five rows in level 0
+    RG_ATLAS_CELL_LEVELS = 6,     // levels 0 to 5 have separate texels for each cell
+    RG_ATLAS_DATABASE_LEVELS = 4, // the database has the widths of levels 0 to 3
+    RG_ATLAS_MATERIALS = 4, // a thin film of water, a puddle, dry asphalt, smooth metal or glass
     RG_ATLAS_FRAMES = 21,
     RG_ATLAS_MAX_LEVELS = 12,
 };

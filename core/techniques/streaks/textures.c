@@ -28,6 +28,27 @@ static bool write_level(struct rg_image *image, const struct rg_atlas *atlas,
                  : rg_image_write(image, layer, level, rg_atlas_texels(atlas, part, layer, level));
 }
 
+// The levels that a native device is given; its driver makes the others. The thesis takes four of
+// each streak from the database, and has the other eight generated (section 4.3.1).
+static int given_levels(const struct rg_atlas *atlas, enum rg_atlas_part part)
+{
+    const int given = RG_ATLAS_DATABASE_LEVELS - atlas->first_level;
+    return part == RG_ATLAS_SPLASH || given < 1 ? 1 : given;
+}
+
+static bool write_levels(struct rg_image *image, const struct rg_atlas *atlas,
+                         enum rg_atlas_part part)
+{
+    const struct rg_image_desc *desc = &image->desc;
+    const bool makes = rg_image_makes_levels(image);
+    const int given = makes ? given_levels(atlas, part) : desc->levels;
+    bool ok = true;
+    for (int layer = 0; ok && layer < desc->layers; layer++)
+        for (int level = 0; ok && level < given; level++)
+            ok = write_level(image, atlas, part, layer, level);
+    return ok && (!makes || rg_image_make_levels(image, given));
+}
+
 static struct rg_image *upload(struct rg_device *device, const struct rg_atlas *atlas,
                                enum rg_atlas_part part, const char *name)
 {
@@ -35,13 +56,10 @@ static struct rg_image *upload(struct rg_device *device, const struct rg_atlas *
     const struct rg_image_desc desc = {RG_R16F, from->width, from->height, from->layers,
                                        from->levels};
     struct rg_image *image = rg_image_create(device, &desc, name);
-    for (int layer = 0; image && layer < from->layers; layer++)
-        for (int level = 0; image && level < from->levels; level++)
-            if (!write_level(image, atlas, part, layer, level)) {
-                rg_image_destroy(image);
-                image = NULL;
-            }
-    return image;
+    if (image && write_levels(image, atlas, part))
+        return image;
+    rg_image_destroy(image);
+    return NULL;
 }
 
 static struct rg_buf *upload_factors(struct rg_device *device, const struct rg_atlas *atlas)

@@ -20,7 +20,6 @@
 #include "harness/devices/drivers/side.h"
 #include "harness/devices/names.h"
 #include "harness/devices/workers/worker.h"
-#include "harness/measure/serving/fixed.h"
 #include "harness/record/disk/hold.h"
 #include "harness/record/output.h"
 
@@ -36,7 +35,7 @@ struct gate_options {
     char *pictures; // a folder for those that differ; NULL: next to JUnit's file
     struct rg_gtest_asked gtest;
     int64_t memory_bytes;
-    bool pictures_only, fresh, update, partial;
+    bool pictures_only, strict, fresh, update, partial;
     char *shard, *times, *from; // NULL: none
 };
 
@@ -74,6 +73,10 @@ static const struct rg_option options[] = {
          "ends the gate this long after its start, such as 90s or 4m. Cells that are undecided by "
          "then are inconclusive; the gate refuses a time too short for any verdict",
      .offset = AT(budget)},
+    {RG_OPTION_FLAG, "strict",
+     .about = "fails also for a fixed function of B's driver that differs from A's within what the "
+              "APIs allow (docs/native.md)",
+     .offset = AT(strict), .excludes = "against baseline"},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Shards (docs/ci.md)"),
     RG_INCLUDE(rg_shard_option, AT(shard), NULL),
@@ -83,8 +86,9 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
      .about = "runs nothing, and reports what all shards together found, whose -o was DIR",
      .offset = AT(from), .names = RG_NAMES_FILE,
-     .excludes = "against baseline device require timeout cells margin pictures budget fresh shard "
-                 "gtest_filter gtest_list_tests"},
+     .excludes =
+         "against baseline device require timeout cells margin pictures strict budget fresh shard "
+         "gtest_filter gtest_list_tests"},
     {RG_OPTION_FLAG, "partial", .about = "reports even if shards are missing",
      .offset = AT(partial), .excludes = "update"},
     RG_GROUP("Known failures"),
@@ -154,12 +158,14 @@ static bool add_name(const char *cell, const char *device, struct rg_report *rep
     return ok;
 }
 
-static bool add_names(const struct gate_input *in, const char *device, struct rg_report *report)
+static bool add_names(const struct gate_options *o, const struct gate_input *in,
+                      const struct rg_gate_pair *pair, struct rg_report *report)
 {
+    const char *device = pair->names[RG_SIDE_B];
     bool ok = true;
     for (int64_t i = 0; ok && i < in->cells.count; i++)
         ok = add_name(in->cells.cells[i].name, device, report);
-    return ok && (!rg_fixed_kept(in->baseline.passport, device) ||
+    return ok && (!rg_gate_has_fixed(o->baseline ? &in->baseline : NULL, pair) ||
                   add_name(RG_GATE_FIXED, device, report));
 }
 
@@ -168,7 +174,7 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
     struct rg_report report = {.case_count = 0};
     bool ok = true;
     for (int i = 0; ok && i < in->pairs.count; i++)
-        ok = add_names(in, in->pairs.all[i].names[RG_SIDE_B], &report);
+        ok = add_names(o, in, &in->pairs.all[i], &report);
     if (ok)
         rg_gtest_list(stdout, &report, o->gtest.filter ? o->gtest.filter : "*");
     rg_report_free(&report);
@@ -319,6 +325,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
                                       .margin =
                                           o->margin_percent > 0 ? o->margin_percent / 100 : margin,
                                       .pictures_only = o->pictures_only,
+                                      .strict = o->strict,
                                       .filter = o->gtest.filter};
     int exit;
     if (find_shard(o, &request) &&
@@ -515,7 +522,8 @@ const struct rg_command rg_command_gate = {
     .name = "gate",
     .reader = RG_FOR_DRIVERS,
     .usage = "{A B | {--against BINARY | --baseline FILE} [--device D,...|all]} [--require D,...] "
-             "[--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--shard I/N|auto] "
+             "[--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--strict] [--shard "
+             "I/N|auto] "
              "[--expectations FILE]... [--update] [--junit FILE] [--bmf FILE] [--github] [--json]"
              "  |  --from FILE|DIR [--partial] [--junit FILE]...",
     .about =

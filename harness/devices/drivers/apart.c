@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/text/add.h"
 #include "harness/devices/drivers/choice.h"
 #include "harness/devices/workers/environment.h"
 
@@ -35,6 +36,48 @@ static const char *find_difference(const char *a, const char *b)
         if (strcmp(value_of(a, choosing[i]), value_of(b, choosing[i])) != 0)
             return choosing[i];
     return NULL;
+}
+
+static bool are_of_one_api(const char *a, const char *b)
+{
+    const size_t length = strcspn(a, ":@");
+    return length == strcspn(b, ":@") && !strncmp(a, b, length) && strncmp(a, "cpu", length) != 0;
+}
+
+bool rg_drivers_are_chosen_apart(const char *a, const char *settings_a, const char *b,
+                                 const char *settings_b)
+{
+    return are_of_one_api(a, b) && find_difference(settings_a, settings_b);
+}
+
+static bool chooses(const char *variable, size_t length)
+{
+    bool any = false;
+    for (int i = 0; choosing[i]; i++)
+        any = any || (strlen(choosing[i]) == length && !strncmp(choosing[i], variable, length));
+    return any;
+}
+
+// Adds what differs of the variables in `named`, without those in `told`.
+static void add_settings(const char *named, const char *told, const char *now, const char *then,
+                         char *text, size_t size)
+{
+    for (const char *v = named; *v; v += strlen(v) + 1) {
+        char key[128];
+        const size_t length = strcspn(v, "=");
+        snprintf(key, sizeof(key), "%.*s", (int)length, v);
+        const char *is = value_of(now, key), *was = value_of(then, key);
+        if (!chooses(v, length) && !rg_environment_find(told, key) && strcmp(is, was) != 0)
+            rg_text_add(text, size, "; ", "%s %s and not %s", key, *is ? is : "unset",
+                        *was ? was : "unset");
+    }
+}
+
+void rg_drivers_settings(const char *now, const char *then, char *text, size_t size)
+{
+    *text = 0;
+    add_settings(now, "", now, then, text, size);
+    add_settings(then, now, now, then, text, size);
 }
 
 static bool is_all(const struct rg_device_info *a, const struct rg_device_info *b, bool by_build)
@@ -76,13 +119,11 @@ static bool tell_same(const struct rg_device_info *a, const struct rg_device_inf
 bool rg_drivers_are_apart(const struct rg_device_info *a, const char *settings_a,
                           const struct rg_device_info *b, const char *settings_b)
 {
-    const size_t length = strcspn(a->full, ":@");
-    if (length != strcspn(b->full, ":@") || strncmp(a->full, b->full, length) != 0 ||
-        !strncmp(a->full, "cpu", length))
+    if (!are_of_one_api(a->full, b->full))
         return true;
     const char *variable = find_difference(settings_a, settings_b);
     char api[32];
-    snprintf(api, sizeof(api), "%.*s", (int)length, a->full);
+    snprintf(api, sizeof(api), "%.*s", (int)strcspn(a->full, ":@"), a->full);
     if (variable && is_all(a, b, false))
         return tell_same(
             a, b, variable, api,

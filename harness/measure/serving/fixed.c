@@ -65,10 +65,15 @@ static bool take(struct rg_device *device, const struct pair *pair,
     return true;
 }
 
+static struct rg_fixed_picture make_room(void)
+{
+    return (struct rg_fixed_picture){.bytes = rg_alloc(1, RG_FIXED_PICTURE_BYTES, "picture"),
+                                     .room = RG_FIXED_PICTURE_BYTES};
+}
+
 bool rg_fixed_take(struct rg_device *device, int row, struct rg_fixed_told *told)
 {
-    struct rg_fixed_picture picture = {.bytes = rg_alloc(1, RG_FIXED_PICTURE_BYTES, "picture"),
-                                       .room = RG_FIXED_PICTURE_BYTES};
+    struct rg_fixed_picture picture = make_room();
     const struct pair pair = pair_of(row);
     const bool ok = picture.bytes && take(device, &pair, &picture, told);
     free(picture.bytes);
@@ -96,6 +101,49 @@ bool rg_fixed_ask(struct rg_device *device, int row, struct rg_fixed_told *told)
     rg_put_text(&request, device->info.full);
     rg_put_int(&request, row);
     const bool ok = rg_worker_fetch(worker, RG_CALL_FIXED, &request, rg_fixed_fields, told);
+    rg_message_free(&request);
+    return ok;
+}
+
+// --- a picture ---
+
+static const struct rg_field drawn_fields[] = {
+    RG_FIELD_BLOCK(struct rg_fixed_drawn, bytes, size),
+    RG_FIELDS_END,
+};
+
+static bool draw(struct rg_device *device, int row, struct rg_fixed_drawn *drawn)
+{
+    struct rg_fixed_picture picture = make_room();
+    const struct pair pair = pair_of(row);
+    const bool ok =
+        picture.bytes && rg_device_fixed_draw(device, pair.feature, &pair.first, &picture);
+    *drawn = (struct rg_fixed_drawn){picture.bytes, ok ? picture.size : 0};
+    return ok;
+}
+
+bool rg_serve_fixed_picture(struct rg_message *request, struct rg_message *reply)
+{
+    struct rg_fixed_drawn drawn = {0};
+    struct rg_device *device = rg_served_device(rg_take_text(request));
+    const int row = rg_take_index(request, rg_fixed_pairs());
+    const bool ok = device && !request->failed && draw(device, row, &drawn);
+    if (ok)
+        rg_put_fields(reply, drawn_fields, &drawn);
+    free(drawn.bytes);
+    return ok;
+}
+
+bool rg_fixed_show(struct rg_device *device, int row, struct rg_fixed_drawn *drawn)
+{
+    struct rg_worker *worker = rg_remote_worker(device);
+    struct rg_message request = {0};
+    *drawn = (struct rg_fixed_drawn){0};
+    if (!worker)
+        return draw(device, row, drawn);
+    rg_put_text(&request, device->info.full);
+    rg_put_int(&request, row);
+    const bool ok = rg_worker_fetch(worker, RG_CALL_FIXED_PICTURE, &request, drawn_fields, drawn);
     rg_message_free(&request);
     return ok;
 }

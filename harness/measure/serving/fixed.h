@@ -25,8 +25,17 @@ bool rg_fixed_take(struct rg_device *device, int row, struct rg_fixed_told *told
 
 // The same in the device's worker, or here if it has none.
 bool rg_fixed_ask(struct rg_device *device, int row, struct rg_fixed_told *told);
-// After a failure of rg_fixed_ask, which has been logged: takes it, and starts the device's worker
-// again, which may have ended.
+
+// The bytes of a draw's picture; the caller frees them.
+struct rg_fixed_drawn {
+    void *bytes;
+    size_t size;
+};
+// Draws the first of a pair, in the device's worker, or here if it has none. False, and one logged
+// line, on failure.
+bool rg_fixed_show(struct rg_device *device, int row, struct rg_fixed_drawn *drawn);
+// After a failure of rg_fixed_ask or rg_fixed_show, which has been logged: takes it, and starts the
+// device's worker again, which may have ended.
 struct rg_failure rg_fixed_failure(struct rg_device *device);
 
 // Whether a device of which `failed` draws have failed in its driver draws on, with `left` pairs to

@@ -50,6 +50,7 @@ const struct rg_variable rg_variables[] = {
     {"RG_CPU_LEVEL", true},
     {"RG_ENVIRONMENT_DIR", false},
     {"RG_KERNEL_DIR", false},
+    {"RG_LABELS", true},
     {"RG_MODEL_DIR", false},
     {"RG_ROUNDING", true},
     {"RG_VK_VALIDATION", true},

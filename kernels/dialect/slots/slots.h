@@ -22,7 +22,10 @@
 //                            name_between(rg, x, y, layer, level): linear, at a place in texels
 //     TILED                  repeated (kernels/scenery/texture.h)
 //     CUBE                   six layers by direction (dialect/image/cube_light.h)
-//     SHADOW                 depths that are compared (kernels/scenery/shadow.h)
+//     SHADOW                 depths that are compared (kernels/scenery/shadow.h), singly or four at
+//     a
+//                            time: the constant rg_filters_depth says whether the driver weighs
+//                            four
 //   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
 //
 // Slots count from 1, buffers and images together. `rg` is the kernel's context, which every helper

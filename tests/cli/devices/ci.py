@@ -1,6 +1,7 @@
 """gate in CI: the examples of docs/ci unchanged, run by stand-ins for their services, and the requests of googletest's runners."""
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -46,8 +47,9 @@ def drivers(runner, folder, new):
 
 
 def ends_in_xml(path):
+    """The ends of cells. Those of fixed functions depend on the time that is left."""
     return [next((child.tag for child in case if not child.tag.startswith("system")), "pass")
-            for case in xml.etree.ElementTree.parse(path).iter("testcase")]
+            for case in xml.etree.ElementTree.parse(path).iter("testcase") if not case.get("name").startswith("fixed.")]
 
 
 def check_gitlab(runner):
@@ -83,14 +85,15 @@ def check_gitlab_shards(runner):
 def check_github(runner):
     """docs/ci/github.yml: annotations, a summary and files for the upload, whether the gate passes or not"""
     problems = []
-    for new, status, command, head, more in ((runner.misbehaver, "success", ["warning", "notice"], "1 case, 1 inconclusive", [FOLDER]),
-                                             (runner.crasher, "failure", ["error"], "1 case, 1 crash", [FOLDER]),
+    for new, status, command, head, more in ((runner.misbehaver, "success", ["warning", "notice"], "2 cases, (1 inconclusive, 1 pass|2 inconclusive)", [FOLDER]),
+                                             (runner.crasher, "failure", ["error"], "2 cases, 1 crash, 1 unsupported", [FOLDER]),
                                              ("/nonexistent", "failure", ["error"], "1 case, 1 error", [FOLDER])):
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
             found, log, summary, uploaded = undecided(runners.github, runner, folder)
             missing = [row[2] for row in runners.annotations(log) if "--require vulkan: 'vulkan@" in row[2] and "is not there" in row[2]]
-            if found != status or [row[0] for row in runners.annotations(log)] != command or not summary.startswith("## raingauge gate: %s\n" % head) or (
+            told = [row[0] for row in runners.annotations(log) if not row[1].startswith("fixed.")]
+            if found != status or told != command or not re.match("## raingauge gate: %s\n" % head, summary) or (
                     uploaded != ["gate.xml", "gate.json"] + more or len(missing) != (new == "/nonexistent")):
                 problems.append("%s: %s, %s, %s, %s" % (new, found, uploaded, log, summary))
     return problems

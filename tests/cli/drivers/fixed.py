@@ -248,4 +248,66 @@ def updates(runner, files, path):
     return ["update: exit status %d, %s" % (result.returncode, result.stdout)] if missing or result.returncode != 1 else []
 
 
-CHECKS = [check_digests, check_apis, check_switches, check_none, check_text, check_page, check_crash, check_gives_up, check_kept]
+def other_driver(runner, files, *settings):
+    """A device whose driver is another library, in front of lavapipe."""
+    path = files.path("driver.json")
+    with open(path, "w") as file:
+        json.dump({"file_format_version": "1.0.0", "ICD": {"library_path": runner.misbehaver, "api_version": "1.1.0"}}, file)
+    return "new=vulkan@" + ";".join(["VK_DRIVER_FILES=" + path, *settings])
+
+
+def check_drivers(runner):
+    """a gate of two drivers holds the digests of one against the other's: those that the APIs let differ are told and pass, unless the gate
+    is strict; the others fail, unless expectations name them"""
+    problems = []
+    if not passport(runner, "vulkan").get("fixed_functions"):
+        return problems
+    with Files(TORUS) as files:
+        new = other_driver(runner, files)
+
+        def held(built, *args, status=None, device=new):
+            """Gates lavapipe against itself behind another library, which may be built with a setting that its name does not tell."""
+            env = {"XDG_CACHE_HOME": files.path("cache" + built)}  # Mesa keeps code of all settings side by side
+            result = runner.run(["gate", "vulkan", device, "--pictures", "--json", "--cells", files.cells, *args], dict(env, RG_DRIVER_AS=built) if built else env)
+            report = json.loads(result.stdout)
+            told = {case["name"]: (case["ending"], case["message"]) for case in report["gated"] if case["technique"] == "fixed"}
+            if result.returncode != status:
+                problems.append("%s, %s: exit status %d, %s, %s" % (built, args, result.returncode, told, result.stderr))
+            return told
+
+        found = held("", status=0)
+        count = len(passport(runner, "vulkan")["fixed_functions"])
+        if found != {"fixed.new": ("pass", "%d digests are vulkan's" % count)}:
+            problems.append("the same: %s" % found)
+        found = held("LP_PERF=no_linear", status=1)
+        if found["fixed/linear.new"][0] != "differs" or ", which is vulkan's" not in found["fixed/linear.new"][1] or ", and " not in found["fixed.new"][1]:
+            problems.append("far: %s" % found)
+        # Another way to mix texels rounds otherwise.
+        other = "GALLIVM_PERF=no_aos_sampling"
+        found = held(other, status=1)
+        near = {name for name, (_, message) in found.items() if "codes that the APIs allow" in message}
+        if not {"fixed/linear.new", "fixed/array-layers.new"} <= near or any(found[name][0] != "pass" for name in near) or \
+                not re.search("digests are vulkan's, %d differ as the APIs allow, and [0-9]+ are not$" % len(near), found["fixed.new"][1]):
+            problems.append("near: %s" % found)
+        wrong = sorted(name[:-len(".new")] for name, (ending, _) in found.items() if ending == "differs")
+        known = files.path("known.txt", "".join(
+            "fail %s\n  device new\n  outcome fail\n  reason it mixes texels otherwise\n  since 2026-01-01\n  until %s\n" % (name, LATER) for name in wrong))
+        found = held(other, "--expectations", known, status=0)
+        if {ending for ending, _ in found.values()} != {"pass", "expected failure"}:
+            problems.append("expected: %s" % found)
+        found = held(other, "--expectations", known, "--strict", status=1)
+        if {name for name, (ending, _) in found.items() if ending == "differs"} != near:
+            problems.append("strict: %s" % found)
+        # With other settings only the cell is compared.
+        for settings, said in ((("LP_PERF=no_blend",), "LP_PERF no_blend and not unset"), (("LP_NATIVE_VECTOR_WIDTH=128",), "128 bits")):
+            found = held("", status=0, device=other_driver(runner, files, *settings).replace("new=", "other%d=" % len(said)))
+            [(ending, message)] = found.values()
+            if ending != "skipped" or not message.startswith("48 digests are not compared: ") or said not in message:
+                problems.append("%s: %s" % (settings, found))
+        names = runner.run(["gate", "vulkan", new, "--cells", files.cells, "--gtest_list_tests"]).stdout
+        if "fixed" not in names or "fixed" in runner.run(["gate", "vulkan", "vulkan@LP_PERF=no_blend", "--cells", files.cells, "--gtest_list_tests"]).stdout:
+            problems.append("listed: %s" % names)
+    return problems
+
+
+CHECKS = [check_digests, check_apis, check_switches, check_none, check_text, check_page, check_crash, check_gives_up, check_kept, check_drivers]

@@ -4,8 +4,9 @@
 // RG_MISBEHAVE=FUNCTION:HOW:CALLS names the function, the way (one of ways.h, lost or none), and
 // the number of good calls before. All other calls go to the real driver. For Vulkan this library
 // is a driver in front of lavapipe, which the loader finds by a manifest (VK_DRIVER_FILES). It may
-// also change a constant of a shader. For EGL, OpenGL and OpenCL it is loaded before others
-// (LD_PRELOAD). faults.c makes any function fail, but is no driver of its own.
+// also change a constant of a shader, or be another build of lavapipe. For EGL, OpenGL and OpenCL
+// it is loaded before others (LD_PRELOAD). faults.c makes any function fail, but is no driver of
+// its own.
 #define _GNU_SOURCE // for hooks.h
 #include <stdbool.h>
 #include <stdint.h>
@@ -55,6 +56,14 @@ static bool has_vanished(void)
         }
     }
     return is_gone > 0;
+}
+
+// RG_DRIVER_AS=NAME=VALUE: the real driver is as one that is built with this setting.
+__attribute__((constructor)) static void build(void)
+{
+    char *setting = getenv("RG_DRIVER_AS");
+    if (setting)
+        putenv(setting);
 }
 
 // --- functions that are looked up by name ---

@@ -27,6 +27,7 @@ struct rg_gate_request {
     double begin_ms;    // of the command, by rg_now_ms
     double budget_s;    // from then on, shared by the pairs; nothing begins after it; 0: no limit
     bool pictures_only; // nothing is timed
+    bool strict;        // fixed functions of two drivers may not differ as the APIs allow
     const char *filter; // of googletest, for case names; NULL: all
     // Of the cases that the filter selects. Shards share the error, and each leaves a part of one
     // report; `is_apart`: each is a gate of its own, as of googletest.

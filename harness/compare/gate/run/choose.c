@@ -46,16 +46,15 @@ static bool select_one(struct choosing *c, const struct rg_gate_cell *cell, int 
     return name != NULL;
 }
 
-// The fixed functions of a device are one more case if the baseline has digests of them.
+// The fixed functions of a device are one more case, if they are held against others.
 static bool select_all(struct choosing *c)
 {
     const struct rg_gate_request *asked = c->run->asked;
-    const struct rg_baseline *baseline = asked->baseline;
     bool ok = true;
     for (int pair = 0; ok && pair < asked->pairs->count; pair++) {
         for (int64_t i = 0; ok && i < asked->cells->count; i++)
             ok = select_one(c, &asked->cells->cells[i], pair);
-        if (ok && baseline && rg_fixed_kept(baseline->passport, device_of(c->run, pair)))
+        if (ok && rg_gate_has_fixed(asked->baseline, &asked->pairs->all[pair]))
             ok = select_one(c, NULL, pair);
     }
     return ok;

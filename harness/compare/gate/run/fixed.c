@@ -1,23 +1,37 @@
 #include "harness/compare/gate/run/fixed.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/text/add.h"
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
+#include "harness/devices/names.h"
 #include "harness/measure/serving/fixed.h"
 #include "harness/record/passport/key.h"
 
-// A device whose fixed functions are held.
+// A device whose fixed functions are held against a baseline's, or against those of `a`.
 struct held {
     struct rg_running_gate *run;
     const char *device, *driver;
+    const char *others;       // whose they must be: "the baseline's"
+    struct rg_side *a, *b;    // a: NULL with a baseline
     const json_t *then, *now; // digests
-    int same, other;
+    int same, allowed, other;
 };
+
+bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_pair *pair)
+{
+    const char *a = pair->names[RG_SIDE_A], *b = pair->names[RG_SIDE_B];
+    if (baseline)
+        return rg_fixed_kept(baseline->passport, b);
+    const struct rg_backend *backend = rg_backend_of(rg_device_name_full(b));
+    return backend && backend->fixed_draw && rg_devices_choose_drivers(a, b);
+}
 
 // --- whether bits may be compared ---
 
@@ -42,13 +56,25 @@ static json_t *parts_of_bits(json_t *parts)
                      json_object_get(parts, "variables"), "device", hardware(device ? device : ""));
 }
 
-// Why digests are not compared; "": they are.
+// Why digests are not compared with a baseline's; "": they are.
 static void put_unlike(const struct rg_running_gate *r, int side, char why[RG_KEY_TEXT])
 {
     const struct rg_baseline_device *was =
         rg_baseline_device(r->asked->baseline, r->sides[side].name);
     json_t *now = parts_of_bits(r->parts[side]), *then = parts_of_bits(was->parts);
     rg_key_difference(now, then, why);
+    json_decref(now);
+    json_decref(then);
+}
+
+// The same of two drivers, which run on one processor.
+static void put_unlike_sides(const struct rg_running_gate *r, int a, int b, char why[RG_KEY_TEXT])
+{
+    json_t *then = json_pack("{so}", "device", hardware(r->infos[a].device));
+    json_t *now = json_pack("{so}", "device", hardware(r->infos[b].device));
+    rg_key_difference(now, then, why);
+    if (!*why)
+        rg_devices_settings(r->sides[b].name, r->sides[a].name, why, RG_KEY_TEXT);
     json_decref(now);
     json_decref(then);
 }
@@ -78,30 +104,66 @@ static bool add_case(const struct held *h, const char *cell, enum rg_ending endi
     return ok;
 }
 
+// How far two drivers' pictures of a draw differ, if the APIs allow a difference at all and it is
+// within that; else 0.
+static int allowed_steps(const struct held *h, int draw)
+{
+    struct rg_fixed_drawn a = {0}, b = {0};
+    int steps = 0;
+    if (!h->a || !rg_fixed_draws[draw].steps)
+        return 0;
+    if (!rg_fixed_show(h->a->device, draw, &a))
+        rg_fixed_failure(h->a->device);
+    else if (!rg_fixed_show(h->b->device, draw, &b))
+        rg_fixed_failure(h->b->device);
+    else
+        steps = rg_fixed_steps(a.bytes, a.size, b.bytes, b.size);
+    free(a.bytes);
+    free(b.bytes);
+    return steps <= rg_fixed_draws[draw].steps ? steps : 0;
+}
+
+static void put_difference(const struct held *h, int draw, int steps, char *text, size_t size)
+{
+    const char *was = digest_of(h->then, draw), *is = digest_of(h->now, draw);
+    if (steps)
+        snprintf(text, size, "differs by %d of the %d codes that the APIs allow", steps,
+                 rg_fixed_draws[draw].steps);
+    else
+        snprintf(text, size, "%s and not %s, which is %s", is ? is : "leaves no digest", was,
+                 h->others);
+}
+
+static struct rg_judged judge(struct held *h, int draw, int64_t row, bool holds)
+{
+    const struct rg_gate_request *asked = h->run->asked;
+    struct rg_known_result *result = &h->run->gate->results[h->run->gate->result_count++];
+    *result = (struct rg_known_result){.cell = rg_gate_fixed_cell(draw),
+                                       .device = h->device,
+                                       .driver = h->driver,
+                                       .outcome = holds ? RG_OK : RG_FAIL,
+                                       .pixels = NAN,
+                                       .difference = NAN};
+    return rg_known_judge(asked->known, row, result, rg_ending_of(result->outcome), asked->today);
+}
+
 static bool hold(struct held *h, int draw)
 {
     const struct rg_gate_request *asked = h->run->asked;
     const char *was = digest_of(h->then, draw), *is = digest_of(h->now, draw);
     const char *cell = rg_gate_fixed_cell(draw);
     const bool same = was && is && !strcmp(was, is);
+    const int steps = was && is && !same ? allowed_steps(h, draw) : 0;
     const int64_t row = rg_known_row(asked->known, cell, h->device, h->driver, asked->today);
     char own[160] = "", message[200];
     h->same += same;
-    h->other += was && !same;
+    h->allowed += steps > 0;
+    h->other += was && !same && !steps;
     if (!was || (same && row < 0))
         return true;
     if (!same)
-        snprintf(own, sizeof(own), "%s and not %s, which is the baseline's",
-                 is ? is : "leaves no digest", was);
-    struct rg_known_result *result = &h->run->gate->results[h->run->gate->result_count++];
-    *result = (struct rg_known_result){.cell = cell,
-                                       .device = h->device,
-                                       .driver = h->driver,
-                                       .outcome = same ? RG_OK : RG_FAIL,
-                                       .pixels = NAN,
-                                       .difference = NAN};
-    const struct rg_judged judged =
-        rg_known_judge(asked->known, row, result, rg_ending_of(result->outcome), asked->today);
+        put_difference(h, draw, steps, own, sizeof(own));
+    const struct rg_judged judged = judge(h, draw, row, same || (steps && !asked->strict));
     const char *word = rg_judged_word(&judged);
     snprintf(message, sizeof(message), "%s%s%s", word, *word && *own ? ": " : "", own);
     return add_case(h, cell, judged.ending, true, message, 0);
@@ -113,57 +175,95 @@ static bool skip(const struct held *h, enum rg_ending ending, const char *why)
 {
     char message[RG_KEY_TEXT + 100];
     snprintf(message, sizeof(message), "%zu digests are not compared: %s",
-             json_object_size(h->then), why);
+             h->a ? (size_t)rg_fixed_count() : json_object_size(h->then), why);
     return add_case(h, RG_GATE_FIXED, ending, false, message, 0);
 }
 
-static bool hold_all(struct held *h, struct rg_side *side)
+static bool hold_all(struct held *h, double start_ms)
 {
-    const double start_ms = rg_now_ms();
-    bool is_ours, ok = true;
-    char why[RG_AGREEMENT_TEXT];
-    if (!rg_side_launch(side)) {
-        const enum rg_outcome outcome = rg_side_failure(&is_ours, why, sizeof(why));
-        return add_case(h, RG_GATE_FIXED, rg_ending_of(outcome), false, why, 0);
-    }
+    char told[300];
+    bool ok = true;
     int failed;
-    json_t *now = rg_fixed_digests(side->device, &failed);
+    json_t *now = rg_fixed_digests(h->b->device, &failed);
     h->now = now;
     for (int i = 0; ok && i < rg_fixed_count() && !rg_interrupted(); i++)
         ok = hold(h, i);
     json_decref(now);
-    snprintf(why, sizeof(why), "%d digests are the baseline's", h->same);
+    snprintf(told, sizeof(told), "%d digests are %s", h->same, h->others);
+    if (h->allowed)
+        rg_text_add(told, sizeof(told), ", ", "%d differ as the APIs allow", h->allowed);
     if (h->other)
-        snprintf(why, sizeof(why), "%d digests are the baseline's, and %d are not", h->same,
-                 h->other);
-    return rg_interrupted() || (ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS, true, why,
-                                               (rg_now_ms() - start_ms) / 1000));
+        rg_text_add(told, sizeof(told), ", ", "and %d are not", h->other);
+    const double seconds = (rg_now_ms() - start_ms) / 1000;
+    return rg_interrupted() ||
+           (ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS, true, told, seconds));
 }
 
-static bool hold_side(struct rg_running_gate *r, int side)
+static bool launch(struct held *h, struct rg_side *side, bool *ok)
 {
+    bool is_ours;
+    char why[RG_AGREEMENT_TEXT];
+    if (rg_side_launch(side))
+        return true;
+    const enum rg_outcome outcome = rg_side_failure(&is_ours, why, sizeof(why));
+    *ok = add_case(h, RG_GATE_FIXED, rg_ending_of(outcome), false, why, 0);
+    return false;
+}
+
+static bool launch_and_hold(struct held *h)
+{
+    const double start_ms = rg_now_ms();
+    bool ok = true;
+    int failed;
+    if ((h->a && !launch(h, h->a, &ok)) || !launch(h, h->b, &ok))
+        return ok;
+    if (!h->a)
+        return hold_all(h, start_ms);
+    json_t *then = rg_fixed_digests(h->a->device, &failed);
+    h->then = then;
+    ok = hold_all(h, start_ms);
+    json_decref(then);
+    return ok;
+}
+
+static bool is_there(const struct rg_running_gate *r, int side)
+{
+    return *r->infos[side].name;
+}
+
+static bool hold_pair(struct rg_running_gate *r, int pair)
+{
+    const int a = pair * RG_SIDES + RG_SIDE_A, b = pair * RG_SIDES + RG_SIDE_B;
+    const struct rg_baseline *baseline = r->asked->baseline;
+    char others[RG_DEVICE_NAME_SIZE + 8] = "the baseline's", why[RG_KEY_TEXT];
     struct held h = {.run = r,
-                     .device = r->sides[side].name,
-                     .driver = r->gate->drivers[side / RG_SIDES],
-                     .then = rg_fixed_kept(r->asked->baseline->passport, r->sides[side].name)};
-    char why[RG_KEY_TEXT];
-    snprintf(r->gate->drivers[side / RG_SIDES], sizeof(r->gate->drivers[0]), "%s",
-             r->infos[side].driver);
-    if (!*r->infos[side].name)
+                     .device = r->sides[b].name,
+                     .driver = r->gate->drivers[pair],
+                     .others = others,
+                     .a = baseline ? NULL : &r->sides[a],
+                     .b = &r->sides[b],
+                     .then = baseline ? rg_fixed_kept(baseline->passport, r->sides[b].name) : NULL};
+    snprintf(r->gate->drivers[pair], sizeof(r->gate->drivers[0]), "%s", r->infos[b].driver);
+    if (h.a)
+        snprintf(others, sizeof(others), "%s's", h.a->name);
+    if (!is_there(r, b) || (h.a && !is_there(r, a)))
         return skip(&h, RG_ENDING_UNSUPPORTED, "the device did not open");
-    put_unlike(r, side, why);
+    if (h.a)
+        put_unlike_sides(r, a, b, why);
+    else
+        put_unlike(r, b, why);
     if (*why)
         return skip(&h, RG_ENDING_SKIPPED, why);
     if (rg_gate_is_over(r))
         return skip(&h, RG_ENDING_INCONCLUSIVE, "the time was over");
-    return hold_all(&h, &r->sides[side]);
+    return launch_and_hold(&h);
 }
 
 bool rg_gate_hold_fixed(struct rg_running_gate *r)
 {
     bool ok = true;
-    for (int side = 0; ok && side < r->side_count && !rg_interrupted(); side++)
-        ok = !r->has_fixed[side] || hold_side(r, side);
+    for (int pair = 0; ok && pair < r->asked->pairs->count && !rg_interrupted(); pair++)
+        ok = !r->has_fixed[pair * RG_SIDES + RG_SIDE_B] || hold_pair(r, pair);
     r->gate->is_told = ok;
     return ok;
 }

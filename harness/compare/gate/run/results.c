@@ -22,7 +22,7 @@ static struct rg_known_result unknown(const char *cell, const char *device)
 static bool make_results(const struct rg_gate_request *asked, struct rg_gate *gate)
 {
     const int64_t left = asked->left.count * asked->cells->count;
-    const int64_t fixed = asked->baseline ? asked->pairs->count * RG_FIXED_MAX_DRAWS : 0;
+    const int64_t fixed = asked->pairs->count * RG_FIXED_MAX_DRAWS;
     const size_t count = (size_t)(gate->case_count + left + fixed);
     gate->results = rg_alloc(count ? count : 1, sizeof(*gate->results), "gate");
     for (int64_t i = 0; gate->results && i < left; i++)

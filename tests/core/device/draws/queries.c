@@ -1,4 +1,5 @@
-// The API's own occlusion queries, against the samples that fragments count on cpu:reference.
+// The API's own occlusion queries, against the samples that fragments count on cpu:reference; on a
+// native device, whose driver snaps corners by its own rules, against those that its own count.
 #include "tests/core/device/draws/quads.h"
 #include "tests/core/device/suite.h"
 #include "tests/tools/expect.h"
@@ -79,17 +80,17 @@ static bool draw(const struct rig *rig, const struct way *way)
                                                    .draw = &to});
 }
 
-// Samples by item, as fragments of cpu:reference count them.
-static uint32_t *counted(const struct way *way)
+// Samples by item, as fragments count them.
+static uint32_t *counted(struct rg_device *device, const struct way *way)
 {
-    struct rg_device *reference = rg_device_open("cpu:reference");
+    struct rg_device *reference = device->info.native ? NULL : rg_device_open("cpu:reference");
     struct way by_item = *way;
     by_item.items_a_query = 0;
-    struct rig rig = make_rig(reference, QUADS, QUADS);
+    struct rig rig = make_rig(reference ? reference : device, QUADS, QUADS);
     assert_true(draw(&rig, &by_item));
     uint32_t *samples = read_words(rig.samples, QUADS);
     destroy_rig(&rig);
-    assert_true(rg_device_close(reference));
+    assert_true(!reference || rg_device_close(reference));
     return samples;
 }
 
@@ -112,7 +113,7 @@ static void check_way(struct rg_device *device, const struct way *way)
         assert_lacks(draw(&rig, way), "no occlusion queries");
     } else {
         assert_true(draw(&rig, way) && draw(&rig, way));
-        uint32_t *answers = read_words(rig.samples, queries), *due = counted(way), all = 0;
+        uint32_t *answers = read_words(rig.samples, queries), *due = counted(device, way), all = 0;
         for (int q = 0; q < queries; q++) {
             all += answers[q];
             if (answers[q] != sum_of(due, way, q))
