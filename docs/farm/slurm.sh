@@ -9,13 +9,17 @@
 # Nodes are exclusive, for another job would slow what is measured. Name the GPU that the devices
 # need with --gres. A job that Slurm requeues goes on with the groups that have no record yet.
 # A shard that fails ends with another status than 0, so that the merge waits for afterany.
+# From a container image: RAINGAUGE='apptainer exec raingauge.sif raingauge', or as docs/farm.md says.
 #SBATCH --job-name=raingauge --exclusive --requeue --open-mode=append
 #SBATCH --output=raingauge-%a.log
 #SBATCH --signal=B:TERM@60
 
+RAINGAUGE=${RAINGAUGE:-raingauge} # words of a command, in which a star is none of file names
+set -f
+
 # A node that is busy, hot or broken takes no cells: Slurm tries the job again, two minutes later.
-raingauge doctor --prologue --device "${DEVICES:-cpu}"
+$RAINGAUGE doctor --prologue --device "${DEVICES:-cpu}"
 status=$?
 [ $status != 75 ] || scontrol requeue "$SLURM_JOB_ID"
 [ $status = 0 ] || exit $status
-exec raingauge table --plan plan.json --shard auto -o records
+exec $RAINGAUGE table --plan plan.json --shard auto -o records

@@ -13,8 +13,12 @@ import time
 import forms
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+sys.path.append(os.path.join(ROOT, "tests", "harness", "farm"))
+
+import expected
+
 SAME = os.path.join(ROOT, "results", "same.py")
-SLURM = os.path.join(ROOT, "docs", "farm", "slurm.sh")
+SLURM, PAGE = os.path.join(ROOT, "docs", "farm", "slurm.sh"), os.path.join(ROOT, "docs", "farm.md")
 TABLES = ["stuppacher-2", "raster-1"]
 SHARDS = 4
 # How each shard learns which it is. Slurm's array begins where the plan's shards do; GTEST_SHARD_INDEX counts from 0.
@@ -233,6 +237,46 @@ def check_two_shards(runner):
         return problems
 
 
+# Stand-ins for runtimes of containers: each checks what it is told, and runs the rest as in the image, with the variables that it hands on.
+RUNTIMES = {
+    "Apptainer": ("apptainer", """[ "$1 $2 $3 $4" = "exec --bind $PWD raingauge.sif" ] || exit 9
+shift 4
+exec "$@"
+"""),
+    "Podman": ("podman", """[ "$1 $2 $3 $4 $5 $6 $7 $8 $9" = "run --rm --env SLURM_* --volume $PWD:$PWD --workdir $PWD raingauge" ] || exit 9
+shift 9
+exec env -i PATH="$PATH" RG_PROBE_S="$RG_PROBE_S" $(env | grep ^SLURM_) "$@"
+"""),
+}
+
+
+def check_images(runner):
+    """the job script runs the shard of its task from a container image, by the words that the page gives for each runtime"""
+    made, problems = farm(runner), []
+    with open(PAGE, encoding="utf-8") as file:
+        told = dict(re.findall(r"(?m)^\| (\w+) \| `([^`]*raingauge)`", file.read()))
+    if told.keys() != RUNTIMES.keys():
+        return ["runtimes of the page: %s" % told]
+    with tempfile.TemporaryDirectory() as tmp:
+        path = tmp + ":" + os.path.dirname(runner.raingauge) + ":" + os.environ["PATH"]
+        with open(made.path + "/SLURM_file", "w", encoding="utf-8"):
+            pass  # which the star of a variable's name must not become
+        for name, (program, script) in RUNTIMES.items():
+            calls = os.path.join(tmp, name)
+            with open(os.path.join(tmp, program), "w", encoding="utf-8") as file:
+                file.write("#!/bin/sh\necho called >>%s\n%s" % (calls, script))
+            os.chmod(file.name, 0o755)
+            words = told[name].replace("$PWD", made.path)
+            done = subprocess.run(["bash", SLURM], cwd=made.path, env=runner.variables({"PATH": path, "PWD": made.path, "RAINGAUGE": words, **WAYS[1](3)[0]}),
+                                  capture_output=True, text=True, check=False)
+            there = re.search(r"shard 3 of 4: (\d) of (\d) groups were there", done.stderr)
+            with open(calls, encoding="utf-8") as file:
+                called = file.read().count("called")  # for the prologue and the shard
+            if done.returncode or not there or there[1] != there[2] or there[1] == "0" or called != 2:
+                problems.append("%s: called %d times, %s" % (name, called, done))
+    return problems
+
+
 def check_two_machines(runner):
     """records of two comparison keys merge into a folder each, from which claims stand side by side"""
     made, problems = farm(runner), []
@@ -249,5 +293,28 @@ def check_two_machines(runner):
     return problems
 
 
+def check_expected(runner):
+    """the script that holds a plan's times against real ones cuts as raingauge does, and fails where the sum or the longest shard is off"""
+    made, problems = farm(runner), []
+    groups = expected.groups_of(read(made.plan))
+    cut = expected.shards_of(groups, SHARDS)
+    for number, shard in enumerate(made.measured, 1):
+        found = [group["id"] for group in groups if "\n%s: " % group["id"] in "\n" + shard.stdout]
+        if sorted(found) != sorted(cut[number - 1]):
+            problems.append("shard %d: %s, not %s" % (number, found, cut[number - 1]))
+    even = [{"id": "t/%d" % i, "seconds": 10} for i in range(16)]
+    for real, says in (({"t/%d" % i: 12.4 for i in range(16)}, None), ({"t/%d" % i: 12.6 for i in range(16)}, r"all groups took \+26 % of the expected"),
+                       ({"t/%d" % i: 7.4 for i in range(16)}, "all groups took -26 %"), ({"t/%d" % i: 9 + 5.6 * (i % 8 == 0) for i in range(16)}, r"the longest shard took 1\.51 times the mean"),
+                       ({"t/%d" % i: 9 + 3.4 * (i % 8 == 0) for i in range(16)}, r"the longest shard took 1\.32 times"), ({"t/%d" % i: 9 + 3 * (i % 8 == 0) for i in range(16)}, None),
+                       ({"t/%d" % i: 10 for i in range(15)}, r"t/15 was not measured")):
+        found = expected.judge(even, real, 8)
+        if (not found) != (says is None) or (says and not re.match(says, found[0])):
+            problems.append("%s: %s" % (real, found))
+    large = [{"id": "t/0", "seconds": 100}] + [{"id": "t/%d" % i, "seconds": 5} for i in range(1, 15)]
+    if expected.judge(large, {group["id"]: group["seconds"] for group in large}, 8):
+        problems.append("a large group is a shard of its own")
+    return problems
+
+
 FEW = [check_two_shards]
-CHECKS = [check_plan, check_one_run, check_again, check_missing, check_refused, check_auto, check_two_machines, check_script]
+CHECKS = [check_plan, check_one_run, check_again, check_missing, check_refused, check_auto, check_two_machines, check_script, check_images, check_expected]

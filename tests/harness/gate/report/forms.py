@@ -164,10 +164,15 @@ def test_json_comes_back():
     for found, case, name in zip(document["gated"], cases, told.names(cases), strict=True):
         numbers = [None if number != number else number for number in (case.seconds, *case.ratio, case.smallest_visible, *case.time_ms, case.baseline_ms)]
         same(found, {"name": name, "technique": clean(case.technique), "devices": [clean(case.device)], "seconds": numbers[0],
-                     "ending": WORDS[case.ending], "message": clean(case.message), "details": clean(case.details, line=False),
+                     "ending": WORDS[case.ending], "compared": False, "over": False, "message": clean(case.message), "details": clean(case.details, line=False),
                      "attachments": [clean(case.picture)] if case.picture else [],
                      "ratio": dict(zip(("value", "low", "high"), numbers[1:4])), "smallest_visible": numbers[4],
                      "time_ms": dict(zip(("value", "low", "high"), numbers[5:8])), "baseline_ms": numbers[8]})
+
+
+def test_json_is_read_again():
+    cases = told.hostile() + [Case(b"unknown", seconds=NAN)]
+    same(strict(tell("again", cases)), strict(tell("json", cases)))
 
 
 # --- text ---

@@ -1,7 +1,8 @@
 // Writes the report on stdin in one form, so that a script can read it back.
 //
-// tell FORM PATH      junit, bmf, json, text, coloured, annotations, gtest or summary;
-//                     PATH "-" is stdout
+// tell FORM PATH      junit, bmf, json, text, coloured, annotations, gtest or summary; again: json
+// of
+//                     the cases that are read from json; PATH "-" is stdout
 // tell list FILTER    prints the list of --gtest_list_tests
 // tell matches        stdin: pairs of filter and name; prints 1 or 0 for each
 // tell names          prints the names for gtest, one a line
@@ -82,6 +83,22 @@ static bool names(const struct rg_report *report, FILE *out)
     return true;
 }
 
+static bool again(const struct rg_report *report, FILE *out)
+{
+    json_t *document = rg_report_document(report), *found;
+    struct rg_report read = {.case_count = 0};
+    bool ok = document && rg_report_set_passport(&read, report->passport);
+    size_t i;
+    json_array_foreach(json_object_get(document, "gated"), i, found)
+    {
+        ok = ok && rg_report_read(&read, found);
+    }
+    ok = ok && rg_report_json(&read, out);
+    rg_report_free(&read);
+    json_decref(document);
+    return ok;
+}
+
 static bool print_matches(const char *at, const char *end)
 {
     for (const char *filter, *name; (filter = next(&at, end)) && (name = next(&at, end));)
@@ -92,10 +109,10 @@ static bool print_matches(const char *at, const char *end)
 static const struct {
     const char *name;
     rg_report_writer form;
-} forms[] = {{"junit", rg_report_junit}, {"bmf", rg_report_bmf},
-             {"json", rg_report_json},   {"text", rg_report_text},
-             {"coloured", coloured},     {"annotations", rg_report_annotations},
-             {"gtest", rg_gtest_print},  {"names", names}};
+} forms[] = {
+    {"junit", rg_report_junit}, {"bmf", rg_report_bmf}, {"json", rg_report_json},
+    {"text", rg_report_text},   {"coloured", coloured}, {"annotations", rg_report_annotations},
+    {"gtest", rg_gtest_print},  {"names", names},       {"again", again}};
 
 static bool tell(const struct rg_report *report, const char *form, const char *path)
 {
