@@ -153,7 +153,7 @@ struct vk_pass {
 };
 
 // api/instance.c
-// Opens an instance, with the validation layer if `validate`. `why` receives one line on failure.
+// Opens an instance, with what `debug` says. `why` receives one line on failure.
 bool vk_instance_open(struct vk_instance *instance, enum vk_debug debug, char *why,
                       size_t why_size);
 void vk_instance_close(struct vk_instance *instance);

@@ -1,5 +1,5 @@
 // Every device must pass these tests: device_suite DEVICE [PART] runs the same ones on any device.
-// Native devices pass the part 'native', which bounds what their samplers do.
+// Native devices pass the part 'native': what their samplers and queries do.
 #include "core/base/log.h"
 #include "tests/core/device/suite.h"
 
@@ -37,7 +37,7 @@ static const struct part {
      {&buffer_tests, &kernel_tests, &refusal_tests, &lifetime_tests, &scan_tests, &probe_tests,
       &lack_tests}},
     {"images", {&image_tests, &texel_tests, &filter_tests, &large_tests, &sampled_tests}},
-    {"native", {&sampled_tests, &native_filter_tests}},
+    {"native", {&sampled_tests, &native_filter_tests, &query_tests}},
     {"draws", {&draw_tests, &tally_tests, &query_tests}},
     {"targets", {&target_tests, &light_tests, &layer_tests}},
 };

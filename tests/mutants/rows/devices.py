@@ -53,7 +53,7 @@ ROWS = [
     Fault(SCAN, "check_words(sums, (int64_t)count «+ 1») &&", "+ 0", "a scan's total may lie behind its buffer"),
     Fault(PACKING, "const int chunks = (batch + RG_DRAW_CHUNK «- 1») / RG_DRAW_CHUNK;", "- RG_DRAW_CHUNK", "the last chunk of a draw is left out"),
     Fault(PACKING, "const packing_params params = {chunks, chunks_a_query, «corners == 3 ? 3 : 6»};", "3", "queries of quads count triangles", tests=("device suite, draws, vulkan",)),
-    Fault(PACKING, "args.first_query = «state->item_begin / whole»;", "0", "answers of queries begin at 0"),
+    Fault("core/device/draw.c", "part->first_query = «state->item_begin / whole»;", "0", "answers of queries begin at 0"),
     Fault(PACKING, "if (whole && batch < items)\n        batch = «batch / whole * whole»;", "batch", "a query is cut by a batch", lives="no test draws with queries more items than one batch of 128 MiB holds"),
     Fault(TARGETS, "*width = rg_level_size(image->desc.width, «draw->level»);", "0", "a level is as wide as the image"),
     Fault(TARGETS, "draw->x1 <= width && «draw->y1 <= height»),", "true", "a scissor may leave the target"),

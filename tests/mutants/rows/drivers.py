@@ -27,13 +27,14 @@ VK_PIPELINE, VK_TEXTURE, VK_RECORD = (f"backends/vulkan/api/fixed/{name}.c" for 
 # Native devices.
 GL_SAMPLER, VK_SAMPLER, VK_STATE = "backends/gl/api/sampler.c", "backends/vulkan/api/sampler.c", "backends/vulkan/api/pipeline.c"
 OF_NATIVE = ("command line, native",)
-OF_SUITE_GL, OF_SUITE_VK = ("device suite, gl:native",), ("device suite, vulkan:native",)
+OF_SUITE_GL, OF_SUITE_VK = ("device suite, native, gl",), ("device suite, native, vulkan",)
 
 ROWS = [
     Fault(GL_SAMPLER, "GL_TEXTURE_COMPARE_FUNC, «GL_LEQUAL»", "GL_GREATER", "gl:native lights what is in shadow", tests=OF_NATIVE),
     Fault(GL_SAMPLER, "GL_TEXTURE_MAG_FILTER, «GL_LINEAR»", "GL_NEAREST", "gl:native weighs no texels", tests=OF_SUITE_GL),
     Fault("backends/gl/image.c", "GL_TEXTURE_BASE_LEVEL, «first - 1»", "0", "gl:native makes levels that it was given", tests=OF_SUITE_GL),
     Fault("backends/vulkan/api/texels.c", "1, &blit, «VK_FILTER_LINEAR»", "VK_FILTER_NEAREST", "vulkan:native takes single texels for a level", tests=OF_SUITE_VK),
+    Fault("backends/gl/api/query.c", "glDrawArrays(GL_POINTS, items.first, «items.count»);", "1", "a query of gl:native draws one item", tests=OF_SUITE_GL),
     Fault(GL_SAMPLER, "wrap = «sampling == RG_SAMPLED_TILED» ?", "false", "gl:native repeats no texture", tests=OF_NATIVE),
     Fault(GL, "glFrontFace(«GL_CW»);", "GL_CCW", "gl:native culls front for back", tests=OF_NATIVE),
     Fault(VK_SAMPLER, ".compareOp = «VK_COMPARE_OP_LESS_OR_EQUAL»,", "VK_COMPARE_OP_GREATER", "vulkan:native lights what is in shadow", tests=OF_NATIVE),
