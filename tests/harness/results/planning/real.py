@@ -17,7 +17,7 @@ TIMES, SHARE, LONG_S = 3, 0.95, 5
 COMMANDS = (
     "table chin-timing --device cpu", "table stuppacher-2 --device cpu,gl --rows 1-2", "table creus-5.3 --device cpu --rows 1-3",
     "table creus-5.4 --device cpu --rows 2-3 --variant no_geometry", "table creus-5.5 --device cpu --rows 1-2 --work paper",
-    "table feng-1 --device cpu,vulkan --rows 1-2", "table ye-1 --device cpu --rows 1-2", "table raster-1 --device cpu,opencl --rows 1-2",
+    "table feng-1 --device cpu,gl --rows 1-2", "table ye-1 --device cpu --rows 1-2", "table raster-1 --device cpu,opencl --rows 1-2",
     "sweep streaks --axis culling_radius_m=5,10,20 --device cpu", "figures creus-4.1 --device cpu -o {}", "atlas --quick -o {}/atlas",
     "verify flow --quick --device cpu", "verify drops --quick --device cpu", "verify cartoon --quick --device cpu,gl",
     "baseline --device cpu -o {}/baseline.json", "render drops --frame 900 -o {}/drops.png", "render streaks --frame 120 -o {}/rain.png",
