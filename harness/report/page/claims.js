@@ -63,8 +63,10 @@ const differing = claims => claims.flatMap(claim => [...new Set(claim.verdicts.m
   .filter(([, , verdicts]) => new Set(verdicts.map(v => v.verdict)).size > 1);
 // How many of the claims that were judged on a machine stand so there: "5 of 8".
 const standingOn = (stand, key, claims = CLAIMS) => { const here = claims.filter(c => c.verdicts.some(v => v.key === key)); return `${here.filter(c => standOf(c, key) === stand).length} of ${here.length}`; };
+// Machines that claims were judged on.
+const judgingMachines = (claims = CLAIMS) => MACHINES.filter(m => claims.some(c => c.verdicts.some(v => v.key === m.key)));
 function machinesPart(claims) {
-  const judgedOn = MACHINES.filter(m => claims.some(c => c.verdicts.some(v => v.key === m.key))), differ = differing(claims);
+  const judgedOn = judgingMachines(claims), differ = differing(claims);
   if (judgedOn.length < 2) return null;
   return [part("Machines", sheet("How claims stand on each machine", ["machine", "", ...Object.values(STANDS).map(([one]) => ({text: one, number: true}))],
       judgedOn.map(m => [m.name, [m.text, m.differs ? el("small", {}, `not as ${MACHINES[0].name}: ${m.differs}`) : null], ...Object.keys(STANDS).map(stand => standingOn(stand, m.key, claims))]), "machines")),
@@ -170,7 +172,7 @@ function launchesOf(v) {
 }
 // How many launches would decide a claim, and how long they take where the judge knows.
 function launchesText(claim) {
-  const looks = arrayOf(RULES.looks).filter(isNumber), wanted = claim.verdicts.filter(v => v.launches_needed).map(v => `${v.launches_needed} more on ${v.device}${v.hours_needed ? ` (${hoursText(v.hours_needed)})` : ""}`);
+  const looks = arrayOf(RULES.looks).filter(isNumber), wanted = claim.verdicts.filter(v => v.launches_needed).map(v => `${v.launches_needed} more on ${v.on}${v.hours_needed ? ` (${hoursText(v.hours_needed)})` : ""}`);
   const course = looks.length ? ` The first verdict is sought after ${looks[0]} on a device and the last after ${looks[looks.length - 1]}; as many again must confirm it, so that it takes from ${2 * looks[0]} to ${2 * looks[looks.length - 1]}.` : "";
   return `Launches: new processes, each of which gives one figure.${course} ${wanted.length ? `Probably it takes ${list(wanted)}.` : "How long one takes is not known before the first was run."}`;
 }

@@ -44,7 +44,7 @@ function verdictOfGate(gate, view = "ci") {
 // What it comes to, as its exit status says: an inconclusive case makes it 3, and none that was compared 4.
 function standOfGate(gate) {
   if (gate.cases.some(fails)) return "bad";
-  return gate.cases.some(c => c.ending === "inconclusive") ? "open" : gate.cases.some(c => !["unsupported", "skipped"].includes(c.ending)) ? "good" : "other";
+  return gate.cases.some(c => c.ending === "inconclusive") ? "open" : gate.cases.some(c => !["unsupported", "skipped"].includes(c.ending) && !(c.compared === false && ["flake", "expected failure"].includes(c.ending))) ? "good" : "other";
 }
 
 // The run before a gate: the gate before it, or the last of the earlier records.

@@ -19,7 +19,7 @@ function claimsTotal() {
   return total("Claims", [`${decided[0]} ${decided[0] === 1 ? "holds" : "hold"}, ${decided[1] + decided[2]} ${decided[1] + decided[2] === 1 ? "does" : "do"} not`, " ", el("small", {}, `of ${plural(CLAIMS.length, "claim")}${open ? `; ${open} ${open === 1 ? "has" : "have"} no verdict yet` : ""}`)],
     [LAUNCH_ABOUT, stands.some(([stand]) => stand === "open") ? ` ${OPEN_ABOUT}` : ""], [bar(stands.map(([, , cls, n]) => [cls, n])),
       el("ul", {class: "plain"}, stands.map(([stand, text, cls]) => el("li", {}, el("span", {class: "dot " + cls, "aria-hidden": "true"}), link("claims", {stand}, text))),
-      SEVERAL ? el("li", {}, el("span", {class: "dot", "aria-hidden": "true"}), "Hold: ", list(MACHINES.map(m => `${standingOn("holds", m.key)} on ${m.name}`))) : null)]);
+      SEVERAL ? el("li", {}, el("span", {class: "dot", "aria-hidden": "true"}), "Hold: ", list(judgingMachines().map(m => `${standingOn("holds", m.key)} on ${m.name}`))) : null)]);
 }
 function devicesTotal() {
   const doctor = records("doctor")[0], asked = doctor ? objectsOf(doctor.document.devices) : DEVICES.filter(d => CELLS.some(c => c.device === d.name));
@@ -31,7 +31,7 @@ function devicesTotal() {
 }
 function picturesTotal() {
   const cells = CELLS.filter(c => ["ok", "fail"].includes(c.status) && objectOf(c.measured).ms !== undefined || c.status === "fail"), pairs = records("diff").flatMap(r => objectsOf(r.document.pairs));
-  const gated = GATES.flatMap(g => g.cases.map(c => ({...c, gate: GATES.indexOf(g)}))).filter(c => ["pass", "differs", "regressed", "improved", "inconclusive"].includes(c.ending));
+  const gated = GATES.flatMap(g => g.cases.map(c => ({...c, gate: GATES.indexOf(g)}))).filter(c => c.technique !== "fixed" && ["pass", "differs", "regressed", "improved", "inconclusive"].includes(c.ending));
   const software = name => (DEVICES.find(d => d.name === name) || {}).software !== false, isExact = DEVICES.every(d => software(d.name)), what = isExact ? "identical" : "as the reference's", isSame = p => p.tier === "T0" || (p.tier === "T1" && !isExact);
   const all = cells.length + pairs.length + gated.length, others = [...gated.filter(c => c.ending === "differs").map(c => link("gate", {gate: c.gate === GATES.length - 1 ? null : c.gate, case: c.name}, c.name)), ...pairs.filter(p => !isSame(p)).map(p => link("checks", {}, `${p.a} and ${p.b}`)),
     ...cells.filter(c => c.status === "fail").map(c => { const table = TABLES.find(t => t.cells.includes(c)); return link("table", {id: table.id}, `${table.id} on ${c.device}`); })], same = all - others.length;
@@ -47,7 +47,7 @@ function gateTotal() {
 
 function foundText() {
   const papers = new Set(CLAIMS.map(c => c.paper)).size, texts = [];
-  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${list(standings().map(([, text]) => text))}.${standing("fits") + standing("misses") ? " One launch is no verdict." : ""}${SEVERAL ? ` ${plural(differing(CLAIMS).length, "verdict")} of devices ${differing(CLAIMS).length === 1 ? "differs" : "differ"} between ${MACHINES.length} machines.` : ""}`);
+  if (CLAIMS.length) texts.push(`Of ${plural(CLAIMS.length, "claim")} that ${plural(papers, "paper")} make about speed and quality, ${list(standings().map(([, text]) => text))}.${standing("fits") + standing("misses") ? " One launch is no verdict." : ""}${SEVERAL ? ` ${plural(differing(CLAIMS).length, "verdict")} of devices ${differing(CLAIMS).length === 1 ? "differs" : "differ"} between ${judgingMachines().length} machines.` : ""}`);
   for (const gate of GATES.slice(-1)) texts.push(verdictOfGate(gate));
   const checks = records("verify").flatMap(r => objectsOf(r.document.checks)), bad = checks.filter(c => statusClass(c.status) === "no");
   if (checks.length) texts.push(bad.length ? `${bad.length} of ${plural(checks.length, "check")} of the models ${bad.length === 1 ? "does" : "do"} not hold.` : `None of ${plural(checks.length, "check")} of the models fails.`);

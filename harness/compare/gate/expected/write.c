@@ -53,7 +53,7 @@ void rg_known_write_new(FILE *out, const struct rg_known_result *result, int tod
 {
     rg_known_write_head(out, RG_EXPECT_FAIL, result->cell, end);
     rg_known_write_field(out, RG_FIELD_DEVICE, result->device, end);
-    if (*result->driver) // empty if the driver crashed before it told its name
+    if (result->driver && *result->driver) // empty if the driver crashed before it told its name
         rg_known_write_field(out, RG_FIELD_DRIVER, result->driver, end);
     rg_known_write_field(out, RG_FIELD_OUTCOME, rg_outcome_name(result->outcome), end);
     if (result->outcome == RG_FAIL) {

@@ -195,8 +195,8 @@ static bool hold_all(struct held *h, double start_ms)
     if (h->other)
         rg_text_add(told, sizeof(told), ", ", "and %d are not", h->other);
     const double seconds = (rg_now_ms() - start_ms) / 1000;
-    return rg_interrupted() ||
-           (ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS, true, told, seconds));
+    return rg_interrupted() || (ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS,
+                                               h->same + h->allowed + h->other > 0, told, seconds));
 }
 
 static bool launch(struct held *h, struct rg_side *side, bool *ok)
@@ -221,7 +221,12 @@ static bool launch_and_hold(struct held *h)
         return hold_all(h, start_ms);
     json_t *then = rg_fixed_digests(h->a->device, &failed);
     h->then = then;
-    ok = hold_all(h, start_ms);
+    if (failed)
+        ok = skip(h, RG_ENDING_ERROR, "A's driver fails while it draws them");
+    else if (!json_object_size(then))
+        ok = skip(h, RG_ENDING_UNSUPPORTED, "A draws none of them");
+    else
+        ok = hold_all(h, start_ms);
     json_decref(then);
     return ok;
 }

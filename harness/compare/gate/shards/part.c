@@ -5,6 +5,7 @@
 
 #include "core/base/log.h"
 #include "harness/compare/gate/shards/shards.h"
+#include "harness/devices/names.h"
 #include "harness/record/disk/document.h"
 #include "harness/record/passport/build_info.h"
 
@@ -38,13 +39,16 @@ void rg_gate_digest_known(const struct rg_known *known, char digest[RG_DIGEST_SI
     free(all);
 }
 
+// The names of each pair, and what those stand for.
 static json_t *pairs_json(const struct rg_gate_pairs *pairs)
 {
     json_t *json = json_array();
-    for (int i = 0; i < pairs->count; i++)
-        json_array_append_new(json,
-                              json_pack("[o, o]", rg_json_text(pairs->all[i].names[RG_SIDE_A]),
-                                        rg_json_text(pairs->all[i].names[RG_SIDE_B])));
+    for (int i = 0; i < pairs->count; i++) {
+        const char *a = pairs->all[i].names[RG_SIDE_A], *b = pairs->all[i].names[RG_SIDE_B];
+        json_array_append_new(json, json_pack("[o, o, o, o]", rg_json_text(a), rg_json_text(b),
+                                              rg_json_text(rg_device_name_full(a)),
+                                              rg_json_text(rg_device_name_full(b))));
+    }
     return json;
 }
 
@@ -70,12 +74,13 @@ static json_t *whole_json(const struct rg_gate_request *asked, const struct rg_g
 {
     char cells[RG_DIGEST_SIZE];
     digest_cells(asked->cells, cells);
-    return json_pack(
-        "{ss ss so so so sb ss ss ss so sO}", "commit", rg_build_commit, "cells", cells, "pairs",
-        pairs_json(asked->pairs), "margin", rg_number_json(asked->margin), "filter",
-        rg_json_text(asked->filter ? asked->filter : ""), "pictures", asked->pictures_only,
-        "baseline", inputs->baseline, "expectations", inputs->expectations, "times", inputs->times,
-        "require", rg_json_text(asked->require ? asked->require : ""), "names", gate->names);
+    return json_pack("{ss ss so so so sb sb ss ss ss so sO}", "commit", rg_build_commit, "cells",
+                     cells, "pairs", pairs_json(asked->pairs), "margin",
+                     rg_number_json(asked->margin), "filter",
+                     rg_json_text(asked->filter ? asked->filter : ""), "pictures",
+                     asked->pictures_only, "strict", asked->strict, "baseline", inputs->baseline,
+                     "expectations", inputs->expectations, "times", inputs->times, "require",
+                     rg_json_text(asked->require ? asked->require : ""), "names", gate->names);
 }
 
 // --- times of an earlier gate ---
