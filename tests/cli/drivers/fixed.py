@@ -304,6 +304,12 @@ def check_drivers(runner):
             [(ending, message)] = found.values()
             if ending != "skipped" or not message.startswith("48 digests are not compared: ") or said not in message:
                 problems.append("%s: %s" % (settings, found))
+        # A first driver that falls while it draws them leaves nothing to compare with, which is no pass.
+        fallen = runner.run(["gate", new.replace("new=", "old="), "vulkan", "--pictures", "--json", "--cells", files.cells],
+                            {"RG_MISBEHAVE": "vkCreateGraphicsPipelines:abort:24"})
+        told = endings(json.loads(fallen.stdout))
+        if fallen.returncode != 1 or told != {"raster/torus.vulkan": "pass", "fixed.vulkan": "error"}:
+            problems.append("a first driver that falls: exit status %d, %s, %s" % (fallen.returncode, told, fallen.stderr))
         names = runner.run(["gate", "vulkan", new, "--cells", files.cells, "--gtest_list_tests"]).stdout
         if "fixed" not in names or "fixed" in runner.run(["gate", "vulkan", "vulkan@LP_PERF=no_blend", "--cells", files.cells, "--gtest_list_tests"]).stdout:
             problems.append("listed: %s" % names)

@@ -214,6 +214,16 @@ def check_expected(runner):
         mended = runner.run(["gate", "--from", out, "--expectations", known, "--update"])
         if mended.returncode != 1 or "fail" in text(known):
             problems.append("mended: %s, %s" % (mended, text(known)))
+        # What fails newly stands in the order of one gate.
+        new, crashes, written = files.path("new.txt"), files.path("crashes"), []
+        args = ["gate", "cpu", "new=vulkan@VK_DRIVER_FILES=" + runner.crashing_vulkan(files.folder.name)["VK_DRIVER_FILES"], "--cells", files.cells, "--pictures", "--expectations", new]
+        for ways in ((), WAYS):
+            files.path("new.txt", "")
+            run_shards(runner, args, crashes, ways)
+            runner.run((["gate", "--from", crashes, "--expectations", new] if ways else args) + ["--update"])
+            written.append(text(new))
+        if written[0] != written[1] or written[0].count("fail ") != 4:
+            problems.append("new: %s" % written)
         again = runner.run(["gate", "--from", out, "--expectations", known])
         if again.returncode != 2 or again.stdout or "its shards had other expectations" not in again.stderr:
             problems.append("others: %s" % again)

@@ -145,29 +145,75 @@ static double number_of(const json_t *object, const char *name)
     return json_is_number(number) ? json_number_value(number) : NAN;
 }
 
-static bool add_results(const struct rg_parts *parts, struct rg_gate *gate)
+// Where a result stands in a gate without shards: first cells that were left out, then cells in
+// their order, then fixed functions, device by device.
+static size_t place_of(const struct rg_parts *parts, const struct rg_known_result *result)
+{
+    const json_t *names = json_object_get(parts->of, "names"), *name;
+    const size_t count = json_array_size(names);
+    const bool is_fixed = !strncmp(result->cell, RG_GATE_FIXED "/", strlen(RG_GATE_FIXED "/"));
+    char *own = rg_gate_case_name(is_fixed ? RG_GATE_FIXED : result->cell, result->device);
+    size_t place = 0, i;
+    json_array_foreach(names, i, name)
+    {
+        if (own && !strcmp(json_string_value(name), own))
+            place = 1 + i + (is_fixed ? count : 0);
+    }
+    free(own);
+    return place;
+}
+
+struct placed {
+    size_t place, order;
+    struct rg_known_result result;
+};
+
+static int compare(const void *a, const void *b)
+{
+    const struct placed *x = a, *y = b;
+    return x->place != y->place ? (x->place > y->place) - (x->place < y->place)
+                                : (x->order > y->order) - (x->order < y->order);
+}
+
+// The results of all shards, in their order. Returns how many.
+static size_t read_results(const struct rg_parts *parts, struct placed *all)
 {
     size_t count = 0, k;
     json_t *found;
-    for (int i = 0; i < parts->count; i++)
-        count += json_array_size(array_of(parts->documents[i], "results"));
-    gate->results = rg_alloc(count, sizeof(*gate->results), "gate");
-    for (int i = 0; gate->results && i < parts->count; i++) {
-        const json_t *results = array_of(parts->documents[i], "results");
-        json_array_foreach(results, k, found)
+    for (int i = 0; i < parts->count; i++) {
+        json_array_foreach(array_of(parts->documents[i], "results"), k, found)
         {
-            struct rg_known_result *result = &gate->results[gate->result_count];
-            *result = (struct rg_known_result){
+            struct rg_known_result result = {
                 .cell = text_of(found, "cell"),
                 .device = text_of(found, "device"),
                 .driver = json_string_value(json_object_get(found, "driver")),
                 .pixels = number_of(found, "pixels"),
                 .difference = number_of(found, "difference"),
                 .is_foreign = json_is_true(json_object_get(found, "foreign"))};
-            gate->result_count += rg_outcome_find(text_of(found, "outcome"), &result->outcome);
+            if (!rg_outcome_find(text_of(found, "outcome"), &result.outcome))
+                continue;
+            all[count] = (struct placed){place_of(parts, &result), count, result};
+            count++;
         }
     }
-    return gate->results;
+    return count;
+}
+
+static bool add_results(const struct rg_parts *parts, struct rg_gate *gate)
+{
+    size_t room = 0;
+    for (int i = 0; i < parts->count; i++)
+        room += json_array_size(array_of(parts->documents[i], "results"));
+    struct placed *all = rg_alloc(room, sizeof(*all), "gate");
+    gate->results = rg_alloc(room, sizeof(*gate->results), "gate");
+    const size_t count = all && gate->results ? read_results(parts, all) : 0;
+    if (count)
+        qsort(all, count, sizeof(*all), compare);
+    for (size_t i = 0; i < count; i++)
+        gate->results[gate->result_count++] = all[i].result;
+    const bool ok = all && gate->results;
+    free(all);
+    return ok;
 }
 
 // --- all ---
