@@ -147,13 +147,20 @@ static bool find_root(char root[PATH_MAX])
                     root);
 }
 
-// Hashes everything that a driver may read, in any order: a sum. Variables of raingauge choose what
-// a driver is given, which drivers' keys hold.
+// Whether code may depend on a setting in a way that the driver's own key omits. Settings of
+// raingauge choose what a driver is given, which that key holds; but another program may be a
+// script that sets more.
+static bool may_change_code(const char *setting)
+{
+    return strncmp(setting, "RG_", 3) != 0 || !strncmp(setting, "RG_PROGRAM=", 11);
+}
+
+// Hashes everything that a driver may read, in any order: a sum.
 static uint64_t hash_settings(const char *api, const char *environment)
 {
     uint64_t hash = XXH3_64bits(api, strlen(api));
     for (const char *v = environment; *v; v += strlen(v) + 1)
-        hash += strncmp(v, "RG_", 3) ? XXH3_64bits(v, strlen(v)) : 0;
+        hash += may_change_code(v) ? XXH3_64bits(v, strlen(v)) : 0;
     for (int i = 0; rg_variables[i].name; i++) {
         const char *name = rg_variables[i].name, *value = getenv(name);
         char text[PATH_MAX];

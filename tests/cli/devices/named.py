@@ -277,7 +277,7 @@ def check_caches(runner):
             render = ["render"] + SMALL + ["-o", files.path("x.png"), "--device"]
             sides = os.path.join(tmp, "raingauge", "sides")
             gate = ["gate", api, api, "--pictures", "--cells", files.cells]
-            for args, grows in ((render + [api + "@TEST=1"], True), (gate, True), (gate[:1] + [api + "@RG_TEST=1", api + "@RG_TEST=2"] + gate[3:], False)):
+            for args, grows in ((render + [api + "@TEST=1"], True), (gate, True), (render + [api + "@RG_PROGRAM=" + runner.raingauge], True), (gate[:1] + [api + "@RG_TEST=1", api + "@RG_TEST=2"] + gate[3:], False)):
                 before = len(code_in(sides))
                 result = runner.run(args, variables)
                 if result.returncode or code_in(user) or (len(code_in(sides)) > before) != grows:

@@ -133,6 +133,7 @@ ROWS = [
     Fault(SIDE, "(«*asked->environment» || are_all_sides", "false", "a device with settings of its own writes the user's cache"),
     Fault(SIDE, "|| «are_all_sides» ||", "false", "the sides of a gate write the user's cache"),
     Fault(CACHES, "? «XXH3_64bits(v, strlen(v))» : 0;", "0", "all settings share a cache"),
-    Fault(CACHES, "hash += «strncmp(v, \"RG_\", 3)» ?", "true", "settings of raingauge keep a driver's code apart"),
+    Fault(CACHES, "hash += «may_change_code(v)» ?", "true", "settings of raingauge keep a driver's code apart"),
+    Fault(CACHES, "|| «!strncmp(setting, \"RG_PROGRAM=\", 11)»;", "false", "a script that sets more shares a driver's code"),
     Fault(CACHES, "use(root, f->settings_path, «RG_SIDES_KEPT»)", "1000", "folders of old settings stay"),
 ]

@@ -55,16 +55,15 @@ static bool have_one_driver(const json_t *then, int before, const json_t *now, i
 
 static bool have_one_driver_each(const struct rg_parts *parts)
 {
+    json_t *passports = json_array();
     bool ok = true;
     for (int i = 0; ok && i < parts->count; i++) {
         json_t *now = json_loads(text_of(parts->documents[i], "passport_text"), 0, NULL);
-        for (int k = 0; ok && k < i; k++) {
-            json_t *then = json_loads(text_of(parts->documents[k], "passport_text"), 0, NULL);
-            ok = have_one_driver(then, k + 1, now, i + 1);
-            json_decref(then);
-        }
-        json_decref(now);
+        for (int k = 0; ok && k < i; k++)
+            ok = have_one_driver(json_array_get(passports, (size_t)k), k + 1, now, i + 1);
+        json_array_append_new(passports, now ? now : json_null());
     }
+    json_decref(passports);
     return ok;
 }
 

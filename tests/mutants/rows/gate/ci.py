@@ -40,7 +40,7 @@ ROWS = [
     Fault(MERGE, "at[number] = «json_array_get(cases, k)»;", "json_array_get(cases, 0)", "a shard's first case is told for all", tests=("command line, parts",)),
     Fault(MERGE, "is_required && «!is_told(report, text_of(found, \"name\"))»)", "true", "a missing device is told once a shard", tests=("command line, parts",)),
     Fault(MERGE, "«rg_gate_hold_required(text_of(parts->of, \"require\"), report)» &&", "true", "a required device that no shard compared passes", tests=("shards of a gate", "command line, parts")),
-    Fault(MERGE, "ok = «have_one_driver(then, k + 1, now, i + 1)»;", "true", "shards of two drivers make one report", tests=("shards of a gate",)),
+    Fault(MERGE, "ok = «have_one_driver(json_array_get(passports, (size_t)k), k + 1, now, i + 1)»;", "true", "shards of two drivers make one report", tests=("shards of a gate",)),
     Fault("harness/commands/comparing/outputs.c", "    if («outputs->is_part»)\n        return ok;", "false", "a shard tells how to mend expectations of other shards' cells", tests=("command line, parts",)),
     Fault("harness/commands/comparing/gate.c", "return !known->file_count || «!strcmp(digest, rg_gate_merge_expectations(parts))» ||", "true", "expectations are held against shards that had others", tests=("command line, parts",)),
     Fault("harness/record/disk/parts.c", "    if («*kept»)\n        rg_info(", "false", "a shard that is there twice is taken without a word", tests=("command line, parts",)),
