@@ -54,7 +54,7 @@ static const struct rg_claim of_papers[] = {
     {SAID("creus-5.5", "full", "5.2.3", "the first row ... has worse performance"),
      .test = RG_CLAIM_SLOWEST, .first = 1, .knee = 1, .last = 6},
     // Row 6 is the last with packets below 200,000 that draws the printed number of particles, row
-    // 9 the first above (docs/city.md).
+    // 9 the first above (docs/tables.md).
     {SAID("creus-5.5", "full", "5.2.3", "decrease notably ... beyond the 200000"),
      .test = RG_CLAIM_RATIO, .first = 6, .last = 9, .least = NOTABLY, .is_ours = true},
     {SAID("creus-5.5", "full", "5.2.3", "has a subtle effect"),

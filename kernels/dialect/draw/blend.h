@@ -1,5 +1,5 @@
 // Blends a fragment's colour with the target's, format by format, as llvmpipe and lavapipe do
-// (docs/drawing.md has the measurements). Devices that keep images in plain memory and programs
+// (docs/drawing.md has the rule). Devices that keep images in plain memory and programs
 // that blend by themselves share these functions.
 #ifndef RG_KERNELS_DIALECT_DRAW_BLEND_H
 #define RG_KERNELS_DIALECT_DRAW_BLEND_H

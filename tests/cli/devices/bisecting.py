@@ -51,7 +51,7 @@ def bisect(runner, line, more=(), good="1", bad="9", names="123456789"):
 
 
 def check_builds(runner):
-    """the first of five builds that crashes is found, and one without a driver is skipped, as docs/ci.md shows"""
+    """the first of five builds that crashes is found, and one without a driver is skipped, by the script that docs/ci.md quotes"""
     with tempfile.TemporaryDirectory() as folder:
         write(folder, "cells.txt", TORUS)
         for build, library in (("1", runner.misbehaver), ("2", runner.misbehaver), ("3", None), ("4", runner.crasher), ("5", runner.crasher)):
@@ -74,7 +74,7 @@ def check_builds(runner):
 
 
 def check_git(runner):
-    """git bisect run finds the commit whose driver crashes, past commits that do not build, as docs/ci.md shows"""
+    """git bisect run finds the commit whose driver crashes, past commits that do not build, by the script that docs/ci.md quotes"""
     with tempfile.TemporaryDirectory() as folder:
         def git(*args):
             return subprocess.run(["git", "-c", "user.name=n", "-c", "user.email=e", *args], cwd=folder, capture_output=True, text=True,

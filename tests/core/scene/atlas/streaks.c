@@ -60,8 +60,9 @@ static void test_published_brightness(void **state)
         logs[i] = log(mean_of_middle(&streaks, lobe) / published[i / 9][i % 9]);
         mean += logs[i] / 18; // one scale for all: least squares of the logarithms
     }
+    // docs/atlas.md has the range of these ratios.
     for (int i = 0; i < 18; i++)
-        print_message("%.2f%s", exp(logs[i] - mean), i % 9 < 8 ? " " : "\n"); // for docs/atlas.md
+        print_message("%.2f%s", exp(logs[i] - mean), i % 9 < 8 ? " " : "\n");
     print_message("one of their units is %.4f/sr\n", exp(mean));
     for (int i = 0; i < 18; i++)
         // The sixth, at a scattering angle of 110 degrees, has 1.305, and no other more than 1.197.
