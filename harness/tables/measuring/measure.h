@@ -9,7 +9,7 @@
 
 // The options for full or quick measurements.
 const struct rg_measure_options *rg_table_options(bool is_full);
-// The options within a tight budget: quick, with the fewest samples.
+// The options within a tight budget, and under RG_FEW_SAMPLES: quick, with the fewest samples.
 const struct rg_measure_options *rg_table_few_samples(void);
 
 // The end of a measurement within a budget; times are by rg_now_ms. The first row begins in any

@@ -11,7 +11,9 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/scene/city/textures.h"
 #include "core/techniques/scenery/lights/lights.h"
+#include "core/techniques/scenery/scenery.h"
 #include "tests/tools/expect.h"
 
 static int errors;
@@ -269,6 +271,47 @@ static void lights_come_in_the_order_of_the_figure(void **state)
     }
 }
 
+// Adds the light of a lit shop's painted front by night, at 1 m before a lamp of its size and on a
+// white surface that faces it: radiance x area / pi.
+static void add_painted(const struct city_painter *painter, int texture, double sums[3])
+{
+    const double front_m2 = 7 * 4.4, glow = (double)scenery_night().glow;
+    static uint32_t texels[CITY_SMALL_TEXTURE_PX * CITY_SMALL_TEXTURE_PX];
+    const int count = sizeof(texels) / sizeof(texels[0]);
+    city_paint(painter, texture, texels);
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            const double root = (texels[i] >> 8 * c & 255) / 255.0;
+            sums[c] += root * root * (texels[i] >> 24) / 255.0 * glow * front_m2 / (M_PI * count);
+        }
+}
+
+// In the mean of cities, within 15 %.
+static void shops_shine_as_they_are_painted(void **state)
+{
+    (void)state;
+    double due[3] = {0};
+    int shops = 0;
+    for (int seed = 1; seed <= 8; seed++) {
+        const struct city_settings settings = {seed, CITY_SMALL};
+        struct city_painter *painter = city_painter_create(&settings);
+        assert_non_null(painter);
+        for (int texture = PAINT_SHOP; texture < PAINT_WALL; texture++)
+            if (city_shop_is_lit(&settings, texture)) {
+                add_painted(painter, texture, due);
+                shops++;
+            }
+        city_painter_destroy(painter);
+    }
+    static const struct city_lamp shop = {CITY_SHOP, {0, 2.2f, 0}, {0, 0, 1}};
+    const struct scenery_lights_settings settings = {
+        .count = 1, .time = SCENERY_NIGHT, .lamps = &shop, .lamp_count = 1};
+    struct rg_lights lights;
+    assert_true(scenery_lights_choose(&settings, &lights));
+    for (int c = 0; c < 3; c++)
+        assert_below(fabs((double)lights.lights[0].colour[c] * shops / due[c] - 1), 0.15);
+}
+
 static void more_lights_than_lamps_are_refused(void **state)
 {
     (void)state;
@@ -295,6 +338,7 @@ int main(void)
         cmocka_unit_test(files_are_of_256_kib_at_most),
         cmocka_unit_test(what_is_no_file_is_refused),
         cmocka_unit_test(lights_come_in_the_order_of_the_figure),
+        cmocka_unit_test(shops_shine_as_they_are_painted),
         cmocka_unit_test(more_lights_than_lamps_are_refused),
     };
     rg_log_listen(count_error, NULL);
