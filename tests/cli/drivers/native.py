@@ -7,7 +7,7 @@ import tempfile
 
 APIS = ("gl", "vulkan")
 # Small scenes of techniques whose papers used the stages below.
-FLOW = ["flow", "--size", "96x96", "--frame", "4"]
+FLOW = ["flow", "--set", "resolution_px=96", "--set", "environment_px=64", "--size", "96x96", "--frame", "4"]
 STREAKS = ["streaks", "--set", "city=small", "--set", "atlas=small", "--set", "shadow_map_px=256", "--size", "96x96", "--frame", "4"]
 SHOWER = ["shower", "--set", "city=small", "--set", "particles=3000", "--set", "shadow_map_px=256", "--size", "96x96", "--frame", "8"]
 DROPS = ["drops", "--set", "columns=96", "--set", "rows=64", "--set", "max_drops=100", "--size", "96x64", "--frame", "6"]

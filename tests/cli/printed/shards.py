@@ -327,7 +327,8 @@ def check_verified_wrong(runner):
         kernels = tmp + "/kernels"
         os.mkdir(kernels)
         runner.kernels_with(kernels, "flow_normals.glsl", RIGHT, TURNED)
-        args = ["verify", "flow", "--quick", "--frame", "1", "--size", "64x64", "--device", "cpu,gl@RG_KERNEL_DIR=" + kernels]
+        args = ["verify", "flow", "--quick", "--frame", "1", "--size", "64x64", "--set", "resolution_px=64",
+                "--set", "environment_px=64", "--device", "cpu,gl@RG_KERNEL_DIR=" + kernels]
         shards = run_shards(runner, args, tmp + "/out", [({}, "%d/3" % i) for i in (1, 2, 3)])
         whole, merged = runner.run(args + ["--json"]), runner.run(["verify", "--from", tmp + "/out", "--json"])
         if sorted(run.returncode for run in shards) != [0, 0, 1] or (whole.returncode, merged.returncode) != (1, 1) or checks_of(whole) != checks_of(merged):
