@@ -50,7 +50,6 @@ enum city_lamp_kind {
     CITY_TRAFFIC_GREEN,
     CITY_HEADLIGHT,
     CITY_TAIL_LIGHT,
-    CITY_SHOP, // a lit front: its sign and its window
     CITY_LAMP_KINDS
 };
 struct city_lamp {

@@ -36,7 +36,5 @@ struct facade_style {
     double depth_m;                  // depth of windows in the wall
 };
 struct facade_style city_facade_style(const struct city_settings *settings, int texture);
-// Whether light burns behind a shop's windows.
-bool city_shop_is_lit(const struct city_settings *settings, int texture);
 
 #endif

@@ -5,7 +5,6 @@
 #include "core/scene/city/buildings/facade.h"
 #include "core/scene/city/buildings/lots.h"
 #include "core/scene/city/buildings/relief.h"
-#include "core/scene/city/textures.h"
 
 enum { CHANCE_HEIGHT = 300, CHANCE_STYLE, CHANCE_TIER, CHANCE_ROOF, CHANCE_SHOP };
 
@@ -36,15 +35,6 @@ static double chance(const struct building *t, int what, uint32_t k)
 
 // --- facades ---
 
-// The light of each shop, before the middle of its front.
-static void light_shops(struct building *t, const struct city_facade *f, double y0, int shops)
-{
-    for (int i = 0; i < shops; i++)
-        city_lamp_add(t->b, CITY_SHOP,
-                      city_facade_at(f, (i + 0.5) * f->length / shops, y0 + SHOP_M / 2, 0.1),
-                      f->out);
-}
-
 // The ground floor: shops behind posts, with a band of signs above.
 static void build_shops(struct building *t, const struct city_facade *f, double y0)
 {
@@ -55,8 +45,6 @@ static void build_shops(struct building *t, const struct city_facade *f, double 
     const double shops = fmax(1, floor(f->length / 7 + 0.5));
     struct city_facade wide = *f;
     wide.bay_m = f->length / shops;
-    if (city_shop_is_lit(&t->b->settings, look.texture))
-        light_shops(t, f, y0, (int)shops);
     const struct mapping m = city_facade_mapping(&wide, 1, y1, SHOP_M);
     const uint32_t surface = city_surface(t->b, &look, f->out, &m);
     city_facade_quad(t->b, f, d, f->length - d, y0, y1, -d, surface);

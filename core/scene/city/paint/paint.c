@@ -11,16 +11,6 @@ enum { CHANCE_NOISE = 401 };
 
 // --- noise ---
 
-static uint32_t noise_seed(const struct city_settings *settings)
-{
-    return rg_random((uint)settings->seed, 0, 0, CHANCE_NOISE).x;
-}
-
-bool city_shop_is_lit(const struct city_settings *settings, int texture)
-{
-    return paint_shop_is_lit(texture, noise_seed(settings));
-}
-
 // Periodic smooth noise of `across` x `down` cells over the unit square.
 static float smooth(float u, float v, int across, int down, uint32_t seed)
 {
@@ -71,7 +61,7 @@ struct city_painter *city_painter_create(const struct city_settings *settings)
         city_painter_destroy(p);
         return NULL;
     }
-    const uint32_t seed = p->seed = noise_seed(settings);
+    const uint32_t seed = p->seed = rg_random((uint)settings->seed, 0, 0, CHANCE_NOISE).x;
 #pragma omp parallel for
     for (int y = 0; y < size; y++) {
         for (int x = 0; x < size; x++) {

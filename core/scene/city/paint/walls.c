@@ -185,11 +185,6 @@ static struct paint paint_sign(const struct spot *s, float y)
     return (struct paint){0.95f, 0.93f, 0.85f, bright ? 0.9f : 0};
 }
 
-bool paint_shop_is_lit(int texture, uint32_t seed)
-{
-    return paint_lattice(texture, 7, seed) < 0.85f;
-}
-
 struct paint paint_shop(const struct spot *s)
 {
     const float y = 1 - s->v;
@@ -213,6 +208,6 @@ struct paint paint_shop(const struct spot *s)
     struct paint p = paint_scaled(light, depth * (0.62f + 0.2f * paint_cloud(s, 1)));
     if (!door && y < 0.5f && goods < 0.5f)
         p = paint_mix(p, paint_scaled(sign_colour(s, 900 + shelf * 90 + place), 0.75f), 0.4f);
-    p.a = 0.75f * depth * (paint_shop_is_lit(s->texture, s->painter->seed) ? 1 : 0.1f);
+    p.a = 0.75f * depth * (paint_chance(s, 7) < 0.85f ? 1 : 0.1f);
     return p;
 }

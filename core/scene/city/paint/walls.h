@@ -9,7 +9,5 @@ struct paint paint_wall(const struct spot *s, int wall, float u, float v, int ac
 struct paint paint_facade(const struct spot *s);
 struct paint paint_curtain(const struct spot *s);
 struct paint paint_shop(const struct spot *s);
-// Whether light burns in the shop of a texture, with the noise's seed.
-bool paint_shop_is_lit(int texture, uint32_t seed);
 
 #endif

@@ -24,9 +24,6 @@ static const struct lamp_light {
     [CITY_STREET_LAMP] = {{56, 41, 22}, 45, 78},
     [CITY_HEADLIGHT] = {{130, 122, 108}, 4, 28},
     [CITY_TAIL_LIGHT] = {{2, 0.08f, 0.05f}, 30, 65},
-    // The light of a front of 7 x 4.4 m that glows as it is painted
-    // (tests/core/scene/light_file.c).
-    [CITY_SHOP] = {{0.4f, 0.32f, 0.22f}, 45, 78},
     [CITY_TRAFFIC_RED] = {{16, 0.8f, 0.5f}, 30, 55},
     [CITY_TRAFFIC_GREEN] = {{0.6f, 15, 6}, 30, 55},
 };
