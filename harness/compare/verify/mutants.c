@@ -112,6 +112,7 @@ static void run_all(struct rg_verify *v, const struct rg_picture *truth,
             judge(m->about, truth, &mutated, dry, verdicts);
         else
             note_error(verdicts);
+        rg_verify_advance(v, MUTANT_STEPS);
         rg_picture_destroy(&mutated);
     }
 }
@@ -136,6 +137,7 @@ static void run_contrast(const struct rg_verify *scene, const struct rg_contrast
         judge(contrast->about, &truth, &mutated, &dry, verdicts);
     else
         note_error(verdicts);
+    rg_verify_advance(&v, 2 * MUTANT_STEPS);
     rg_picture_destroy(&truth);
     rg_picture_destroy(&dry);
     rg_picture_destroy(&mutated);
@@ -183,10 +185,12 @@ static void draw_all(const struct rg_verify *verify, struct verdicts *verdicts)
     // Stays open, so that data shared on a device is made once.
     struct rg_session *first =
         settings ? rg_verify_run(&scene, scene.mutant_device, settings, 0) : NULL;
-    if (first && draw(&scene, "", &truth) && draw_dry(&scene, &dry))
+    if (first && draw(&scene, "", &truth) && draw_dry(&scene, &dry)) {
+        rg_verify_advance(&scene, MUTANT_STEPS);
         run_all(&scene, &truth, &dry, verdicts);
-    else
+    } else {
         note_error(verdicts);
+    }
     for (const struct rg_contrast *c = scene.technique->proof->contrasts;
          c && c->about && !verdicts->error; c++)
         run_contrast(&scene, c, verdicts);
@@ -199,6 +203,7 @@ static void draw_all(const struct rg_verify *verify, struct verdicts *verdicts)
 void rg_verify_mutants(struct rg_verify *verify)
 {
     struct verdicts verdicts = {.told.tier = RG_T1};
+    rg_verify_begin(verify, rg_verify_mutant_work(verify));
     draw_all(verify, &verdicts);
     report(verify, &verdicts);
 }

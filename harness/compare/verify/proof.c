@@ -425,6 +425,7 @@ static void run_pose(struct rg_verify *v, struct row *rows, int count, const str
             run_one(v, rows, count, &c);
         else
             note_errors(v, &rows[0]);
+        rg_verify_advance(v, (int64_t)c.steps * count);
         free(c.settings);
     }
 }
@@ -437,6 +438,7 @@ void rg_verify_devices(struct rg_verify *v)
         return;
     }
     const int count = list_rows(v, rows);
+    rg_verify_begin(v, rg_verify_device_work(v));
     for (const struct rg_pose *pose = v->technique->proof->poses; pose->set; pose++)
         if (rg_verify_steps(v, pose) != RG_POSE_LEFT_OUT)
             run_pose(v, rows, count, pose);

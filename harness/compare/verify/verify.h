@@ -16,6 +16,13 @@ enum rg_verify_length {
     RG_VERIFY_FULL,  // every pose, for all its steps, with every seed
 };
 
+// Cases on all devices, or mutants: each phase has a pace of its own, for the time left. Units are
+// those of the progress bar.
+struct rg_verify_phase {
+    int64_t left, done;       // `done` without the first case, during which drivers compile
+    double first_ms, last_ms; // when the first and the latest case ended; 0: none has
+};
+
 struct rg_verify {
     const struct rg_technique *technique;
     const void *settings; // the user's
@@ -27,7 +34,12 @@ struct rg_verify {
     struct rg_device *mutant_device;
     struct rg_checks *checks;
     struct rg_progress *progress;
+    struct rg_verify_phase *phase; // NULL: no time left is told
 };
+
+// Begins a phase of so many units, and says that some of them are done.
+void rg_verify_begin(const struct rg_verify *verify, int64_t units);
+void rg_verify_advance(const struct rg_verify *verify, int64_t units);
 
 // A pose's number of steps before drawing; RG_POSE_LEFT_OUT if it is not run.
 int rg_verify_steps(const struct rg_verify *verify, const struct rg_pose *pose);
