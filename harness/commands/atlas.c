@@ -39,7 +39,7 @@ static const struct rg_option options[] = {
      .about = "draws drops that oscillate as in wind tunnels, not as in the original database",
      .offset = AT(measured), .excludes = "from"},
     {RG_OPTION_TEXT, "from", .argument = "DIR",
-     .about = "packs the original streak database of this folder, and generates nothing",
+     .about = "packs the original streak database of this folder, instead of generating an atlas",
      .offset = AT(from), .names = RG_NAMES_FOLDER},
     {RG_OPTION_TEXT, "compare", .argument = "DIR",
      .about = "compares the atlas with the original database's pictures in this folder, and prints "

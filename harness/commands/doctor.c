@@ -34,18 +34,18 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     {RG_OPTION_TEXT, "kernels", .argument = "NAMES",
-     .about = "instead compiles each of these kernels by itself, and runs one item of a kernel "
-              "that needs no input. NAMES: names with commas, or all. Prints the kernels that a "
-              "driver cannot compile",
+     .about = "compiles each of these kernels by itself, instead of examining devices, and prints "
+              "those that a driver cannot compile; also runs one item of a kernel that needs no "
+              "input. NAMES: names separated by commas, or all",
      .offset = AT(kernels)},
     {RG_OPTION_FLAG, "fixed-function", .excludes = "kernels",
-     .about = "instead draws one fixed function after the other through each driver's own graphics "
-              "pipeline, and prints a digest of each draw",
+     .about = "draws one fixed function after the other through each driver's own graphics "
+              "pipeline, instead of examining devices, and prints a digest of each draw",
      .offset = AT(fixed_function)},
     {RG_OPTION_FLAG, "prologue",
-     .about =
-         "prints no report. Ends with status 75 and one line if this machine should measure "
-         "nothing now: others use its processors, heat throttles them, or a device is not healthy",
+     .about = "checks whether this machine should measure now, instead of printing a report: ends "
+              "with status 75 and one line if others use its processors, heat throttles them, or a "
+              "device is not healthy",
      .offset = AT(prologue), .excludes = "kernels json fixed-function"},
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),

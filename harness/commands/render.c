@@ -53,8 +53,8 @@ static const struct rg_option options[] = {
      .offset = AT(frames), .least = 0, .most = 1e7, .excludes = "frame"},
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     {RG_OPTION_TEXT, "case", .argument = "FILE",
-     .about = "replays a reproducer of `raingauge shrink`: says whether the device gives the "
-              "expected bits, and writes no picture",
+     .about = "replays a reproducer of `raingauge shrink`, instead of drawing a picture, and "
+              "prints whether the device gives the expected bits",
      .offset = AT(replayed), .names = RG_NAMES_FILE,
      .excludes = "set frame frames size output fps exposure json"},
     RG_GROUP("Devices"),
@@ -70,7 +70,7 @@ static const struct rg_option options[] = {
               "has %04d for the frame's number",
      .offset = AT(output), .letter = 'o', .names = RG_NAMES_FILE},
     {RG_OPTION_INT, "fps", .argument = "N",
-     .about = "frames a second of a clip (default 60, real time for steps of 1/60 s)",
+     .about = "frames per second of a clip (default 60, real time for steps of 1/60 s)",
      .offset = AT(fps), .least = 1, .most = 240},
     RG_INCLUDE(rg_exposure_option, AT(exposure), NULL),
     RG_INCLUDE(rg_json_option, AT(json), NULL),

@@ -11,8 +11,8 @@
 
 const struct rg_option rg_shard_option[] = {
     {RG_OPTION_TEXT, "shard", .argument = "I/N|auto",
-     .about = "does only shard I of N, counted from 1; auto reads the variables of Slurm, "
-              "CI_NODE_INDEX or those of googletest"},
+     .about = "runs only shard I of N, counted from 1; auto takes I and N from Slurm's variables, "
+              "from CI_NODE_INDEX and CI_NODE_TOTAL, or from googletest's"},
     {RG_OPTION_END},
 };
 

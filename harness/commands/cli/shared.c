@@ -71,9 +71,9 @@ const struct rg_option rg_json_option[] = {
 #define AT(field) offsetof(struct rg_length, field)
 
 const struct rg_option rg_length_options[] = {
-    {RG_OPTION_FLAG, "quick", .about = "less work: few samples, steps or streaks",
+    {RG_OPTION_FLAG, "quick", .about = "does less work: few samples, steps or streaks",
      .offset = AT(quick), .excludes = "full"},
-    {RG_OPTION_FLAG, "full", .about = "all the work: many samples, steps or streaks",
+    {RG_OPTION_FLAG, "full", .about = "does all the work: many samples, steps or streaks",
      .offset = AT(full)},
     {RG_OPTION_END},
 };

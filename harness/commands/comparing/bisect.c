@@ -49,10 +49,11 @@ static const struct rg_option options[] = {
               "search (docs/ci.md)",
      .offset = AT(line)},
     {RG_OPTION_INT, "tries", .argument = "N",
-     .about = "how many times to try a candidate whose status is 3, before skipping it",
+     .about = "the number of tries of a candidate whose status is 3, before it is skipped",
      .offset = AT(tries), .initial = "3", .least = 1, .most = 16},
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "RG_BUDGET of the first try; each further try gets twice the time of the last",
+     .about = "the time of the first try, in RG_BUDGET; each further try gets twice the time of "
+              "the last",
      .offset = AT(budget), .initial = "2m"},
     {RG_OPTION_CHOICE, "crash",
      .about = "the verdict on a candidate whose command ends by a signal", .offset = AT(crash),

@@ -34,7 +34,7 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     {RG_OPTION_FLAG, "mutants", .offset = AT(mutants),
      .about = "for a pair that misses its tier, names the mutants (deliberate faults) of "
-              "`raingauge verify` that the tier it reaches would accept"},
+              "`raingauge verify` that would pass the tier that the pair reaches"},
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_GROUP_OF(2, "What to compare: two files"),

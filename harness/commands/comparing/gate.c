@@ -62,11 +62,10 @@ static const struct rg_option options[] = {
               "built-in cells",
      .offset = AT(cells), .names = RG_NAMES_FILE},
     {RG_OPTION_FACTOR, "margin", .argument = "PERCENT",
-     .about = "how much longer B's frames may take. Default: 5, or 10 against a baseline, because "
-              "whole runs differ in speed",
+     .about = "the percentage by which B's frames may take longer. Default: 5, or 10 against a "
+              "baseline, because whole runs differ in speed",
      .offset = AT(margin_percent), .most = 100},
-    {RG_OPTION_FLAG, "pictures",
-     .about = "compares only pictures, states and counters, and times nothing",
+    {RG_OPTION_FLAG, "pictures", .about = "compares pictures, states and counters, but no times",
      .offset = AT(pictures_only), .excludes = "margin budget"},
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
      .about =
@@ -74,17 +73,19 @@ static const struct rg_option options[] = {
          "then are inconclusive; the gate refuses a time too short for any verdict",
      .offset = AT(budget)},
     {RG_OPTION_FLAG, "strict",
-     .about = "fails also for a fixed function of B's driver that differs from A's within what the "
-              "APIs allow (docs/native.md)",
+     .about = "also fails if a fixed function of B's driver differs from A's within what the APIs "
+              "allow (docs/native.md)",
      .offset = AT(strict), .excludes = "against baseline"},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Shards (docs/ci.md)"),
     RG_INCLUDE(rg_shard_option, AT(shard), NULL),
     {RG_OPTION_TEXT, "times", .argument = "FILE",
-     .about = "divides the cells by how long each took in an earlier gate, whose --json this is",
+     .about = "divides the cells by how long each took in an earlier gate; FILE is that gate's "
+              "--json output",
      .offset = AT(times), .names = RG_NAMES_FILE, .excludes = "from"},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
-     .about = "runs nothing, and reports what all shards together found, whose -o was DIR",
+     .about = "reports what all shards together found, instead of running cells; DIR is the folder "
+              "of their -o",
      .offset = AT(from), .names = RG_NAMES_FILE,
      .excludes =
          "against baseline device require timeout cells margin pictures strict budget fresh shard "

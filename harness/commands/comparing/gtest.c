@@ -12,8 +12,9 @@
 
 const struct rg_option rg_gtest_options[] = {
     RG_GROUP("googletest's protocol"),
-    {RG_OPTION_FLAG, "gtest_list_tests", .about = "prints the names of the cases, and runs no case",
-     .offset = AT(list), .excludes = "json github"},
+    {RG_OPTION_FLAG, "gtest_list_tests",
+     .about = "prints the names of the cases, instead of running them", .offset = AT(list),
+     .excludes = "json github"},
     {RG_OPTION_TEXT, "gtest_filter", .argument = "FILTER",
      .about = "runs only these cases, and prints in googletest's format", .offset = AT(filter),
      .excludes = "json github"},

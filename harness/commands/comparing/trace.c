@@ -31,7 +31,8 @@ static const struct rg_option options[] = {
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     {RG_OPTION_INT, "count", .argument = "N",
-     .about = "number of frames to time without waits; as many more frames wait after each pass",
+     .about = "number of frames to time without waits; as many more are timed with a wait after "
+              "each pass",
      .offset = AT(frames), .least = 1, .most = 1000, .initial = "10"},
     RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     RG_GROUP("Devices"),

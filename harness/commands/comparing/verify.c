@@ -48,8 +48,8 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_frame_option, AT(steps), NULL),
     RG_INCLUDE(rg_size_option, AT(size), RG_DEFAULT_SIZE),
     {RG_OPTION_FLAG, "stages", .offset = AT(stages),
-     .about = "draws 3 frames, or those of --frame, names the first stage that leaves different "
-              "bits in an asset, and verifies nothing else"},
+     .about = "draws 3 frames, or those of --frame, instead of verifying, and names the first "
+              "stage that leaves different bits in an asset"},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -60,7 +60,8 @@ static const struct rg_option options[] = {
      .about = "the folder for a shard's record, which all shards share", .offset = AT(output),
      .letter = 'o', .names = RG_NAMES_FOLDER},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
-     .about = "runs nothing, and reports what all shards together found, whose -o was DIR",
+     .about = "reports what all shards together found, instead of verifying; DIR is the folder of "
+              "their -o",
      .offset = AT(from), .names = RG_NAMES_FILE,
      .excludes = "set quick full frame size stages device require timeout shard output"},
     {RG_OPTION_FLAG, "partial", .about = "reports even if shards are missing",

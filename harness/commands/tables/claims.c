@@ -43,8 +43,8 @@ static const struct rg_option options[] = {
     {RG_OPTION_FLAG, "fresh", .about = "ignores the measurements that an interrupted run stored",
      .offset = AT(fresh)},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
-     .about = "judges the launches stored in FILE or DIR by -o or an interrupted run, and measures "
-              "nothing",
+     .about = "judges stored launches, instead of measuring: those that -o or an interrupted run "
+              "left in FILE or DIR",
      .offset = AT(from), .names = RG_NAMES_FILE,
      .excludes = "device quick full fresh budget output"},
     RG_GROUP("Devices"),

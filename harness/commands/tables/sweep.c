@@ -48,7 +48,7 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_size_option, AT(size), "1280x720"),
     RG_INCLUDE(rg_frame_option, AT(frame), "10"),
     RG_INCLUDE(rg_length_options, AT(length), NULL),
-    {RG_OPTION_FLAG, "dry-run", .about = "prints the plan, and measures nothing",
+    {RG_OPTION_FLAG, "dry-run", .about = "prints the plan, instead of measuring",
      .offset = AT(dry_run)},
     {RG_OPTION_FLAG, "fresh", .about = "ignores the measurements that an interrupted run stored",
      .offset = AT(fresh)},

@@ -60,7 +60,7 @@ static const struct rg_option options[] = {
          "ends in .table is a file with a table of your own (docs/tables.md). With --budget, "
          "--quick, --full, --from or --compile, no name means all tables of the papers",
      .names = RG_NAMES_TABLE, .first = 1},
-    {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
+    {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "selects only these rows, counted from 1",
      .offset = AT(rows), .least = 1, .most = INT_MAX},
     {RG_OPTION_CHOICE, "work",
      .about = "measures only this kind of work: paper, as the paper describes it; reading, as the "
@@ -68,10 +68,10 @@ static const struct rg_option options[] = {
               "API's occlusion queries",
      .offset = AT(work), .choices = works},
     {RG_OPTION_TEXT, "variant", .argument = "NAME",
-     .about = "only this variant of each row: full, no_geometry", .offset = AT(variant)},
+     .about = "selects only this variant of each row: full, no_geometry", .offset = AT(variant)},
     {RG_OPTION_TEXTS, "set", .argument = "KEY=VALUE",
      .about = "sets a parameter in all cells and overrides their rows; the result is then not "
-              "compared with print",
+              "compared with the published numbers",
      .offset = AT(sets)},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
@@ -82,21 +82,20 @@ static const struct rg_option options[] = {
     {RG_OPTION_FLAG, "fresh", .about = "ignores the measurements that an interrupted run stored",
      .offset = AT(fresh)},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
-     .about = "prints the results stored in FILE or DIR by -o, --json or an interrupted run, and "
-              "measures "
-              "nothing",
+     .about = "prints stored results, instead of measuring: those that -o, --json or an "
+              "interrupted run left in FILE or DIR",
      .offset = AT(from), .names = RG_NAMES_FILE, .excludes = "device quick full fresh set"},
     {RG_OPTION_FLAG, "compile",
-     .about = "lets all drivers compile and cache the tables' shaders side by side, and measures "
-              "nothing",
+     .about = "lets all drivers compile and cache the tables' shaders side by side, instead of "
+              "measuring",
      .offset = AT(compile),
      .excludes = "full quick rows work variant set from fresh budget claims kept format wide "
                  "output json"},
     RG_GROUP("A plan of several machines (docs/farm.md)"),
     {RG_OPTION_TEXT, "plan", .argument = "FILE",
      .about = "measures the cells of a plan that `raingauge plan -o` wrote, on the plan's devices. "
-              "-o names the folder for the records, one a group of cells; groups with a record "
-              "there are skipped",
+              "-o names the folder for the records, one for each group of cells; groups with a "
+              "record there are skipped",
      .offset = AT(plan), .names = RG_NAMES_FILE,
      .excludes = "rows work variant set quick full budget fresh from compile device require claims "
                  "kept format wide json"},
