@@ -65,7 +65,7 @@ static const struct rg_param rows[] = {
     {"view_below", RG_PARAM_CHOICE, AT(absolute_views), 0, 0, 1, "1", "streaks seen from below: mirrored with their light, or, as in the thesis, as if seen from above", "mirrored absolute"},
     {"last_mip", RG_PARAM_INT, AT(last_mip), 5, 0, 5, "1", "coarsest level of the streak atlas that is read", NULL},
     {"thin_streaks", RG_PARAM_CHOICE, AT(points), 0, 0, 1, "1", "streaks thinner than a pixel: drawn a pixel wide and fainter, or only where they cover a pixel's middle, as in the thesis", "area points"},
-    {"look", RG_PARAM_CHOICE, AT(look), 0, 0, 1, "1", "group of settings, which later settings override: rain of a spectrum, as bright as in a photograph, or as in the thesis's figures, of one size, with gains above 1 and without far rain", "photograph thesis"},
+    {"look", RG_PARAM_CHOICE, AT(look), 0, 0, 1, "1", "group of settings, which later settings override: rain of a spectrum, as bright as in a photograph, or as in the thesis's figures, of one size, with streaks brighter than real ones and without far rain", "photograph thesis"},
     {"drops", RG_PARAM_CHOICE, AT(drops), 1, 0, 1, "1", "whether drops are visible", "off on"},
     {"splashes", RG_PARAM_CHOICE, AT(splashes), 1, 0, 1, "1", "whether splashes are visible", "off on"},
     {"splash_materials", RG_PARAM_CHOICE, AT(splash_materials), 1, 0, 1, "1", "whether the form of splashes follows the surface, water, rough or smooth, or is the same for all", "off on"},
