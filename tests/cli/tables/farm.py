@@ -81,7 +81,8 @@ def check_plan(runner):
         problems.append("groups: %s" % [group["id"] for group in document["groups"]])
     if not re.search(r"warning: (\d+) of \1 cells are in no record, so that their times are guessed by how fast", made.planned.stderr):
         problems.append("stderr: " + made.planned.stderr)
-    says = r"%s: %d cells in 5 groups, expected .*\n4 shards: the longest .*, the mean .*\n" % (re.escape(made.plan), len(cells))
+    largest = max(document["groups"], key=lambda group: sum(cell["seconds"] for cell in group["cells"]))
+    says = r"%s: %d cells in 5 groups, expected .*; the largest is %s, .*\n4 shards: the longest .*, the mean .*\n" % (re.escape(made.plan), len(cells), re.escape(largest["id"]))
     if not re.fullmatch(says, made.planned.stdout):
         problems.append("stdout: " + made.planned.stdout)
     known = runner.run(["plan", *TABLES, "--device", "cpu", "--from", made.records, "-o", made.path + "/known.json"])

@@ -219,9 +219,36 @@ static void drops_fill_the_air(void **state)
     rg_instance_close(instance);
 }
 
+// The same seed has the same drops, however many there are, and another seed others.
+static void a_seed_sets_the_drops(void **state)
+{
+    enum { FEW = 100, MORE = 164 };
+    static const char *const sets[] = {"scene=billboards billboards=100 seed=7",
+                                       "scene=billboards billboards=164 seed=7",
+                                       "scene=billboards billboards=100 seed=8"};
+    struct rg_instance *instances[3];
+    float *drops[3];
+    for (int i = 0; i < 3; i++) {
+        instances[i] = open_scene(*state, sets[i]);
+        drops[i] = asset_words(instances[i], "drops");
+    }
+    int same = 0;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < FEW; i++) {
+            assert_equals(drops[0][k * FEW + i], drops[1][k * MORE + i]);
+            same += drops[0][k * FEW + i] == drops[2][k * FEW + i];
+        }
+    assert_at_most(same, 1);
+    for (int i = 0; i < 3; i++) {
+        free(drops[i]);
+        rg_instance_close(instances[i]);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_seed_sets_the_drops),
         cmocka_unit_test(panes_are_rectangles_that_turn),
         cmocka_unit_test(streaks_trail_their_drops),
         cmocka_unit_test(drops_fill_the_air),

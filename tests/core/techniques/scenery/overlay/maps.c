@@ -37,8 +37,9 @@ static double texel_met(double x, double y, int *texel, double *ahead)
                           0.5 - fabs(along - floor(along) - 0.5)));
 }
 
-// A map of 4 x 4 different values on the floor, with rows along x; 0.1 is black and 0.9 white.
-static void plates_show_their_maps(void **state)
+// A map of 4 x 4 different values on the floor, with rows along x, from black to white: upwards, as
+// maps of density, or downwards, as depth.
+static void check_plate(struct rg_device *device, float black_at, float white_at)
 {
     const struct rg_image_desc desc = {RG_D32F, MAP_PX, MAP_PX, 1, 1};
     const float half_way = 0.94f;
@@ -47,18 +48,18 @@ static void plates_show_their_maps(void **state)
     for (int i = 0; i < MAP_PX * MAP_PX; i++)
         values[i] = 0.02f + 0.06f * (float)i;
     struct rg_instance instance;
-    struct scenery_overlay *overlay = open_overlay(*state, &instance);
-    struct rg_image *map = rg_image_create(*state, &desc, "map");
+    struct scenery_overlay *overlay = open_overlay(device, &instance);
+    struct rg_image *map = rg_image_create(device, &desc, "map");
     assert_true(map && rg_image_write(map, 0, 0, values));
     const scenery_plate_params plate = {.to_clip = rg_m4_of(to_clip),
                                         .corner_x = -3,
                                         .corner_z = -5,
                                         .across_x = 6,
                                         .down_z = 8,
-                                        .white_at = 0.9f,
-                                        .black_at = 0.1f};
-    struct picture open = picture_make(*state, RG_RGBA32F, 1);
-    struct picture tested = picture_make(*state, RG_RGBA32F, half_way);
+                                        .white_at = white_at,
+                                        .black_at = black_at};
+    struct picture open = picture_make(device, RG_RGBA32F, 1);
+    struct picture tested = picture_make(device, RG_RGBA32F, half_way);
     assert_true(scenery_overlay_plate(overlay, &plate, map, open.colour, open.depth) &&
                 scenery_overlay_plate(overlay, &plate, map, tested.colour, tested.depth));
     float *texels = picture_read(&open), *behind = picture_read(&tested);
@@ -69,7 +70,8 @@ static void plates_show_their_maps(void **state)
         const double inside = texel_met(i % WIDTH + 0.5, i / WIDTH + 0.5, &texel, &ahead);
         if (fabs(inside) < 0.05)
             continue; // either texel, or none
-        const double grey = ramp(((double)values[texel] - 0.1) / 0.8);
+        const double grey = ramp(((double)values[texel] - (double)black_at) /
+                                 ((double)white_at - (double)black_at));
         assert_float_equal(texels[4 * i], inside > 0 ? grey : 0, 1e-5);
         assert_float_equal(texels[4 * i + 3], inside > 0 ? 1 : 0, 0);
         const double depth = 50 / 49.5 * (1 - 0.5 / ahead);
@@ -89,6 +91,12 @@ static void plates_show_their_maps(void **state)
     picture_free(&tested);
     rg_image_destroy(map);
     close_overlay(overlay, &instance);
+}
+
+static void plates_show_their_maps(void **state)
+{
+    check_plate(*state, 0.1f, 0.9f);
+    check_plate(*state, 0.9f, 0.1f);
 }
 
 // --- insets ---
