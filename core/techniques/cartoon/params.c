@@ -69,7 +69,7 @@ static const struct rg_param rows[] = {
     {"splash_s", RG_PARAM_FLOAT, AT(rain.splash_s), 0.2, 0, 10, "s", "duration of a splash", NULL},
     {"cut", RG_PARAM_CHOICE, AT(rain.cut), 1, 0, 1, "1", "whether sprites are cut to the part that is not transparent; the picture is the same", "off on"},
     {"water", RG_PARAM_CHOICE, AT(water.on), 0, 0, 1, "1", "whether water gathers where drops have hit surfaces that face upwards", "off on"},
-    {"water_m3", RG_PARAM_FLOAT, AT(water.drop_m3), 0, 0, 0.0001, "m3", "volume of water that the heaviest drop leaves, for many that are not drawn; 0: as suits the scene", NULL},
+    {"water_m3", RG_PARAM_FLOAT, AT(water.drop_m3), 0, 0, 0.0001, "m3", "volume of water that the heaviest drop leaves where it lands, as it stands for many drops; 0: as suits the scene", NULL},
     {"water_dry_s", RG_PARAM_FLOAT, AT(water.dry_s), 4, 0.1, 1000, "s", "time after which 1/e of standing water is left", NULL},
     {"water_spread_m2_s", RG_PARAM_FLOAT, AT(water.spread_m2_s), 0.01, 0, 10, "m2/s", "diffusion coefficient with which water spreads", NULL},
     {"water_from_m", RG_PARAM_FLOAT, AT(water.from_m), 0.0001, 1e-6, 1, "m", "depth from which on water is visible", NULL},

@@ -41,7 +41,7 @@ static const struct rg_param rows[] = {
     {"view_angle_deg", RG_PARAM_FLOAT, AT(view_angle_deg), 60, 1, 150, "deg", "vertical angle of view (beta)", NULL},
     {"walk_m_s", RG_PARAM_FLOAT, AT(walk_m_s), 0, -1000, 1000, "m/s", "speed at which the viewer walks ahead", NULL},
     {"light", RG_PARAM_FLOAT, AT(light), 1.5, 0, 1000, "1", "light of drops, as a multiple of that of the sky overhead", NULL},
-    {"opacity", RG_PARAM_FLOAT, AT(opacity), 0.6, 0, 1, "1", "share that a drop hides of things behind it", NULL},
+    {"opacity", RG_PARAM_FLOAT, AT(opacity), 0.6, 0, 1, "1", "how much of what is behind it a drop hides; 1: all", NULL},
 };
 // clang-format on
 
