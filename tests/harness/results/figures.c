@@ -41,6 +41,21 @@ static void test_settings_are_taken(void **state)
     }
     assert_above(count, 0);
     assert_null(rg_figure_find("creus-0.0"));
+    assert_null(rg_figure_find("chin-4")); // a part of a name is none
+    assert_null(rg_figure_find("chin-4aa"));
+}
+
+// Captions say how long after the one before a figure is.
+static void test_later_figures_are_later(void **state)
+{
+    (void)state;
+    static const struct later {
+        const char *before, *after;
+        int steps;
+    } all[] = {{"chin-4a", "chin-4b", 30}, {"chin-6a", "chin-6b", 1}};
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(rg_figure_find(all[i].after)->frame - rg_figure_find(all[i].before)->frame,
+                         all[i].steps);
 }
 
 static void test_all_figures_are_there(void **state)
@@ -65,6 +80,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_settings_are_taken),
         cmocka_unit_test(test_all_figures_are_there),
+        cmocka_unit_test(test_later_figures_are_later),
     };
     return cmocka_run_group_tests_name("figures", tests, NULL, NULL);
 }
