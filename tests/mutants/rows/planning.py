@@ -69,4 +69,5 @@ ROWS = [
     Fault(FARM + "shard.c", "!rg_interrupted() && «!m->is_lost»; g++)", "true", "a shard measures on though its records are lost", tests=("command line, befallen",)),
     Fault(FARM + "shard.c", "    if («found != RG_FARM_WHOLE»)", "true", "a shard that runs again measures all", tests=("command line, befallen",)),
     Fault(FARM + "merge.c", "table->left_out[row - table->first_row] = «true»;", "false", "rows of another machine are missing", tests=MERGES),
+    Fault("harness/commands/tables/plan.c", "plan->groups[g].seconds > «plan->groups[found].seconds»", "plan->groups[g - 1].seconds", "a plan names some group as its largest", tests=("command line, farm",)),
 ]

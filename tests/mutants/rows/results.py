@@ -95,4 +95,6 @@ ROWS = [
     Fault("harness/tables/own/file.c", "own->table.variants[v].fps = «column»;", "NULL", "printed rates of a file stand beside no variant", tests=("command line, results",)),
     Fault("harness/tables/own/file.c", "own->grid.rows[row].values[table->key_count + c] = own->values[«row»][c];", "0", "all rows of a file have the first one's print", tests=("command line, results",)),
     Fault("harness/tables/own/claim.c", "claim->source = «RG_CLAIM_SAID»;", "RG_CLAIM_PRINTED", "somebody's words in a file are no quotation", tests=("command line, results",)),
+    Fault("harness/tables/figures/chin.c", ".frame = «250»,", "220", "a figure of a later step shows the earlier one", tests=("figures",)),
+    Fault("harness/tables/figures/figures.c", "if («!strcmp(figure->id, id)»)", "!strncmp(figure->id, id, strlen(id))", "the beginning of a figure's name is taken for it", tests=("figures",)),
 ]

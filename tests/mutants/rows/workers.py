@@ -136,4 +136,5 @@ ROWS = [
     Fault(CACHES, "hash += «may_change_code(v)» ?", "true", "settings of raingauge keep a driver's code apart"),
     Fault(CACHES, "|| «!strncmp(setting, \"RG_PROGRAM=\", 11)»;", "false", "a script that sets more shares a driver's code"),
     Fault(CACHES, "use(root, f->settings_path, «RG_SIDES_KEPT»)", "1000", "folders of old settings stay"),
+    Fault("harness/devices/kept.c", "rg_session_close(place->session);\n    «free_subject(&place->of);»", ";", "a kept session is taken for one of an earlier subject", tests=("kept sessions",)),
 ]

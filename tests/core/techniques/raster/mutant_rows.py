@@ -56,6 +56,7 @@ ROWS = [Row(*row, TESTS) for row in (
     ("green is blue", "quads.h", "raster_quad_word(rg, i, 8),", "raster_quad_word(rg, i, 9),"),
     # billboards
     ("all drops lie in one plane", "drops.h", "rg_uniform(r.z)", "rg_uniform(r.x)"),
+    ("drops depend on their number", "drops.h", "rg_to_uint(p.seed)", "rg_to_uint(p.count)"),
     ("all drops are equally far", "drops.h", "rg_uniform(r.z)", "0.5f"),
     ("streaks hang below their drops", "streaks.h", "v3 tail = v3_add(head, streak);", "v3 tail = v3_add(head, v3_scale(streak, -1.0f));"),
     ("streaks have twice their width", "streaks.h", "v3 other = v3_scale(side, -1.0f);", "v3 other = v3_scale(side, -3.0f);"),

@@ -102,6 +102,7 @@ ROWS = [Row(*row) for row in (
     ("plates lie mirrored", "overlay/plate.h", "float across = rg_clamp(rg_plane_at(r.b, dx, dy) * w",
      "float across = rg_clamp(1.0f - rg_plane_at(r.b, dx, dy) * w", MAPS),
     ("plates as seen without perspective", "overlay/plate.h", "float w = rg_planes_w(r, px, py)", "float w = rg_planes_w(r, 80, 45)", MAPS),
+    ("plates of depth are black", "overlay/plate.h", "/ (p.white_at - p.black_at)", "/ rg_abs(p.white_at - p.black_at)", MAPS),
     ("plates' greys from black", "overlay/plate.h", "(value - p.black_at) /", "value /", MAPS),
     ("insets upside down", "overlay/inset.h", "p.v0 + (p.v1 - p.v0) * down", "p.v1 - (p.v1 - p.v0) * down", MAPS),
     ("insets without a frame", "overlay/inset.h", "frame != 0 ? 1.0f : grey", "grey", MAPS),
