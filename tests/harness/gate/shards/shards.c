@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "core/base/log.h"
+#include "harness/compare/gate/run/choose.h"
 #include "harness/compare/gate/run/timing.h"
 #include "harness/compare/gate/shards/shards.h"
 #include "harness/console/exit.h"
@@ -39,6 +40,32 @@ static void test_error(void **state)
         assert_true(rule.error / rule.rows > 0.999 * rows[i].share &&
                     rule.error / rule.rows < 1.001 * rows[i].share);
     }
+}
+
+// The error is shared by the cells of all shards, though each shard has some of them alone.
+static void test_family(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "a/one raster 16x16 1\na/two raster 16x16 1\na/three raster 16x16 1\n";
+    struct rg_gate_cells cells;
+    struct rg_gate_pairs pairs = {.count = 1};
+    assert_true(rg_gate_cells_of("cells", text, strlen(text), &cells));
+    assert_true(rg_gate_pair_of("cpu", "cpu:reference", &pairs.all[0]));
+    int cases = 0;
+    for (int shard = 1; shard <= 2; shard++) {
+        const struct rg_gate_request request = {
+            .pairs = &pairs, .cells = &cells, .shard = {shard, 2}};
+        struct rg_gate gate = {.case_count = 0};
+        struct rg_running_gate run = {.asked = &request, .gate = &gate};
+        assert_true(rg_gate_choose(&run));
+        assert_int_equal(run.family[0], 3);
+        assert_int_equal(gate.chosen, 3);
+        cases += gate.case_count;
+        rg_gate_free(&gate);
+    }
+    assert_int_equal(cases, 3);
+    rg_gate_cells_free(&cells);
 }
 
 // --- records ---
@@ -157,9 +184,9 @@ static void test_broken(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error),    cmocka_unit_test(test_order),
-        cmocka_unit_test(test_required), cmocka_unit_test(test_drivers),
-        cmocka_unit_test(test_broken),
+        cmocka_unit_test(test_error),   cmocka_unit_test(test_family),
+        cmocka_unit_test(test_order),   cmocka_unit_test(test_required),
+        cmocka_unit_test(test_drivers), cmocka_unit_test(test_broken),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

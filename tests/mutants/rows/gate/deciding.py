@@ -54,4 +54,5 @@ ROWS = [
     Fault("harness/compare/gate/run/timing.c", "r->asked->baseline ? «lot->before» : NULL};", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, baselines",)),
     Fault(JOURNAL, "    «json_array_append_new(launches, launch_json(launch, quads));»", ";", "a launch is not kept", tests=("command line, losses",)),
     Fault(JOURNAL, "if (take_launch(found, &number, quads) && «number == launch»)", "true", "each launch is the first that was kept", tests=("command line, losses",)),
+    Fault("harness/compare/gate/run/choose.c", "+= «chosen->cell != NULL»;", "chosen->cell && c->shard_of[i] == shard->number", "each shard spends the whole error", tests=("shards of a gate",)),
 ]
