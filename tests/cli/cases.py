@@ -45,6 +45,7 @@ SHOWER = "render shower --set geometry=off --size 64x36 --frame 1 --set drop_hei
 FIT = RAIN + ("--set fit=on --set rain_width_m=60 --set rain_depth_m=60 --set rain_height_m=40 --set camera=free "
               "--set drops_m2_s=60 --set streak_gain=60 ")
 
+NAMES = ("doctor diff shrink verify gate baseline bisect trace table claims sweep plan merge figures atlas list render report").split()
 COMMANDS = [
     # every command
     Case("", 2, r"no command; `raingauge --help` lists them"),
@@ -52,6 +53,7 @@ COMMANDS = [
     Case("--version", 0, None),
     Case("nonsense", 2, r"command 'nonsense': unknown; the nearest is 'render', and `raingauge --help` lists them"),
     Case("tabel", 2, r"command 'tabel': unknown; the nearest is 'table', and `raingauge --help` lists them"),
+    *[Case(name + "q", 2, rf"command '{name}q': unknown; the nearest is '{name}', and") for name in NAMES],
     Case("help", 0, None),
     Case("help diff", 0, None),
     Case("help dif", 2, r"command 'dif': unknown; the nearest is 'diff', and"),

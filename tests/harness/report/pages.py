@@ -236,9 +236,14 @@ def check_badge(raingauge, folder):
     """a badge is an SVG that says how many claims of a paper hold, or how many cases fail"""
     made.write(folder / "a.json", made.gate(made.case("a", "crash"), made.case("b")))
     made.write(folder / "b.json", {"format": 1, "devices": [], "checks": []})
+    claims = [{"id": paper, "table": "a", "paper": paper, "words": "c", "part": None, "verdicts": [{"device": "0", "verdict": "reproduced", "figures": None}]}
+              for paper in ("ye", "chin", "chin")]
+    made.write(folder / "c.json", {"format": 1, "tables": [], "claims": claims[:2]})
+    made.write(folder / "d.json", {"format": 1, "tables": [], "claims": claims})
+    made.write(folder / "e.json", {"format": 1, "tables": [], "claims": claims[1:]})
     titles = [ElementTree.fromstring(brief(raingauge, folder, "badge", record)).findtext("{http://www.w3.org/2000/svg}title")
-              for record in ("a.json", "b.json", made.TABLES / "creus-5.6.json", made.TABLES)]
-    wanted = [r"raingauge: 1 of 2 fail", r"raingauge: nothing measured", r"creus: \d+ of \d+ claims hold", r"raingauge: \d+ of \d+ claims hold"]
+              for record in ("a.json", "b.json", "c.json", "d.json", "e.json", made.TABLES / "creus-5.6.json", made.TABLES)]
+    wanted = [r"raingauge: 1 of 2 fail", r"raingauge: nothing measured", "raingauge: 2 of 2 claims hold", "raingauge: 3 of 3 claims hold", "chin: 2 of 2 claims hold", r"creus: \d+ of \d+ claims hold", r"raingauge: \d+ of \d+ claims hold"]
     return [] if all(map(re.fullmatch, wanted, titles)) else [titles]
 
 

@@ -47,4 +47,5 @@ ROWS = [
     Fault(PARSE, "rg_command_print_help(line->command);\n    return «RG_EXIT_PASS»;", "RG_EXIT_USAGE", "asking for help fails"),
     Fault(OPTION, "row.offset «+= includer->offset»;", "+= 0", "options that commands share lie at the beginning"),
     Fault(OPTION, "row.initial = «includer->initial ? includer->initial : row.initial»;", "row.initial", "a command has no default of its own"),
+    Fault("harness/main.c", "for (int i = «0»; rg_commands[i]; i++)\n        rg_nearest_try", "1", "the first command is never the nearest", tests=("command line, cases",)),
 ]

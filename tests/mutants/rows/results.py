@@ -97,4 +97,5 @@ ROWS = [
     Fault("harness/tables/own/claim.c", "claim->source = «RG_CLAIM_SAID»;", "RG_CLAIM_PRINTED", "somebody's words in a file are no quotation", tests=("command line, results",)),
     Fault("harness/tables/figures/chin.c", ".frame = «250»,", "220", "a figure of a later step shows the earlier one", tests=("figures",)),
     Fault("harness/tables/figures/figures.c", "if («!strcmp(figure->id, id)»)", "!strncmp(figure->id, id, strlen(id))", "the beginning of a figure's name is taken for it", tests=("figures",)),
+    Fault("harness/console/sheet.c", "n < «sheet->note_count»; n++)\n        print_md_note(out, sheet->notes[n], sheet->note_width);\n}", "sheet->note_count - sheet->lead_count", "the last notes of a table are missing", tests=("sheets, notes",)),
 ]

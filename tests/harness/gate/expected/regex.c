@@ -139,6 +139,15 @@ static void none_takes_for_ever(void **state)
             fail_msg("%s: %d", rows[i].text, (int)found);
         rg_regex_free(regex);
     }
+    // Backtracking runs out of memory long before it runs out of steps.
+    enum { LONG = 200000 };
+    char *long_name = calloc(1, LONG + 1);
+    assert_non_null(long_name);
+    memset(long_name, 'a', LONG);
+    struct rg_regex *heavy = compile("(a|b)*c|(a|b)*a$");
+    assert_int_equal(rg_regex_search(heavy, long_name), RG_REGEX_FOUND);
+    rg_regex_free(heavy);
+    free(long_name);
     struct rg_known known = {.count = 0};
     static const char text[] = "fine\n\n(.{0,1000}){9}[YZ]\n";
     assert_true(rg_known_add_text(&known, "my.txt", text, strlen(text), RG_FORM_SKIPS));

@@ -5,6 +5,8 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/record/schema/schema.h"
@@ -160,6 +162,34 @@ static void test_long_names_and_rates(void **state)
     rg_result_free(&rig.result);
 }
 
+// In Markdown the lead notes stand above the table, and all others below it.
+static void test_lead_notes(void **state)
+{
+    (void)state;
+    struct rg_sheet sheet = {.title = "claims", .lead_count = 2};
+    rg_sheet_column(&sheet, "paper");
+    snprintf(rg_sheet_row(&sheet)[0], RG_SHEET_CELL, "%s", "cell");
+    for (int n = 0; n < 5; n++)
+        rg_sheet_note(&sheet, "note %d", n);
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    rg_sheet_print_md(&sheet, out);
+    assert_int_equal(fclose(out), 0);
+    const char *cell = strstr(text, "cell");
+    assert_non_null(cell);
+    for (int n = 0; n < 5; n++) {
+        char wanted[16];
+        snprintf(wanted, sizeof(wanted), "note %d", n);
+        const char *found = strstr(text, wanted);
+        assert_non_null(found);
+        assert_equals(found < cell, n < 2);
+    }
+    free(text);
+    rg_sheet_free(&sheet);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -168,6 +198,7 @@ int main(void)
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_growth_of_few_rows),
         cmocka_unit_test(test_long_names_and_rates),
+        cmocka_unit_test(test_lead_notes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
