@@ -216,8 +216,11 @@ static json_t *blame_pair(struct session *s, const struct shot *a, const struct 
     struct rg_blame blame;
     if (!rg_blame_find(&run, other->device, truth->device, &blame))
         return NULL;
+    json_t *json = r->json && blame.found ? rg_blame_json(&blame) : NULL;
+    if (json)
+        json_object_set_new(json, "device", rg_json_text(other->info->name));
     if (r->json)
-        return blame.found ? rg_blame_json(&blame) : NULL;
+        return json;
     if (blame.found)
         printf("  %s: %s\n", other->info->name, blame.text);
     else

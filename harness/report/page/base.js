@@ -46,18 +46,21 @@ function nameAndUnit(key) {
 const words = key => nameAndUnit(key).filter(Boolean).join(", ");
 const list = texts => texts.length < 2 ? texts.join("") : texts.slice(0, -1).join(", ") + " and " + texts[texts.length - 1];
 
-// Three digits, as many as a median is worth.
-function digits(x) {
+// Three digits, as many as a median is worth; `hasZeros`: also zeros at their end.
+function rounded(x, hasZeros) {
   if (!isNumber(x)) return "–";
   if (x === 0) return "0";
-  const places = Math.max(0, 2 - Math.floor(Math.log10(Math.abs(x))));
+  const value = Number(x.toPrecision(3)), places = Math.max(0, 2 - Math.floor(Math.log10(Math.abs(value))));
   if (places > 6) return x.toExponential(1);
-  return Number(x.toPrecision(3)).toLocaleString("en", {maximumFractionDigits: places});
+  return value.toLocaleString("en", {maximumFractionDigits: places, minimumFractionDigits: hasZeros ? places : 0});
 }
+const digits = x => rounded(x, false);
+// A time beside others: 4.00 beside 3.73.
+const timeDigits = x => rounded(x, true);
 // As it is printed: no digit less.
 const exact = x => isNumber(x) ? (Math.abs(x) >= 10000 ? x.toLocaleString("en", {maximumFractionDigits: 6}) : String(x)) : x === null || x === undefined ? "" : String(x);
 const percent = x => isNumber(x) ? `${x > 0 ? "+" : ""}${digits(100 * x)} %` : "–";
-const between = (low, high) => isNumber(low) && isNumber(high) ? `${digits(low)} to ${digits(high)}` : "";
+const between = (low, high, text = digits) => isNumber(low) && isNumber(high) ? `${text(low)} to ${text(high)}` : "";
 function seconds(x) {
   if (!isNumber(x)) return "–";
   return x < 120 ? `${digits(x)} s` : `${Math.round(x / 60)} min`;
@@ -127,6 +130,10 @@ const objectOf = x => x && typeof x === "object" && !Array.isArray(x) ? x : {};
 const objectsOf = x => arrayOf(x).filter(y => y && typeof y === "object" && !Array.isArray(y));
 const records = (kind, source = DATA) => arrayOf(source.records).filter(record => record.kind === kind);
 const picture = name => DATA.pictures[DATA.files[name]] || null;
+// A document's passport; a gate has it as a text, which need not be JSON.
+function passportOf(document) {
+  try { return objectOf(typeof document.passport_text === "string" ? JSON.parse(document.passport_text) : document.passport); } catch (error) { return {}; }
+}
 
 // Machines that records come from, by their keys: those of tables, then those of documents of claims, which name theirs from A on, too.
 const MACHINES = (() => {
@@ -147,7 +154,7 @@ const DEVICES = (() => {
   const usual = ["cpu", "cpu:reference", "gl", "vulkan", "opencl"], found = new Map();
   for (const record of arrayOf(DATA.records)) {
     const d = objectOf(record.document);
-    for (const device of objectsOf([...arrayOf(d.devices), ...arrayOf(objectOf(d.passport).devices)]))
+    for (const device of objectsOf([...arrayOf(d.devices), ...arrayOf(passportOf(d).devices)]))
       if (typeof device.name === "string" && !(found.get(device.name) || {}).driver) found.set(device.name, device);
     for (const cell of objectsOf(d.cells)) if (!found.has(cell.device)) found.set(cell.device, {name: cell.device});
   }
@@ -156,6 +163,10 @@ const DEVICES = (() => {
   const order = name => usual.includes(name) ? usual.indexOf(name) : usual.length;
   return [...found.values()].sort((a, b) => order(a.name) - order(b.name));
 })();
+// What kind of device it is; of one that does not say, what other records say of its name.
+const kindOf = device => ({true: "software on the CPU", false: "GPU"}[(typeof device.software === "boolean" ? device : DEVICES.find(d => d.name === device.name) || {}).software]) || "";
+// Devices by their kind: "Software on the CPU: cpu and gl. GPU: vulkan."
+const kindsText = devices => [...d3.group(devices.filter(kindOf), kindOf)].map(([kind, found]) => `${kind[0].toUpperCase()}${kind.slice(1)}: ${list(found.map(d => d.name))}.`).join(" ");
 const deviceIndex = name => Math.max(0, DEVICES.findIndex(d => d.name === name));
 const deviceClass = name => name === "print" ? "print" : "d" + deviceIndex(name) % 8;
 

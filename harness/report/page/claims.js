@@ -156,12 +156,13 @@ function evidence(claim, table) {
     return lines.length ? [variants.length > 1 ? el("h3", {}, words(variant)) : null, plot({lines, axis: axis && axisOf(table).groups.length === 1 && inside.length > 2 ? words(axis) : null, value: "frames a second", name: `${table.id}-${variant}`, isLog: true})] : null;
   });
 }
-// The error of each row's picture, which is the same on every device.
+// The error of each row's picture: one line if devices draw the same pictures.
 function errorPlot(table, numbers, variant, work) {
-  const {axis} = axisOf(table), device = (DEVICES.find(d => table.cells.some(c => c.device === d.name)) || {}).name;
-  const points = numbers.map(n => ({row: n, x: axis ? table.rows.get(n)[axis] : null, label: rowText(table.rows.get(n), keysOf(table)),
-    value: objectOf((cellOf(table, n, device, variant, work) || {}).error).flip_mask_mean, low: null, high: null})).filter(p => isNumber(p.value));
-  return points.length ? plot({lines: [{name: device, points}], axis: axis && words(axis), value: "error of the picture, FLIP", name: table.id + "-error", isLog: false}) : null;
+  const {axis} = axisOf(table), lines = DEVICES.map(({name}) => ({name, points: numbers.map(n => ({row: n, x: axis ? table.rows.get(n)[axis] : null, label: rowText(table.rows.get(n), keysOf(table)),
+    value: objectOf((cellOf(table, n, name, variant, work) || {}).error).flip_mask_mean, low: null, high: null})).filter(p => isNumber(p.value))})).filter(line => line.points.length);
+  const isOne = lines.length > 1 && new Set(lines.map(line => JSON.stringify(line.points))).size === 1;
+  return lines.length ? [isOne ? note(`One line serves ${list(lines.map(line => line.name))}: they draw the same pictures, so that the error is the same.`) : null,
+    plot({lines: isOne ? [{...lines[0], name: "each device"}] : lines, axis: axis && words(axis), value: "error of the picture, FLIP", name: table.id + "-error", isLog: false})] : null;
 }
 // How many launches a verdict rests on, and how many more would probably decide it.
 function launchesOf(v) {
@@ -175,6 +176,12 @@ function launchesText(claim) {
   const looks = arrayOf(RULES.looks).filter(isNumber), wanted = claim.verdicts.filter(v => v.launches_needed).map(v => `${v.launches_needed} more on ${v.on}${v.hours_needed ? ` (${hoursText(v.hours_needed)})` : ""}`);
   const course = looks.length ? ` The first verdict is sought after ${looks[0]} on a device and the last after ${looks[looks.length - 1]}; as many again must confirm it, so that it takes from ${2 * looks[0]} to ${2 * looks[looks.length - 1]}.` : "";
   return `Launches: new processes, each of which gives one figure.${course} ${wanted.length ? `Probably it takes ${list(wanted)}.` : "How long one takes is not known before the first was run."}`;
+}
+// Where a claim is decided, and by what.
+function decidedText(claim, decided) {
+  const by = decided.filter(v => v.launches).map(v => `${plural(v.launches, "launch", "launches")} on ${v.on}`);
+  const on = decided.length < claim.verdicts.length || decided.length === 1 ? `on ${list(decided.map(v => v.on))}` : "on every device";
+  return `It is decided ${on}${by.length ? ` by ${list(by)}` : claim.test === "flattens" ? " by pictures: the error of a picture is the same in every launch, so that it needs no launches" : ""}.`;
 }
 const hoursText = hours => hours < 1 ? `about ${Math.max(1, Math.round(60 * hours))} min` : `about ${digits(hours)} h`;
 // What a verdict says besides, as newer records have it: launches, intervals.
@@ -191,7 +198,8 @@ function bibtex(key, p) {
 function viewClaim(params) {
   const claim = CLAIMS.find(c => c.id === params.get("id")) || null;
   if (!claim) return [head("Claim"), note("This page holds no such claim. "), link("claims", {}, "All claims")];
-  const paper = PAPERS[claim.paper], i = CLAIMS.indexOf(claim), near = [CLAIMS[i - 1], CLAIMS[i + 1]], open = claim.verdicts.some(v => v.verdict === "undecided" || String(v.verdict).startsWith("one launch")), isByLaunches = claim.verdicts.some(v => "launches" in v), hasChance = claim.verdicts.some(v => isNumber(v.probability));
+  const paper = PAPERS[claim.paper], i = CLAIMS.indexOf(claim), near = [CLAIMS[i - 1], CLAIMS[i + 1]], open = claim.verdicts.some(v => v.verdict === "undecided" || String(v.verdict).startsWith("one launch"));
+  const decided = claim.verdicts.filter(v => ["reproduced", "not reproduced"].includes(v.verdict)), isByLaunches = claim.verdicts.some(v => "launches" in v), hasChance = claim.verdicts.some(v => isNumber(v.probability));
   return [head(claimWords(claim), el("p", {class: "lead"}, `${paperTitle(claim.paper)}, section ${claim.section}, about `, link("table", {id: claim.table}, claim.table), claim.source === "said" ? "." : "; the words are ours, and say what the table shows."),
       el("p", {}, "It holds where ", testOf(claim), `. ${boundText(claim)}`), el("p", {}, `${rowsText(claim)}${claim.variant && claim.variant !== "full" ? `; what is timed is ${words(claim.variant)}` : ""}.`),
       claim.print_contradicts ? el("p", {class: "warn"}, "The paper's own table contradicts it.") : null),
@@ -199,8 +207,8 @@ function viewClaim(params) {
       claim.verdicts.map(v => [v.on, [badge(v.verdict), " ", v.why || "", v.rows_judged < v.rows_needed ? ` (by ${v.rows_judged} of ${v.rows_needed} rows)` : "", launchesOf(v) ? el("small", {}, launchesOf(v)) : null, extras(v) ? el("small", {}, extras(v)) : null], ...(hasChance ? [isNumber(v.probability) ? v.probability < 0.001 ? "< 0.001" : digits(v.probability) : "–"] : [])])),
       hasChance ? note("Chance: how probable such samples would be if the opposite were true.") : null),
     tablesNamed(claim.table).map(table => part(SEVERAL ? `The rows that decide, ${table.id}` : "The rows that decide", evidence(claim, table))),
-    part(open ? "What would decide it" : "Measure it yourself", open ? el("p", {}, isByLaunches ? launchesText(claim) : "More samples, of the paper's own settings.") : null,
-      command(isByLaunches ? `raingauge claims ${shell(claim.table)} -o mine` : `raingauge table ${shell(claim.table)} --full --claims -o mine`)),
+    part(open ? "What would decide it" : decided.length ? "What it takes" : "Measure it yourself", decided.length ? el("p", {}, decidedText(claim, decided)) : null, open ? el("p", {}, isByLaunches ? launchesText(claim) : "More samples, of the paper's own settings.") : null,
+      open || decided.length ? el("h3", {}, "Measure it yourself") : null, command(isByLaunches ? `raingauge claims ${shell(claim.table)} -o mine` : `raingauge table ${shell(claim.table)} --full --claims -o mine`)),
     paper ? part("Cite", el("pre", {}, bibtex(claim.paper, paper) + "\n\n" + bibtex("raingauge", {...SOFTWARE, type: "misc"}))) : null,
     el("p", {class: "near"}, near[0] ? link("claim", {id: near[0].id}, "Previous claim") : null, " ", link("claims", {}, "All claims"), " ", near[1] ? link("claim", {id: near[1].id}, "Next claim") : null)];
 }

@@ -8,7 +8,7 @@ const ABOUT = {
   crash: "a driver ended its process", timeout: "a driver did not come back in time", error: "the case could not be run, or a required device is missing or compared nothing",
   "set-up": "a driver is installed, but a file, library or variable of its set-up is broken", lacking: "raingauge itself lacked memory, a process, an open file or room on the disk",
   differs: "pictures, states or counters differ", "unexpected pass": "the case passes, but was expected to fail", "nothing measured": "the picture shows no rain, or there is no sample to decide on",
-  regressed: "B is slower, by more than the margin allows", inconclusive: "the times do not decide; that fails no gate", flake: "a known flake", "expected failure": "the case fails as expected",
+  regressed: "B is slower, by more than the margin allows", inconclusive: "the times do not decide, so that the exit status is 3 if nothing fails", flake: "a known flake", "expected failure": "the case fails as expected",
   unsupported: "the device or the machine lacks what was asked for", skipped: "an expectation skips the case, or there is nothing to compare it with", improved: "B is faster, by more than the margin allows", pass: "nothing is worse",
 };
 const aboutEnding = name => ABOUT[name] || "this page does not know this ending, and counts it as a failure";
@@ -17,9 +17,11 @@ const endingClass = ending => ENDINGS.has(ending) ? ENDINGS.get(ending).cls : "b
 const endingOrder = ending => ENDINGS.has(ending) ? ENDINGS.get(ending).order : -1;
 // A ratio with its interval, without what is no ratio.
 const positive = x => Object.fromEntries(Object.entries(objectOf(x)).filter(([, v]) => isNumber(v) && v > 0));
+const ratioOf = c => c.ratio.value || 0;
+// Gates with their cases, the worst ending first, and of one ending the slowest.
 const gatesOf = source => records("gate", source).map(record => ({file: record.file, document: objectOf(record.document),
   cases: objectsOf(objectOf(record.document).gated).map(c => ({...c, name: String(c.name), ratio: positive(c.ratio), time_ms: objectOf(c.time_ms), attachments: arrayOf(c.attachments), devices: arrayOf(c.devices)}))
-    .map((c, i) => [c, i]).sort((a, b) => endingOrder(a[0].ending) - endingOrder(b[0].ending) || a[1] - b[1]).map(([c]) => c)})).map(gate => ({...gate, named: new Map(gate.cases.map(c => [c.name, c]))}));
+    .map((c, i) => [c, i]).sort((a, b) => endingOrder(a[0].ending) - endingOrder(b[0].ending) || ratioOf(b[0]) - ratioOf(a[0]) || a[1] - b[1]).map(([c]) => c)})).map(gate => ({...gate, named: new Map(gate.cases.map(c => [c.name, c]))}));
 const GATES = gatesOf(DATA);
 const fails = c => endingClass(c.ending) === "bad";
 // How many cases have each value: [value, number], in the order in which they come.
@@ -74,9 +76,9 @@ const intervalText = c => isNumber(c.ratio.low) && isNumber(c.ratio.high) ? `${r
 
 // A and B, as the passport has them, if it is JSON.
 function sides(gate) {
-  let passport = {};
-  try { passport = objectOf(JSON.parse(gate.document.passport_text)); } catch (error) { return el("pre", {class: "passport"}, gate.document.passport_text || ""); }
-  const devices = objectsOf(passport.devices), named = (d, i) => [devices.length === 2 ? "AB"[i] + ": " + d.name : d.name, d.driver, d.device, objectsOf(d.libraries).map(l => `${l.path} (${String(l.build).slice(0, 12)})`).join(", ")].map(text => text || "not recorded");
+  const devices = objectsOf(passportOf(gate.document).devices);
+  if (!devices.length) return el("pre", {class: "passport"}, gate.document.passport_text || "");
+  const named = (d, i) => [devices.length === 2 ? "AB"[i] + ": " + d.name : d.name, [d.driver || "not recorded", kindOf(d) ? el("small", {}, kindOf(d)) : null], d.device, objectsOf(d.libraries).map(l => `${l.path} (${String(l.build).slice(0, 12)})`).join(", ")].map(text => text || "not recorded");
   return sheet("What was compared; B is held against A", ["side", "driver", "device", "code that draws, and its build"], devices.map(named));
 }
 
@@ -95,15 +97,19 @@ function chosenCases(gate, params) {
   return [found, form];
 }
 const MOST = 60;
-const more = (found, params) => found.length > MOST && !params.get("all") ? el("p", {}, `The worst ${MOST} of ${found.length}. `, el("button", {type: "button", id: "all", onclick: () => choose({all: "1"})}, "Show all")) : null;
+const more = (found, params, what = "") => found.length > MOST && !params.get("all") ? el("p", {}, `The worst ${MOST} of ${found.length}${what}. `, el("button", {type: "button", id: "all", onclick: () => choose({all: "1"})}, "Show all")) : null;
 const first = (found, params) => params.get("all") ? found : found.slice(0, MOST);
 
 // All looks, cells and devices of a gate share an error of 1 % (docs/ci.md).
 const GATE_LEVEL = "99 %";
-// Ratios of B by A with intervals, the worst first, on the margin's band.
-function forest(cases, margin) {
-  const timed = cases.filter(c => isNumber(c.ratio.value) && c.ratio.value > 0);
+// Which of the cases that are looked for a chart of ratios leaves out, then the worst of the others.
+function forestOf(found, params, margin) {
+  const timed = found.filter(ratioOf), others = found.filter(c => !ratioOf(c)), endings = tally(others.map(c => c.ending)).map(([name, k]) => `${k} ${name}`);
   if (!timed.length) return note("No case has a ratio: nothing was timed.");
+  return [more(timed, params, " with times"), others.length ? el("p", {class: "untimed"}, `Of ${plural(found.length, "case")} ${others.length} ${others.length === 1 ? "has" : "have"} no times, and ${others.length === 1 ? "is" : "are"} not in this chart: ${list(endings)}.`) : null, forest(first(timed, params), margin)];
+}
+// Ratios of B by A with intervals, the worst first, on the margin's band.
+function forest(timed, margin) {
   const width = widthOf(), isNarrow = width < 560, step = isNarrow ? 40 : 26, isLong = timed.length > 12;
   const edge = {left: isNarrow ? 10 : 270, right: isNarrow ? 12 : 150, top: isLong ? 28 : 8, bottom: 44};
   const height = edge.top + edge.bottom + timed.length * step, bottom = height - edge.bottom;
@@ -136,15 +142,21 @@ function stageOf(details) {
   const found = /^frame (\d+), (?:stage (\S+)|opening) ?: (.*)$/m.exec(details || "");
   return found && [found[0], found[2] || "opening, before any stage", found[1], found[3]];
 }
-const stageText = ([, stage, frame, rest]) => [el("strong", {}, stage), ` in frame ${frame}: `, el("small", {}, rest)];
+// The same for people. `of`: the names of the side that is right, which the line names last, and of the other.
+function stageText([, stage, frame, rest], of) {
+  const found = of.length ? /^(.+?),? is (.+?), not (.+?), off by (.+)$/.exec(rest) : null;
+  return [el("strong", {}, stage), ` in frame ${frame}: `, el("small", {}, found ? `${found[1]}: ${of[0]} has ${found[3]}, ${of[1]} has ${found[2]}, off by ${found[4]}` : rest)];
+}
+// A's and B's names; a baseline's case is judged by the reference.
+const namesOf = c => c.devices.length > 1 ? ["A", "B"] : c.devices.length ? ["cpu:reference", c.devices[0]] : [];
 
 function viewCase(gate, c) {
-  const time = isNumber(c.time_ms.value) ? `${digits(c.time_ms.value)} ms${between(c.time_ms.low, c.time_ms.high) ? ` (${between(c.time_ms.low, c.time_ms.high)})` : ""}` : "", earlier = earlierOf(gate), then = earlier && earlier.named.get(c.name), stage = stageOf(c.details);
-  const facts = [["Ending", [ending(c.ending), ": ", aboutEnding(c.ending)]], ["In the run before", then ? [ending(then.ending), " ", newsTag(newsOf(c, earlier))] : ""], ["First stage that differs", stage ? stageText(stage) : ""], ["Technique", c.technique], ["Devices", c.devices.join(", ")],
+  const time = isNumber(c.time_ms.value) ? `${timeDigits(c.time_ms.value)} ms${between(c.time_ms.low, c.time_ms.high) ? ` (${between(c.time_ms.low, c.time_ms.high, timeDigits)})` : ""}` : "", earlier = earlierOf(gate), then = earlier && earlier.named.get(c.name), stage = stageOf(c.details);
+  const facts = [["Ending", [ending(c.ending), ": ", aboutEnding(c.ending)]], ["In the run before", then ? [ending(then.ending), " ", newsTag(newsOf(c, earlier))] : ""], ["First stage that differs", stage ? stageText(stage, namesOf(c)) : ""], ["Technique", c.technique], ["Devices", c.devices.join(", ")],
     ["Time of B over time of A", isNumber(c.ratio.value) ? `${ratioText(c)}${intervalText(c) ? `, ${GATE_LEVEL} interval ${intervalText(c)}` : ""}` : ""],
-    ["Time of B", time], ["Time of A", isNumber(c.baseline_ms) ? `${digits(c.baseline_ms)} ms` : ""], ["Smallest change that could have been seen", isNumber(c.smallest_visible) ? `${digits(100 * c.smallest_visible)} %` : ""], ["Took", seconds(c.seconds)]];
+    ["Time of A", isNumber(c.baseline_ms) ? `${timeDigits(c.baseline_ms)} ms` : ""], ["Time of B", time], ["Smallest change that could have been seen", isNumber(c.smallest_visible) ? `${digits(100 * c.smallest_visible)} %` : ""], ["Took", seconds(c.seconds)]];
   const replay = c.devices.length > 1 && c.technique ? `raingauge shrink ${shell(c.technique)} --device ${shell(c.devices.join(","))} -o case.txt` : null, details = stage ? c.details.replace(stage[0], "").trim() : c.details;
-  return el("article", {class: "case", id: "case"}, el("h2", {tabindex: "-1"}, c.name), c.message ? el("p", {class: "lead"}, c.message) : null,
+  return el("article", {class: "case", id: "case"}, el("h2", {tabindex: "-1"}, c.name), c.message ? el("p", {class: "lead"}, c.message) : null, tierNote([c.message, c.details]),
     el("dl", {class: "facts"}, facts.filter(([, text]) => text && text !== "–").map(([name, text]) => [el("dt", {}, name), el("dd", {}, text)])),
     details ? el("pre", {}, details) : null, comparer(c.attachments),
     replay && fails(c) ? [el("h3", {}, "Make a case to send of it"), command(replay)] : null,
@@ -152,25 +164,27 @@ function viewCase(gate, c) {
 }
 
 function caseRows(cases, view, isCi, earlier) {
-  return [endingKey(cases), sheet("Cases, the worst first. B / A is the time of B over the time of A: above 1 is slower", ["case", "ending", ...(earlier ? [{text: "before", title: `How the case ended in the run before, ${fileText(earlier.file)}`}] : []), {text: "B / A", number: true, title: "Time of B over time of A; above 1 is slower"},
-    {text: `${GATE_LEVEL} interval`, number: true, title: `For all cases together it holds with ${GATE_LEVEL} confidence`}, {text: "B,\u00a0ms", number: true}, {text: "took", number: true}, ...(isCi ? ["pictures"] : [])],
+  return [endingKey(cases), tierNote(cases.map(c => c.message)),
+    sheet("Cases, the worst first. B / A is the time of B over the time of A: above 1 is slower", ["case", "ending", ...(earlier ? [{text: "run before", title: `How the case ended in the run before, ${fileText(earlier.file)}`}] : []), {text: "B / A", number: true, title: "Time of B over time of A; above 1 is slower"},
+    {text: `${GATE_LEVEL} interval`, number: true, title: `For all cases together it holds with ${GATE_LEVEL} confidence`}, {text: "A,\u00a0ms", number: true}, {text: "B,\u00a0ms", number: true}, {text: "took", number: true}, ...(isCi ? ["pictures"] : [])],
     cases.map(c => [el("a", {href: href(view, {...Object.fromEntries(place().params), to: null, case: c.name})}, c.name), [ending(c.ending), " ", newsTag(newsOf(c, earlier)), c.message ? el("small", {}, c.message) : null], ...(earlier ? [earlier.named.has(c.name) ? ending(earlier.named.get(c.name).ending) : "–"] : []),
-      ratioText(c), intervalText(c), isNumber(c.time_ms.value) ? digits(c.time_ms.value) : "–", seconds(c.seconds), ...(isCi ? [thumbnails(c.attachments)] : [])]), "cases")];
+      ratioText(c), intervalText(c), timeDigits(c.baseline_ms), timeDigits(c.time_ms.value), seconds(c.seconds), ...(isCi ? [thumbnails(c.attachments)] : [])]), "cases")];
 }
 // How many of a gate's cases are chosen, then the cases.
 const casesPart = (gate, found, params, view) => partOf("cases", "Cases", el("p", {role: "status"}, `${found.length} of ${plural(gate.cases.length, "case")}`), view === "ci" ? more(found, params) : null, caseRows(first(found, params), view, view === "ci", earlierOf(gate)));
 
-// A view of a gate: what it found, what is new of that, the choices, the chosen case, then parts.
-function gateView(title, view, params, parts) {
+// A view of a gate: for whom it is, what it found, what is new of that, the choices, the chosen case, then parts.
+function gateView(title, about, view, params, parts) {
   if (!GATES.length) return [head(title), note("This page holds no gate.")];
   const [gate, gates] = gateChoice(params), [found, form] = chosenCases(gate, params), one = gate.cases.find(c => c.name === params.get("case"));
   const {lead, below} = parts(gate, found);
-  return [head(title, el("p", {class: "lead verdicts"}, verdictOfGate(gate, view)), el("p", {class: "news"}, newsLine(gate, view)), gate.cases.some(c => c.ending === "inconclusive") ? note("An inconclusive case does not fail the gate: its times decide nothing. If nothing fails, the gate then ends with status 3.") : null, lead),
+  return [head(title, note(about), el("p", {class: "lead verdicts"}, verdictOfGate(gate, view)), el("p", {class: "news"}, newsLine(gate, view)),
+      gate.cases.some(c => c.ending === "inconclusive") ? note("Exit status: 1 if any case fails; 3, not 0, if none fails and one is inconclusive, which means that its times do not decide.") : null, lead),
     el("form", {class: "choices", role: "search", onsubmit: event => event.preventDefault()}, gates, form), one ? viewCase(gate, one) : null, below];
 }
 function viewGate(params) {
-  return gateView("Gate: A and B", "gate", params, (gate, found) => ({below: [part("What is held against what", sides(gate)),
-    part("How much slower or faster", more(found, params), forest(first(found, params), marginOf(gate))), casesPart(gate, found, params, "gate")]}));
+  return gateView("Gate: A and B", "For driver engineers: what differs between A and B, where, and by how much.", "gate", params, (gate, found) => ({below: [part("A and B", sides(gate)),
+    part("How much slower or faster", forestOf(found, params, marginOf(gate))), casesPart(gate, found, params, "gate")]}));
 }
 
 // --- the owner of CI ---
@@ -178,16 +192,17 @@ function viewGate(params) {
 const timedCases = cases => cases.filter(c => isNumber(c.seconds) && c.seconds >= 0).sort((a, b) => b.seconds - a.seconds);
 const secondsOf = cases => d3.sum(cases, c => c.seconds);
 const shareText = x => x >= 0.01 ? `${Math.round(100 * x)} %` : x < 0.001 ? "< 0.1 %" : `${(100 * x).toFixed(1)} %`;
-// Which cases took longest: one, or all that took as long.
+// Which cases took longest, and their share of all seconds: one, or all that took as long.
 function longestText(timed) {
-  const longest = seconds(timed[0].seconds), most = timed.filter(c => seconds(c.seconds) === longest);
-  return most.length === 1 ? `${most[0].name} took longest, ${longest}` : `${most.length} cases took longest, ${longest} each${most.length > 3 ? "" : ": " + list(most.map(c => c.name))}`;
+  const longest = seconds(timed[0].seconds), most = timed.filter(c => seconds(c.seconds) === longest), all = secondsOf(timed), told = `${longest} or ${shareText(all ? timed[0].seconds / all : 0)} of that`;
+  return most.length === 1 ? `${most[0].name} took longest, ${told}` : `${most.length} cases took longest, ${told} each${most.length > 3 ? "" : ": " + list(most.map(c => c.name))}`;
 }
+const allText = timed => timed.length > 1 ? `All ${timed.length} cases took ${seconds(secondsOf(timed))}; ${longestText(timed)}. ` : `${timed[0].name} took ${seconds(timed[0].seconds)}. `;
 // Bars of the seconds that the chosen cases took, the longest first.
 function secondsSheet(gate, found) {
-  const all = secondsOf(timedCases(gate.cases)), timed = timedCases(found), top = timed.slice(0, 12), isAll = found.length === gate.cases.length;
-  return top.length ? [el("p", {}, isAll ? `All ${plural(found.length, "case")} took ${seconds(all)}` : `The ${found.length === 1 ? "case" : plural(found.length, "case")} chosen above took ${seconds(secondsOf(timed))} of the ${seconds(all)} of all ${gate.cases.length}`, timed.length > 1 ? `; ${longestText(timed)}.` : "."),
-    sheet(`The cases that took longest${isAll ? "" : " of those chosen above"}, and their share of all seconds`, ["case", {text: "took", number: true}, {text: "share", number: true}],
+  const every = timedCases(gate.cases), all = secondsOf(every), timed = timedCases(found), top = timed.slice(0, 12), isAll = found.length === gate.cases.length;
+  return top.length ? [el("p", {}, allText(every), isAll ? null : `The table shows only the ${found.length === 1 ? "case" : plural(found.length, "case")} chosen above, which took ${seconds(secondsOf(timed))}.`),
+    sheet(`The cases that took longest${isAll ? "" : " of those chosen above"}, and their share of the seconds of all cases`, ["case", {text: "took", number: true}, {text: "share", number: true}],
       top.map(c => [c.name, seconds(c.seconds), [shareText(all ? c.seconds / all : 0), " ", el("meter", {min: 0, max: 1, value: all ? c.seconds / all : 0, "aria-hidden": "true"})]]), "took")] : note("No case says how long it took.");
 }
 // The ratios of a case over the runs, as a line around no change; each mark has the colour of the ending.
@@ -212,9 +227,9 @@ function lastRuns(found) {
     }), "last"));
 }
 function viewCi(params) {
-  return gateView("Gate in CI", "ci", params, (gate, found) => {
+  return gateView("Gate in CI", "For owners of CI: whether the gate passes, what is new, and what takes long.", "ci", params, (gate, found) => {
     const timed = timedCases(gate.cases), runs = lastRuns(found);
-    return {lead: timed.length ? el("p", {class: "longest"}, `All cases took ${seconds(secondsOf(timed))}; ${longestText(timed)}. `, jump("seconds", "Where the seconds went"), runs ? [", ", jump("runs", "the last runs")] : null) : null,
+    return {lead: timed.length ? el("p", {class: "longest"}, allText(timed), jump("seconds", "Where the seconds went"), runs ? [", ", jump("runs", "the last runs")] : null) : null,
       below: [casesPart(gate, found, params, "ci"), partOf("seconds", "Where the seconds went", secondsSheet(gate, found)), runs,
         part("What is known to go wrong", el("p", {}, "The file of expectations says which failures are known. Where this run makes it untrue, the same gate writes it anew:"), command("raingauge gate A B --expectations results/expectations.txt --update"))]};
   });

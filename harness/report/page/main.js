@@ -27,17 +27,22 @@ function devicesTotal() {
   const well = asked.filter(d => failed(d) === "ok"), ill = asked.filter(d => failed(d) !== "ok"), others = doctor ? notExamined(doctor) : [];
   if (!asked.length) return null;
   return total("Devices", [`${well.length} `, el("small", {}, `of ${plural(asked.length, "device")} ${well.length === 1 ? "is" : "are"} well`)], [doctor ? "A device is well if it computes and draws what plain C does. " : "Each did all that was asked of it, if it is well. ",
-    ill.length ? ["Not well: ", commas(ill.map(d => [el("code", {}, d.name), ` (${failed(d)})`])), ". "] : "", others.length ? `${othersText(others)} ` : "", link("devices", {}, "The devices")], bar([["yes", well.length], ["no", ill.length]]));
+    well.length ? ["Well: ", commas([...d3.group(well, kindOf)].map(([kind, found]) => [commas(found.map(d => el("code", {}, d.name))), kind ? ` (${kind})` : ""])), ". "] : "",
+    ill.length ? ["Not well: ", commas(ill.map(d => [el("code", {}, d.name), ` (${[failed(d), kindOf(d)].filter(Boolean).join(", ")})`])), ". "] : "", others.length ? `${othersText(others)} ` : "", link("devices", {}, "The devices")], bar([["yes", well.length], ["no", ill.length]]));
 }
 function picturesTotal() {
   const cells = CELLS.filter(c => ["ok", "fail"].includes(c.status) && objectOf(c.measured).ms !== undefined || c.status === "fail"), pairs = records("diff").flatMap(r => objectsOf(r.document.pairs));
   const gated = GATES.flatMap(g => g.cases.map(c => ({...c, gate: GATES.indexOf(g)}))).filter(c => c.technique !== "fixed" && ["pass", "differs", "regressed", "improved", "inconclusive"].includes(c.ending));
   const software = name => (DEVICES.find(d => d.name === name) || {}).software !== false, isExact = DEVICES.every(d => software(d.name)), what = isExact ? "identical" : "as the reference's", isSame = p => p.tier === "T0" || (p.tier === "T1" && !isExact);
-  const all = cells.length + pairs.length + gated.length, others = [...gated.filter(c => c.ending === "differs").map(c => link("gate", {gate: c.gate === GATES.length - 1 ? null : c.gate, case: c.name}, c.name)), ...pairs.filter(p => !isSame(p)).map(p => link("checks", {}, `${p.a} and ${p.b}`)),
-    ...cells.filter(c => c.status === "fail").map(c => { const table = TABLES.find(t => t.cells.includes(c)); return link("table", {id: table.id}, `${table.id} on ${c.device}`); })], same = all - others.length;
+  const all = cells.length + pairs.length + gated.length, others = [...gated.filter(c => c.ending === "differs").map(c => ["none", link("gate", {gate: c.gate === GATES.length - 1 ? null : c.gate, case: c.name}, c.name)]),
+    ...pairs.filter(p => !isSame(p)).map(p => [["T1", "T2"].includes(p.tier) ? p.tier : "none", link("checks", {}, `${p.a} and ${p.b}`)]),
+    ...cells.filter(c => c.status === "fail").map(c => { const table = TABLES.find(t => t.cells.includes(c)); return ["none", link("table", {id: table.id}, `${table.id} on ${c.device}`)]; })], same = all - others.length;
+  const of = tier => others.filter(([t]) => t === tier).map(([, to]) => to), tell = (text, found) => found.length ? [text, commas(found.slice(0, 5)), found.length > 5 ? ` and ${found.length - 5} more` : "", ". "] : "";
   if (!all) return null;
-  return total("Pictures", [same.toLocaleString("en") + " ", el("small", {}, `of ${all.toLocaleString("en")} are ${what}`)], [others.length ? [`${others.length === 1 ? "This one differs" : "These differ"}: `, commas(others.slice(0, 5)), others.length > 5 ? ` and ${others.length - 5} more` : "", ". "] : "",
-    VIEWS.checks[1]() ? [link("checks", {}, "The checks"), ". "] : "", isExact ? "Every device must draw what the plain C reference draws, to the last bit, before its speed counts." : "Every device must draw what the plain C reference draws: to the last bit on software, up to rounding on hardware."], bar([["yes", same], ["no", others.length]]));
+  return total("Pictures", [same.toLocaleString("en") + " ", el("small", {}, `of ${plural(all, "picture")} that ${all === 1 ? "was" : "were"} compared ${same === 1 ? "is" : "are"} ${what}`)],
+    [tell(of("none").length === 1 ? "One differs: " : `${of("none").length} differ: `, of("none")), tell("Equal up to rounding, as a GPU may be: ", of("T1")), tell("The same scene, drawn in another way: ", of("T2")),
+    VIEWS.checks[1]() ? [link("checks", {}, "The checks"), ". "] : "", isExact ? "Every device must draw what the plain C reference draws, to the last bit, before its speed counts." : "Every device must draw what the plain C reference draws: to the last bit on software, up to rounding on GPUs."],
+    bar([["yes", same], ["bound", of("T1").length + of("T2").length], ["no", of("none").length]]));
 }
 function gateTotal() {
   const gate = GATES[GATES.length - 1], stand = standOfGate(gate), failing = gate.cases.filter(fails).length, open = gate.cases.filter(c => endingClass(c.ending) === "open").length;

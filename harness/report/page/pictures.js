@@ -1,5 +1,5 @@
 "use strict";
-// Pictures: A beside B, every two devices, texels as numbers, strips of frames.
+// Pictures: A beside B, every two devices, pixels as numbers, strips of frames.
 
 // --- pictures of A and B ---
 
@@ -80,7 +80,7 @@ function comparer(attachments) {
 // --- linear values ---
 
 const CHANNELS = {1: ["grey"], 2: ["grey", "alpha"], 3: ["red", "green", "blue"], 4: ["red", "green", "blue", "alpha"]};
-// Values around the texels that differ most; `=` is the first picture's value. Null if there are none.
+// Values around the pixels that differ most; `=` is the first picture's value. Null if there are none.
 function linearOf(file) {
   const found = DATA.linear && DATA.linear[file];
   if (!found || !CHANNELS[found.channels]) return null;
@@ -107,8 +107,8 @@ function numbers(linear, textA, textB) {
     region.scrollLeft = middle.offsetLeft - region.clientWidth / 2;
     region.scrollTop = middle.offsetTop - region.clientHeight / 2;
   };
-  return [el("h3", {}, "Linear light"), el("p", {}, `The light of both pictures, after the last stage, before it is rounded to the codes above.${isNumber(linear.differing) && linear.pictures.length === 2 ? ` Counting also what is less than a code, ${plural(linear.differing, "texel")} ${linear.differing === 1 ? "differs" : "differ"}.` : ""}`),
-    sheet(`The ${worst.length === 1 ? "texel that differs" : `${worst.length} texels that differ`} most${worst.length === 1 ? "" : ", none within 16 texels of another"}${linear.pictures.length > 2 ? ", among all devices" : ""}: what ${textA} and ${textB} have there, and the difference`, ["texel", "of", ...channels.map(c => ({text: c, number: true}))], rows, "texels"),
+  return [el("h3", {}, "Linear light"), el("p", {}, `The light of both pictures, after the last stage, before it is rounded to the codes above.${isNumber(linear.differing) && linear.pictures.length === 2 ? ` Counting also what is less than a code, ${plural(linear.differing, "pixel")} ${linear.differing === 1 ? "differs" : "differ"}.` : ""}`),
+    sheet(`The ${worst.length === 1 ? "pixel that differs" : `${worst.length} pixels that differ`} most${worst.length === 1 ? "" : ", none within 16 pixels of another"}${linear.pictures.length > 2 ? ", among all devices" : ""}: what ${textA} and ${textB} have there, and the difference`, ["pixel", "of", ...channels.map(c => ({text: c, number: true}))], rows, "texels"),
     el("details", {ontoggle: event => { if (event.target.open) fill(); }}, el("summary", {}, `All values around them, ${worst[0].width} x ${worst[0].height}`), el("div", {class: "choices"}, el("label", {class: "choice"}, "Around ", which), el("label", {class: "choice"}, "Channel ", channel)), grid)];
 }
 

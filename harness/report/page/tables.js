@@ -172,6 +172,8 @@ function inputsOf(table) {
   return [...told].map(([name, values]) => `${words(name)}: ${[...values].slice(0, 8).join(", ")}`).join("; ");
 }
 const machineOf = table => objectOf(objectOf(table.document.passport).machine);
+// The devices that tables were measured on, each once, as their passports have them.
+const measuredOn = tables => [...new Map(tables.flatMap(table => objectsOf(passportOf(table.document).devices).filter(d => table.cells.some(c => c.device === d.name)).map(d => [d.name, d]))).values()];
 const machineText = table => { const machine = machineOf(table); return [machine.cpu, machine.cores_allowed ? plural(machine.cores_allowed, "core") : "", machine.distribution].filter(Boolean).join(", "); };
 function tableFacts(table) {
   const d = table.document, made = objectOf(objectOf(d.passport).raingauge);
@@ -210,7 +212,7 @@ function viewTable(params) {
     table.isTimed && rates.length ? part(rates[0].name === "print" ? "Print and devices" : "Devices", stories(table, group, variant, work).map(text => el("p", {class: "story"}, text)),
       plot({lines, all: rates.map(l => l.name), hidden, axis: axis ? words(axis) : null, value: isBy ? "rate by that of the first row" : "frames a second", name: table.id, isLog: !isBy || d3.max(lines.flatMap(l => l.points), p => p.value / d3.max([1e-9, 1])) > 4}),
       note("Bars are intervals that hold the median with 95 % confidence. Print has none.")) : null,
-    part(table.printed && table.printed.is_published ? "The table, print beside ours" : "The table", el("p", {class: "machines"}, table.printed && table.printed.is_published && table.document.hardware ? `Print: ${table.document.hardware}. ` : "", machineText(table) ? `Here: ${machineText(table)}.` : ""),
+    part(table.printed && table.printed.is_published ? "The table, print beside ours" : "The table", el("p", {class: "machines"}, table.printed && table.printed.is_published && table.document.hardware ? `Print: ${table.document.hardware}. ` : "", machineText(table) ? `Here: ${machineText(table)}. ${kindsText(measuredOn([table]))}` : ""),
       sheet(table.isTimed ? `${table.id}, ${words(variant)}${work ? `, work ${work}` : ""}: frames a second, the interval that holds the median with 95 % confidence, and the rate as a multiple of print`
       : `${table.id}: width and height in pixels`, beside.columns, beside.shown, "beside"),
       el("div", {class: "buttons"}, el("button", {type: "button", onclick: () => save(table.id + ".csv", "text/csv", csv([beside.heads, ...beside.plain]))}, "CSV"))),

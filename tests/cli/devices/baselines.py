@@ -121,7 +121,8 @@ def check_timed(runner):
     if "key is another" in case["message"] or "launches" not in case["details"] or case["baseline_ms"] is None:
         problems.append("same: %s" % case)
     status, case = cases["slower"]
-    if status != 1 or case["ending"] != "regressed" or not is_about(CHANGE, case["ratio"]["value"]) or not case["ratio"]["low"] > 1:
+    if status != 1 or case["ending"] != "regressed" or not is_about(CHANGE, case["ratio"]["value"]) or not case["ratio"]["low"] > 1 or not re.search(
+            r": baseline [\d.]+ ms, now [\d.]+ ms$", case["message"]):
         problems.append("slower: exit status %d, %s" % (status, case))
     status, case = cases["faster"]
     if status or case["ending"] != "improved" or not is_about(1 / CHANGE, case["ratio"]["value"]) or not case["ratio"]["high"] < 1:

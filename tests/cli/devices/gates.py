@@ -104,7 +104,7 @@ def check_expired(runner):
                 known = files.path("known.txt", kind + " *\n  reason it was so\n  since 2026-01-01\n  until 2026-02-01\n")
                 result = runner.run(["gate", *sides, "--cells", files.cells, "--expectations", known, "--json"] + budget)
                 case = json.loads(result.stdout)["gated"][0]
-                less = re.search(r"a frame takes (\S+) % less \((\S+) to (\S+) %\)", case["message"])
+                less = re.search(r"a frame takes (\S+) % less \((\S+) to (\S+) %\): A [\d.]+ ms, B [\d.]+ ms$", case["message"])
                 if (sides[0] == slower) != bool(less) or (less and not 0 < float(less[2]) <= float(less[1]) <= float(less[3]) < 100):
                     problems.append("%s, %s: %s" % (sides, kind, case["message"]))
                 if result.returncode != status or case["ending"] != ending or case["message"].startswith("expired") != (status == 1):

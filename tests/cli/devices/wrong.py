@@ -85,8 +85,8 @@ def check_wrong_diff(runner, kernels):
     text = runner.run(("diff flow --frame 5 --device cpu,gl " + SMALL).split(), kernels).stdout
     if status != 1 or same != [("cpu", "cpu:reference")]:
         problems.append("exit status %d, identical: %s" % (status, same))
-    blamed = [(pair.get("blame") or {}).get("stage") for pair in report["pairs"] if pair["tier"] != "T0"]
-    if blamed != ["flow_normals"] * 2 or "blame" in report["pairs"][0]:
+    blamed = [(pair["blame"]["stage"], pair["blame"]["device"]) for pair in report["pairs"] if pair.get("blame")]
+    if blamed != [("flow_normals", "gl")] * 2 or "blame" in report["pairs"][0]:
         problems.append("blamed: %s" % blamed)
     if not re.search(r"(?m)^  gl: frame 1, stage flow_normals: normals\[\d+\] is .*; other values$", text):
         problems.append("the text blames no stage:\n" + text)

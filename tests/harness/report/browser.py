@@ -8,6 +8,7 @@ import copy
 import json
 import pathlib
 import random
+import re
 import sys
 import tempfile
 import time
@@ -97,10 +98,10 @@ def older_table():
     return record
 
 
-PASSPORT = {"devices": [
-    {"name": "vulkan", "driver": "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", "device": "llvmpipe (LLVM 15.0.6, 256 bits)",
+PASSPORT = {"raingauge": {"commit": "0123456789abcdef0123456789abcdef01234567"}, "devices": [
+    {"name": "vulkan", "software": True, "driver": "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", "device": "llvmpipe (LLVM 15.0.6, 256 bits)",
      "libraries": [{"path": "/usr/lib/x86_64-linux-gnu/libvulkan_lvp.so", "build": "24e14fcfbc653ef35e1a154015265e7d2b20d61e"}]},
-    {"name": "new", "driver": "llvmpipe Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "libraries": []}]}
+    {"name": "new", "software": True, "driver": "llvmpipe Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "libraries": []}]}
 STAGE = ("frame 1, stage flow_blur: blurred[1204] is 1065353217 (0x3f800001), not 1065353216 (0x3f800000), off by 1; 3 of 64896 words differ; other values\n"
          "the same program, other libraries; the API hands out no compiled passes")
 
@@ -111,7 +112,7 @@ def last_gates(names):
     crash = made.case("cartoon/storm.new", "crash", message="new: the driver ended its process by signal 11", seconds=0.9)
     early = [made.case("flow/pane.new", "pass", 1.001, seconds=11.5), made.case("raster/torus.new", "pass", 1.004, seconds=8.25), made.case("drops/pane.new", "pass", 1.006, seconds=30), crash]
     last = [made.case("flow/pane.new", "differs", message="the picture differs: 1 pixel of 3072 is off by 110 codes; T2 would hold", details=STAGE, attachments=names, seconds=3.5),
-            made.case("raster/torus.new", "regressed", 1.071, message="a frame takes 7.1 % longer (6.0 to 8.2 %), 3.73 ms before", seconds=9.75),
+            made.case("raster/torus.new", "regressed", 1.071, message="a frame takes 7.1 % longer (6.0 to 8.2 %): A 3.73 ms, B 4.00 ms", seconds=9.75),
             made.case("drops/pane.new", "inconclusive", 1.02, message="the interval allows both after the last launch that was planned", seconds=96, width=0.06), crash]
     return early + many, last + many
 
@@ -130,7 +131,7 @@ def make_diff(raingauge, folder):
         (folder / f"{name}.exr").write_bytes(made.exr(64, 48, lambda x, y, which=which: light(x, y, **which)))
     pairs = [{**made.diff(raingauge, folder, f"{a}.exr", f"{b}.exr"), "a": a, "b": b} for a, b in (("gl", "vulkan"), ("gl", "new"), ("vulkan", "new"))]
     for pair in pairs[1:]:
-        pair["blame"] = {"stage": "flow_blur", "text": STAGE.split("\n", maxsplit=1)[0]}
+        pair["blame"] = {"stage": "flow_blur", "text": STAGE.split("\n", maxsplit=1)[0], "device": "new"}
     made.write(folder / "diff.json", {"format": 1, "devices": [], "failures": [], "pairs": pairs, "pictures": [{"device": name, "file": f"{name}.exr"} for name in ("gl", "vulkan", "new")]})
 
 
@@ -144,7 +145,7 @@ def make_gates(raingauge, folder, odd):
     made.write(folder / "gate-0.json", made.gate(*(made.case(f"case/{i}", "pass", 1 + i / 1e5) for i in range(1000 if odd else 20)), *early, passport_text="a text of several lines\nof its own"))
     made.write(folder / "gate-1.json", made.gate(*early, passport_text=json.dumps(PASSPORT)))
     made.write(folder / "gate-2.json", made.gate(*(odd_cases() if odd else []), *last, passport_text=json.dumps(PASSPORT)))
-    made.write(folder / "old" / "gate.json", made.gate(*early[:1], *last[1:2], *early[2:150], made.case("streaks/gone.new", "pass", 1.0)))
+    made.write(folder / "old" / "gate.json", made.gate(*early[:150], made.case("streaks/gone.new", "pass", 1.0), passport_text=json.dumps(PASSPORT)))
 
 
 def make_page(raingauge, folder, odd=False):
@@ -343,9 +344,20 @@ def check_gate(browser, page):
         problems.append(unknown or browser.find(".endings")[0].text)
     browser.open(page, "#gate?case=flow%2Fpane.new")
     time.sleep(0.5)
+    if "texel" in browser.find(".case")[0].text:
+        problems.append("a pixel has two words in one view")
     worst = browser.find(".worst")[0].text
     if "at x 40, y 20: A has 160, 60, 90, B has 160, 60, 200" not in worst or "1 pixel of 3,072 differs" not in worst:
         problems.append(worst)
+    browser.open(page, "#gate")
+    chart = browser.ask("[...document.querySelectorAll('.plot .label')].map(label => label.textContent)")
+    if chart[:3] != ["raster/torus.new", "drops/pane.new", "streaks/cell-199.new"] or len(chart) != 60 or "The worst 60 of 202 with times." not in browser.find("main")[0].text:
+        problems.append(chart[:5])
+    times = browser.ask("[0.05, 3.7312, 4, 9.996, 12, 128, 1234.5].map(timeDigits)")
+    if times != ["0.0500", "3.73", "4.00", "10.0", "12.0", "128", "1,230"]:
+        problems.append(times)
+    browser.open(page, "#gate?case=flow%2Fpane.new")
+    time.sleep(0.5)
     return problems + marks(browser)
 
 
@@ -373,10 +385,11 @@ def check_news(browser, page):
         problems.append(last)
     if browser.ask("getComputedStyle(document.querySelector('.last .line')).stroke") == "none":
         problems.append("the line of the runs is not drawn")
-    if "chosen above took" not in browser.find("#seconds")[0].text:
-        problems.append(browser.find("#seconds")[0].text)
-    told = browser.ask("[longestText([{name: 'a', seconds: 2}, {name: 'b', seconds: 2}, {name: 'c', seconds: 1}]), shareText(0.004), shareText(0.0001), shareText(0.25)]")
-    if told != ["2 cases took longest, 2 s each: a and b", "0.4 %", "< 0.1 %", "25 %"]:
+    seconds = browser.find("#seconds")[0].text
+    if "drops/pane.new took longest, 96 s or " not in seconds or "The table shows only the 2 cases chosen above, which took 13.3 s." not in seconds:
+        problems.append(seconds)
+    told = browser.ask("[longestText([{name: 'a', seconds: 2}, {name: 'b', seconds: 2}, {name: 'c', seconds: 1}]), allText([{name: 'a', seconds: 2}]), shareText(0.004), shareText(0.0001), shareText(0.25)]")
+    if told != ["2 cases took longest, 2 s or 40 % of that each: a and b", "a took 2 s. ", "0.4 %", "< 0.1 %", "25 %"]:
         problems.append(told)
     stands = browser.ask("[['crash', 'pass'], ['inconclusive', 'pass'], ['flake', 'unsupported'], ['unsupported', 'skipped']].map(endings => standOfGate({cases: endings.map(ending => ({ending}))}))")
     return problems + ([] if stands == ["bad", "open", "good", "other"] else [stands])
@@ -415,7 +428,7 @@ def check_pictures(browser, page):
         time.sleep(0.2)
         told = browser.ask("[...document.querySelectorAll('.texels tbody tr')].map(r => [...r.children].map(c => c.textContent))")
         middle, blue = browser.ask("document.querySelector('.grid .middle').textContent"), [float(row[-1]) for row in told[:3]]
-        if len(told) % 3 or [row[1] for row in told[:3]] != [*values, f"{values[1]} − {values[0]}"] or abs(blue[1] - blue[0] - blue[2]) > 1e-3 or abs(blue[2] - made.linear(200) + made.linear(90)) > 1e-3 or (values[0] == "A") != ("than a code, 1 texel differs" in browser.find(".comparer")[0].text) or told[0][2][:5] not in middle or len(browser.find(".grid tbody td")) != 33 * 33 or f"{values[0]} stands above {values[1]}" not in browser.find(".comparer")[0].text:
+        if len(told) % 3 or [row[1] for row in told[:3]] != [*values, f"{values[1]} − {values[0]}"] or abs(blue[1] - blue[0] - blue[2]) > 1e-3 or abs(blue[2] - made.linear(200) + made.linear(90)) > 1e-3 or (values[0] == "A") != ("than a code, 1 pixel differs" in browser.find(".comparer")[0].text) or told[0][2][:5] not in middle or len(browser.find(".grid tbody td")) != 33 * 33 or f"{values[0]} stands above {values[1]}" not in browser.find(".comparer")[0].text:
             problems.append((told, middle))
     browser.open(page, "#pictures")
     return problems + ([] if [item.text for item in browser.find(".strip li")] == ["frame 1", "frame 2", "frame 3"] else ["the strip"])
@@ -430,6 +443,9 @@ def check_changes(browser, page):
     problems = [] if slower and {c[0] for c in slower} == {"gl"} and {c[0] for c in status} == {"cpu"} and len(slower) + len(status) == len(cells) else [cells]
     if "another machine, driver or setting are not held against each other" not in text or "its image differed" in text:
         problems.append(text[:600])
+    compared = browser.find(".facts")[0].text
+    if not re.match(r"Then\s+old/gate\.json and old/stuppacher-2\.json, by raingauge of commits [0-9a-f]{12} and [0-9a-f]{12}\s+Now\s+\d+ files of \S*results/tables/ and the current folder, by ", compared):
+        problems.append(compared)
     if browser.find("h2")[0].text != "Times" or "slower" not in browser.find("tbody tr")[0].text or "54 new cases pass" not in text or "gone: streaks/gone.new" not in text:
         problems.append(text[:600])
     return problems + ([] if browser.ask("changedEndings().find(([c]) => c.name === 'flow/pane.new')[1].ending") == "pass" else ["an ending"])

@@ -253,6 +253,6 @@ void rg_gate_advise(const struct rg_gate_row *row, const struct rg_timed_cell *t
     else if (most > 0)
         SAY(agreement,
             "advisory, for its key is another: a frame takes %.2f times as long (%.3g ms, %.3g ms "
-            "before), and %.2f to %.2f times by the yardsticks",
+            "in the baseline), and %.2f to %.2f times by the yardsticks",
             row->decision.ratio, row->b_ms.median, row->a_ms.median, least, most);
 }

@@ -91,16 +91,25 @@ static const char *why_open(const struct rg_gate_case *c)
     }
 }
 
-// Writes a change with its interval. A word gives the direction, so a decrease has no sign; only an
-// end of the interval on the other side has one.
-static void put_change(const struct rg_gate_decision *d, double before_ms, char *text, size_t size)
+// Decimals of a time that has three digits: 4.00 beside 3.73.
+static int decimals_of(double ms)
 {
+    return ms > 0 && ms < 100 ? 2 - (int)floor(log10(ms)) : 0;
+}
+
+// Writes a change with its interval, and the times of both sides. A word gives the direction, so a
+// decrease has no sign; only an end of the interval on the other side has one.
+static void put_change(const struct rg_gate_case *c, char *text, size_t size)
+{
+    const struct rg_gate_decision *d = &c->row.decision;
+    const double a_ms = c->row.a_ms.median, b_ms = c->row.b_ms.median;
     const bool is_less = d->ratio < 1;
     const double sign = is_less ? -100 : 100;
     const double ends[] = {sign * (d->low - 1), sign * (d->high - 1)};
-    snprintf(text, size, "a frame takes %.1f %% %s (%.1f to %.1f %%), %.3g ms before",
+    snprintf(text, size, "a frame takes %.1f %% %s (%.1f to %.1f %%): %s %.*f ms, %s %.*f ms",
              sign * (d->ratio - 1), is_less ? "less" : "longer", ends[is_less], ends[!is_less],
-             before_ms);
+             c->before ? "baseline" : "A", decimals_of(a_ms), a_ms, c->before ? "now" : "B",
+             decimals_of(b_ms), b_ms);
 }
 
 // Reports the times regardless of expectations: quarantined cases are measured to be seen.
@@ -112,7 +121,7 @@ static void put_times(const struct rg_gate_case *c, char *text, size_t size)
         snprintf(text, size, "%s%s", why_open(c),
                  d->is_coarse ? "; the clock is too coarse for so short a time" : "");
     else if (ending == RG_ENDING_REGRESSED || ending == RG_ENDING_IMPROVED)
-        put_change(d, c->row.a_ms.median, text, size);
+        put_change(c, text, size);
     else if (broke_off(c))
         snprintf(text, size, "%s", c->times.why);
 }
