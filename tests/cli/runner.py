@@ -49,7 +49,7 @@ class Runner:
         variables["GOMP_SPINCOUNT"] = "0"
         variables["RG_LONG_S"] = "1e9"  # keeps a busy machine from adding a line, like the next
         variables["RG_PROBE_S"] = "0"
-        variables["RG_FEW_SAMPLES"] = "1"  # these tests look at no time
+        variables["RG_FEW_SAMPLES"] = "1"  # no test of commands needs more
         variables["XDG_STATE_HOME"] = self.state.name
         variables.update(env)
         return {name: value for name, value in variables.items() if value is not None}

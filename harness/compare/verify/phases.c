@@ -6,7 +6,7 @@ void rg_verify_begin(const struct rg_verify *v, int64_t units)
 {
     if (!v->phase)
         return;
-    *v->phase = (struct rg_verify_phase){.left = units};
+    *v->phase = (struct rg_verify_phase){.left = units, .bar = v->progress->done};
     rg_progress_due(v->progress, -1);
 }
 
@@ -17,6 +17,11 @@ void rg_verify_advance(const struct rg_verify *v, int64_t units)
     struct rg_verify_phase *phase = v->phase;
     if (!phase || units <= 0)
         return;
+    // Devices that failed took fewer steps, which the bar counts all the same.
+    const int64_t missing = units - (v->progress->done - phase->bar);
+    if (missing > 0)
+        rg_progress_add(v->progress, missing);
+    phase->bar = v->progress->done;
     const double now_ms = rg_now_ms();
     double left_ms = -1;
     phase->left -= units;

@@ -20,6 +20,7 @@ enum rg_verify_length {
 // those of the progress bar.
 struct rg_verify_phase {
     int64_t left, done;       // `done` without the first case, during which drivers compile
+    int64_t bar;              // the bar's units after the latest case
     double first_ms, last_ms; // when the first and the latest case ended; 0: none has
 };
 

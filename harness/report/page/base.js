@@ -154,12 +154,16 @@ const DEVICES = (() => {
   const usual = ["cpu", "cpu:reference", "gl", "vulkan", "opencl"], found = new Map();
   for (const record of arrayOf(DATA.records)) {
     const d = objectOf(record.document);
-    for (const device of objectsOf([...arrayOf(d.devices), ...arrayOf(passportOf(d).devices)]))
+    for (const device of objectsOf(d.devices))
       if (typeof device.name === "string" && !(found.get(device.name) || {}).driver) found.set(device.name, device);
     for (const cell of objectsOf(d.cells)) if (!found.has(cell.device)) found.set(cell.device, {name: cell.device});
   }
   for (const claim of objectsOf(objectOf(DATA.claims).claims))
     for (const verdict of objectsOf(claim.verdicts)) if (!found.has(verdict.device)) found.set(verdict.device, {name: verdict.device});
+  // Gates' passports come last, the newest first: a side may be of another driver than a table's device of its name.
+  for (const record of arrayOf(DATA.records).slice().reverse())
+    for (const device of objectsOf(passportOf(objectOf(record.document)).devices))
+      if (typeof device.name === "string" && !found.has(device.name)) found.set(device.name, device);
   const order = name => usual.includes(name) ? usual.indexOf(name) : usual.length;
   return [...found.values()].sort((a, b) => order(a.name) - order(b.name));
 })();

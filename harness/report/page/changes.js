@@ -55,7 +55,7 @@ function comparedText(source) {
   const gate = records("gate", source).pop(), used = arrayOf(source.records).filter(r => ["table", "claims"].includes(r.kind) || r === gate), few = (texts, all) => texts.length > 3 ? all : list(texts);
   const files = [...new Set(used.map(r => fileText(r.file)))], folders = [...new Set(files.map(file => file.slice(0, file.lastIndexOf("/") + 1) || "the current folder"))];
   const commits = [...new Set(used.map(r => objectOf(passportOf(objectOf(r.document)).raingauge).commit).filter(commit => commit && typeof commit === "string").map(commit => commit.replace(/^([0-9a-f]{12})[0-9a-f]+/, "$1")))];
-  return [few(files, `${files.length} files of ${few(folders, plural(folders.length, "folder"))}`), commits.length ? `by raingauge of ${commits.length > 1 ? "commits" : "commit"} ${few(commits, `${commits[0]} and ${commits.length - 1} others`)}` : ""].filter(Boolean).join(", ");
+  return [few(files, `${files.length} files of ${few(folders, plural(folders.length, "folder"))}`), commits.length ? `by raingauge of ${commits.length > 1 ? "commits" : "commit"} ${few(commits, `${commits[0]} and ${commits.length - 1} others`)}` : ""].filter(Boolean).join(", ") || "nothing that is compared";
 }
 // The gates that are compared, and which other run the gate's own views compare with.
 function gatesText() {

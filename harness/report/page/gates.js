@@ -144,7 +144,7 @@ function stageOf(details) {
 }
 // The same for people. `of`: the names of the side that is right, which the line names last, and of the other.
 function stageText([, stage, frame, rest], of) {
-  const found = of.length ? /^(.+?),? is (.+?), not (.+?), off by (.+)$/.exec(rest) : null;
+  const found = of.length && rest.length < 500 ? /^(.+?),? is (.+?), not (.+?), off by (.+)$/.exec(rest) : null;
   return [el("strong", {}, stage), ` in frame ${frame}: `, el("small", {}, found ? `${found[1]}: ${of[0]} has ${found[3]}, ${of[1]} has ${found[2]}, off by ${found[4]}` : rest)];
 }
 // A's and B's names; a baseline's case is judged by the reference.
@@ -171,7 +171,7 @@ function caseRows(cases, view, isCi, earlier) {
       ratioText(c), intervalText(c), timeDigits(c.baseline_ms), timeDigits(c.time_ms.value), seconds(c.seconds), ...(isCi ? [thumbnails(c.attachments)] : [])]), "cases")];
 }
 // How many of a gate's cases are chosen, then the cases.
-const casesPart = (gate, found, params, view) => partOf("cases", "Cases", el("p", {role: "status"}, `${found.length} of ${plural(gate.cases.length, "case")}`), view === "ci" ? more(found, params) : null, caseRows(first(found, params), view, view === "ci", earlierOf(gate)));
+const casesPart = (gate, found, params, view) => partOf("cases", "Cases", el("p", {role: "status"}, `${found.length} of ${plural(gate.cases.length, "case")}`), view === "ci" || found.filter(ratioOf).length <= MOST ? more(found, params) : null, caseRows(first(found, params), view, view === "ci", earlierOf(gate)));
 
 // A view of a gate: for whom it is, what it found, what is new of that, the choices, the chosen case, then parts.
 function gateView(title, about, view, params, parts) {
@@ -179,7 +179,7 @@ function gateView(title, about, view, params, parts) {
   const [gate, gates] = gateChoice(params), [found, form] = chosenCases(gate, params), one = gate.cases.find(c => c.name === params.get("case"));
   const {lead, below} = parts(gate, found);
   return [head(title, note(about), el("p", {class: "lead verdicts"}, verdictOfGate(gate, view)), el("p", {class: "news"}, newsLine(gate, view)),
-      gate.cases.some(c => c.ending === "inconclusive") ? note("Exit status: 1 if any case fails; 3, not 0, if none fails and one is inconclusive, which means that its times do not decide.") : null, lead),
+      gate.cases.some(c => c.ending === "inconclusive") ? note("Exit status: 1 if any case fails (71 if raingauge itself lacked something); 3, not 0, if none fails and one is inconclusive, which means that its times do not decide.") : null, lead),
     el("form", {class: "choices", role: "search", onsubmit: event => event.preventDefault()}, gates, form), one ? viewCase(gate, one) : null, below];
 }
 function viewGate(params) {
@@ -197,11 +197,11 @@ function longestText(timed) {
   const longest = seconds(timed[0].seconds), most = timed.filter(c => seconds(c.seconds) === longest), all = secondsOf(timed), told = `${longest} or ${shareText(all ? timed[0].seconds / all : 0)} of that`;
   return most.length === 1 ? `${most[0].name} took longest, ${told}` : `${most.length} cases took longest, ${told} each${most.length > 3 ? "" : ": " + list(most.map(c => c.name))}`;
 }
-const allText = timed => timed.length > 1 ? `All ${timed.length} cases took ${seconds(secondsOf(timed))}; ${longestText(timed)}. ` : `${timed[0].name} took ${seconds(timed[0].seconds)}. `;
+const allText = (timed, all) => timed.length > 1 ? `${timed.length === all ? `All ${all}` : `${timed.length} of ${all}`} cases took ${seconds(secondsOf(timed))}; ${longestText(timed)}. ` : `${timed[0].name} took ${seconds(timed[0].seconds)}. `;
 // Bars of the seconds that the chosen cases took, the longest first.
 function secondsSheet(gate, found) {
   const every = timedCases(gate.cases), all = secondsOf(every), timed = timedCases(found), top = timed.slice(0, 12), isAll = found.length === gate.cases.length;
-  return top.length ? [el("p", {}, allText(every), isAll ? null : `The table shows only the ${found.length === 1 ? "case" : plural(found.length, "case")} chosen above, which took ${seconds(secondsOf(timed))}.`),
+  return top.length ? [el("p", {}, allText(every, gate.cases.length), isAll ? null : `The table shows only the ${found.length === 1 ? "case" : plural(found.length, "case")} chosen above, which took ${seconds(secondsOf(timed))}.`),
     sheet(`The cases that took longest${isAll ? "" : " of those chosen above"}, and their share of the seconds of all cases`, ["case", {text: "took", number: true}, {text: "share", number: true}],
       top.map(c => [c.name, seconds(c.seconds), [shareText(all ? c.seconds / all : 0), " ", el("meter", {min: 0, max: 1, value: all ? c.seconds / all : 0, "aria-hidden": "true"})]]), "took")] : note("No case says how long it took.");
 }
@@ -229,7 +229,7 @@ function lastRuns(found) {
 function viewCi(params) {
   return gateView("Gate in CI", "For owners of CI: whether the gate passes, what is new, and what takes long.", "ci", params, (gate, found) => {
     const timed = timedCases(gate.cases), runs = lastRuns(found);
-    return {lead: timed.length ? el("p", {class: "longest"}, allText(timed), jump("seconds", "Where the seconds went"), runs ? [", ", jump("runs", "the last runs")] : null) : null,
+    return {lead: timed.length ? el("p", {class: "longest"}, allText(timed, gate.cases.length), jump("seconds", "Where the seconds went"), runs ? [", ", jump("runs", "the last runs")] : null) : null,
       below: [casesPart(gate, found, params, "ci"), partOf("seconds", "Where the seconds went", secondsSheet(gate, found)), runs,
         part("What is known to go wrong", el("p", {}, "The file of expectations says which failures are known. Where this run makes it untrue, the same gate writes it anew:"), command("raingauge gate A B --expectations results/expectations.txt --update"))]};
   });

@@ -188,7 +188,7 @@ function tableFacts(table) {
 function sweepOf(table, axis) {
   const values = [...new Set([...table.rows.values()].map(row => row[axis]))];
   return table.document.technique && axis && values.every(isNumber)
-    ? `raingauge sweep ${shell(table.document.technique)} --axis ${shell(`${axis}=${values.join(",")}`)} --axis device=${DEVICES.map(d => d.name).slice(0, 2).join(",")}` : null;
+    ? `raingauge sweep ${shell(table.document.technique)} --axis ${shell(`${axis}=${values.join(",")}`)} --axis ${shell("device=" + [...new Set(table.cells.map(c => c.device))].slice(0, 2).join(","))}` : null;
 }
 
 function viewTable(params) {

@@ -41,7 +41,10 @@ const struct rg_measure_options *rg_table_few_samples(void)
 
 const struct rg_measure_options *rg_table_options(bool is_full)
 {
-    if (is_full)
-        return &full;
-    return getenv("RG_FEW_SAMPLES") ? &few : &quick;
+    return is_full ? &full : &quick;
+}
+
+bool rg_table_wants_few_samples(bool is_full)
+{
+    return !is_full && getenv("RG_FEW_SAMPLES");
 }

@@ -86,10 +86,22 @@ def check_changed(runner):
     return problems
 
 
+def check_few_samples(runner):
+    """a quick cell has more than 6 samples where its frames are short, and 6 under RG_FEW_SAMPLES"""
+    problems = []
+    sweep = "sweep flow --axis resolution_px=32 --set environment=sky --set environment_px=16 --size 32x32 --device cpu --quick --json --fresh".split()
+    for value, wanted in ((None, range(7, 16)), ("1", (6,))):
+        run = runner.run(sweep, {"RG_FEW_SAMPLES": value})
+        counts = [len(cell["measured"]["samples_ms"]) for cell in json.loads(run.stdout)["cells"]]
+        if run.returncode or len(counts) != 1 or counts[0] not in wanted:
+            problems.append("%s: exit status %d, %s, %s" % (value, run.returncode, counts, run.stderr))
+    return problems
+
+
 def check_budget(runner):
     """table with a budget for everything measures everything, in turns, and leaves nothing out; its record is read like others"""
     with tempfile.TemporaryDirectory() as tmp:
-        run = runner.run(["table", "creus-5.2", "--device", "cpu,cpu:reference", "--budget", "9h", "--json", "-o", tmp])
+        run = runner.run(["table", "creus-5.2", "--device", "cpu,cpu:reference", "--budget", "9h", "--json", "-o", tmp], {"RG_FEW_SAMPLES": None})
         again = runner.run(["table", "--from", tmp, "--json"]).stdout
     report = json.loads(run.stdout)
     problems = forms.problems("table", report)
@@ -319,5 +331,5 @@ def check_compile(runner):
     return problems
 
 
-CHECKS = [check_forms, check_table_json, check_table_files]
+CHECKS = [check_few_samples, check_forms, check_table_json, check_table_files]
 LONG = [check_compile, check_budget, check_busy, check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row]

@@ -73,12 +73,26 @@ static void an_unlike_case_silences(void **state)
     assert_equals(left_after(1), 0);
 }
 
+// A device that fails takes no steps; the bar counts them as done, or they would be left for ever.
+static void steps_that_failed_are_not_left(void **state)
+{
+    (void)state;
+    start(80, 80);
+    left_after(10);
+    now_s += 10;
+    rg_progress_add(&progress, 5);
+    rg_verify_advance(&verify, 20);
+    assert_int_equal(progress.done, 40);
+    assert_float_equal(left_after(10), 10, 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_first_case_tells_nothing),
         cmocka_unit_test(each_phase_has_a_pace_of_its_own),
         cmocka_unit_test(an_unlike_case_silences),
+        cmocka_unit_test(steps_that_failed_are_not_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

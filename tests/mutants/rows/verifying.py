@@ -107,4 +107,7 @@ ROWS = [
     Fault(CULPRIT, "«!is_packer(p->due->kernel)») && differs(p)", "true", "what packs is tried where it cannot run", tests=SHRINKING),
     Fault("core/image/compare/tiers.c", "«!tiers->of[tier].holds»)\n        tier++", "tiers->of[tier].holds", "a tier that fails would hold", tests=SHRINKING),
     Fault("harness/compare/diff/accepts.c", "rg_verify_mutants_at(&verify, «tier», &accepts->of[tier])", "RG_T1", "mutants are told of T1, whichever tier holds", tests=SHRINKING),
+    Fault("harness/compare/verify/phases.c", "«2 * all <= 3 * phase->left»)", "true", "a time follows from a phase that is little of the rest", tests=("time left of verify",)),
+    Fault("harness/compare/verify/phases.c", "if (missing > 0)\n        «rg_progress_add(v->progress, missing);»", ";", "steps of a device that failed stay left", tests=("time left of verify",)),
+    Fault("harness/compare/verify/phases.c", "if («latest <= 2 * pace» &&", "true", "a slow case tells the pace of the fast ones", tests=("time left of verify",)),
 ]

@@ -94,7 +94,7 @@ static const char *why_open(const struct rg_gate_case *c)
 // Decimals of a time that has three digits: 4.00 beside 3.73.
 static int decimals_of(double ms)
 {
-    return ms > 0 && ms < 100 ? 2 - (int)floor(log10(ms)) : 0;
+    return ms > 0 && ms < 99.95 ? 2 - (int)floor(log10(ms * 1.0005)) : 0;
 }
 
 // Writes a change with its interval, and the times of both sides. A word gives the direction, so a
