@@ -163,7 +163,7 @@ const DEVICES = (() => {
   // Gates' passports come last, the newest first: a side may be of another driver than a table's device of its name.
   for (const record of arrayOf(DATA.records).slice().reverse())
     for (const device of objectsOf(passportOf(objectOf(record.document)).devices))
-      if (typeof device.name === "string" && !found.has(device.name)) found.set(device.name, device);
+      if (typeof device.name === "string" && !(found.get(device.name) || {}).driver) found.set(device.name, device);
   const order = name => usual.includes(name) ? usual.indexOf(name) : usual.length;
   return [...found.values()].sort((a, b) => order(a.name) - order(b.name));
 })();

@@ -59,7 +59,7 @@ ENGINEER = [
 OWNER = [
     Question("Does the gate pass?", "overview", ".total:nth-child(4)", r"Gate\s+fails\s+3 of 204 cases fail"),
     Question("Which cases fail it, and does an inconclusive one?", "ci", ".head", r"The gate fails: 3 of 204 cases fail \(1 crash, 1 differs, 1 regressed\)\. 1 is inconclusive, 200 pass\."),
-    Question("What does my job do if a case is inconclusive?", "ci", ".head", r"For owners of CI[\s\S]*Exit status: 1 if any case fails; 3, not 0, if none fails and one is inconclusive"),
+    Question("What does my job do if a case is inconclusive?", "ci", ".head", r"For owners of CI[\s\S]*Exit status: 1 if any case fails \(71 if raingauge itself lacked something\); 3, not 0, if none fails and one is inconclusive"),
     Question("What is worst?", "ci", ".cases tbody tr:first-child", r"cartoon/storm\.new\s+crash"),
     Question("Which case ended without a decision, and why?", "ci?ending=inconclusive", ".cases tbody tr", r"drops/pane\.new[\s\S]*the interval allows both"),
     Question("How many failures are new in this run?", "ci", ".news", r"Since the run before \(gate-1\.json\): 2 failures are new, 1 is as before"),
