@@ -174,7 +174,8 @@ def check_interrupted(runner):
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         env = {"XDG_STATE_HOME": folder}
-        line = "test $RG_CANDIDATE -ne %s || { trap 'touch %s/ended; exit' TERM; sleep 300 & touch %s/waits; wait; }; test $RG_CANDIDATE -lt 7"
+        # No child in the background: it may lose a signal between fork and exec, and then holds stderr open.
+        line = "test $RG_CANDIDATE -ne %s || { trap 'touch %s/ended; exit' TERM; touch %s/waits; while :; do sleep 0.1; done; }; test $RG_CANDIDATE -lt 7"
         for names, at, ends, lines in (("123456789", 5, "--good '1' --bad '9'", 2), ("12345678", 6, "--good '4' --bad '8'", 3)):
             process = runner.start(["bisect", "--good", names[0], "--bad", names[-1], "--run", line % (at, folder, folder), *names], env=env)
             end = time.monotonic() + 60
