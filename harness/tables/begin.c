@@ -59,6 +59,7 @@ void rg_table_begin(struct rg_result *result, const struct rg_table *table,
     copy_or_none(result->quick, sizeof(result->quick), table->quick);
     rg_text_copy(result->note, sizeof(result->note), table->note);
     result->full = part->full;
+    result->few_samples = !part->full && getenv("RG_FEW_SAMPLES");
     result->is_of_textures = table->is_of_textures;
     result->width = table->width;
     result->height = table->height;

@@ -233,7 +233,11 @@ static json_t *pair_json(const struct shot *a, const struct shot *b, const struc
     char names[2][RG_DEVICE_NAME_SIZE];
     rg_text_copy(names[0], RG_DEVICE_NAME_SIZE, a->info->name);
     rg_text_copy(names[1], RG_DEVICE_NAME_SIZE, b->info->name);
-    return rg_pair_json(names[0], names[1], c);
+    json_t *pair = rg_pair_json(names[0], names[1], c);
+    if (pair)
+        json_object_set_new(pair, "owed",
+                            json_string(rg_tier_name(rg_tier_owed(a->info, b->info))));
+    return pair;
 }
 
 // Prints why a pair fails, and what a looser tier would accept.

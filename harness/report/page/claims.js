@@ -12,8 +12,8 @@ const PAPERS = {
 const SOFTWARE = {author: "{raingauge contributors}", title: "raingauge: the rain of published papers on every graphics API", type: "software"};
 
 const VERDICTS = {
-  "reproduced": {mark: "✓", word: "holds", cls: "yes", about: "many launches, wrong in 1 % of cases at most, or pictures, which every launch draws alike, confirm it"},
-  "not reproduced": {mark: "✗", word: "does not hold", cls: "no", about: "they refute it"},
+  "reproduced": {mark: "✓", word: "holds", cls: "yes", about: "confirmed by many launches, at an error of 1 %, or by pictures, which every launch draws alike"},
+  "not reproduced": {mark: "✗", word: "does not hold", cls: "no", about: "refuted by many launches, at an error of 1 %, or by pictures"},
   "at the bound": {mark: "≈", word: "at the bound", cls: "bound", about: "what was measured lies where the claim's bound is, so that no more of it would decide"},
   "undecided": {mark: "?", word: "open", cls: "open", about: "launches have not settled it yet"},
   "one launch: fits": {mark: "(✓)", word: "one launch fits", cls: "fits", about: "figures of one launch fit the claim, which is no verdict"},

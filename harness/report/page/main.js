@@ -34,8 +34,8 @@ function picturesTotal() {
   const cells = CELLS.filter(c => ["ok", "fail"].includes(c.status) && objectOf(c.measured).ms !== undefined || c.status === "fail"), pairs = records("diff").flatMap(r => objectsOf(r.document.pairs));
   const gated = GATES.flatMap(g => g.cases.map(c => ({...c, gate: GATES.indexOf(g)}))).filter(c => c.technique !== "fixed" && ["pass", "differs", "regressed", "improved", "inconclusive"].includes(c.ending));
   const software = name => (DEVICES.find(d => d.name === name) || {}).software !== false, isExact = DEVICES.every(d => software(d.name)), what = isExact ? "identical" : "as the reference's";
-  // Two software devices owe each other every bit, a GPU rounding, and a native device the same scene.
-  const isNative = name => /:native(@|$)/.test(name), owed = p => isNative(p.a) || isNative(p.b) ? 2 : software(p.a) && software(p.b) ? 0 : 1, reached = p => ["T0", "T1", "T2"].indexOf(p.tier), isSame = p => reached(p) === 0, isFine = p => reached(p) >= 0 && reached(p) <= owed(p);
+  // Records of before say not what two devices owe each other.
+  const rank = tier => ["T0", "T1", "T2"].indexOf(tier), isSame = p => p.tier === "T0", isFine = p => rank(p.tier) >= 0 && rank(p.tier) <= rank(p.owed || (isExact ? "T0" : "T1"));
   const all = cells.length + pairs.length + gated.length, others = [...gated.filter(c => c.ending === "differs").map(c => ["none", link("gate", {gate: c.gate === GATES.length - 1 ? null : c.gate, case: c.name}, c.name)]),
     ...pairs.filter(p => !isSame(p)).map(p => [isFine(p) ? p.tier : "none", link("checks", {}, `${p.a} and ${p.b}`)]),
     ...cells.filter(c => c.status === "fail").map(c => { const table = TABLES.find(t => t.cells.includes(c)); return ["none", link("table", {id: table.id}, `${table.id} on ${c.device}`)]; })], same = all - others.length;

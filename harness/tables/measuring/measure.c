@@ -335,18 +335,16 @@ bool rg_table_measure(struct rg_result *result, const struct rg_table *table, st
                       const struct rg_table_deadline *deadline)
 {
     struct rg_progress own;
-    struct measuring m = {.result = result,
-                          .table = table,
-                          .kept = kept,
-                          .journal = journal,
-                          .bar = bar ? bar : &own,
-                          .deadline = deadline,
-                          .options =
-                              *(result->few_samples || rg_table_wants_few_samples(result->full)
-                                    ? rg_table_few_samples()
-                                    : rg_table_options(result->full)),
-                          .batch = {.result = result, .table = table, .kept = kept},
-                          .kept_ms = rg_now_ms()};
+    struct measuring m = {
+        .result = result,
+        .table = table,
+        .kept = kept,
+        .journal = journal,
+        .bar = bar ? bar : &own,
+        .deadline = deadline,
+        .options = *(result->few_samples ? rg_table_few_samples() : rg_table_options(result->full)),
+        .batch = {.result = result, .table = table, .kept = kept},
+        .kept_ms = rg_now_ms()};
     m.options.end_ms = deadline ? deadline->rows_ms : 0;
     m.options.progress = show_share;
     m.options.user = &m;

@@ -11,7 +11,6 @@
 const struct rg_measure_options *rg_table_options(bool is_full);
 // The options within a tight budget, and under RG_FEW_SAMPLES: quick, with the fewest samples.
 const struct rg_measure_options *rg_table_few_samples(void);
-bool rg_table_wants_few_samples(bool is_full);
 
 // The end of a measurement within a budget; times are by rg_now_ms. The first row begins in any
 // case; later ones begin only if earlier times say that they may end in time.

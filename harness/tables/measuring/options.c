@@ -1,6 +1,4 @@
 // The options for measuring cells quickly, fully, and with the fewest samples.
-#include <stdlib.h>
-
 #include "harness/measure/calibration.h"
 #include "harness/tables/measuring/measure.h"
 
@@ -42,9 +40,4 @@ const struct rg_measure_options *rg_table_few_samples(void)
 const struct rg_measure_options *rg_table_options(bool is_full)
 {
     return is_full ? &full : &quick;
-}
-
-bool rg_table_wants_few_samples(bool is_full)
-{
-    return !is_full && getenv("RG_FEW_SAMPLES");
 }

@@ -118,7 +118,7 @@ static void begin_result(const struct budget *b, const struct rg_table *seen,
     rg_table_begin(result, seen, &all, &chosen);
     result->budget_s = b->options->budget_s;
     result->size_divisor = share->divisor;
-    result->few_samples = !share->all_samples || rg_table_wants_few_samples(result->full);
+    result->few_samples = result->few_samples || !share->all_samples;
 }
 
 static int rows_of(const struct rg_result *result)

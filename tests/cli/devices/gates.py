@@ -178,7 +178,7 @@ def check_budget(runner):
         kernels = files.path("kernels")
         os.mkdir(kernels)
         runner.kernels_with(kernels, "flow_normals.glsl", RIGHT, TURNED)
-        result = runner.run(["gate", "gl", "gl@RG_KERNEL_DIR=" + kernels, "--cells", files.cells, "--budget", "6s", "--margin", "0.001"])
+        result = runner.run(["gate", "gl", "gl@RG_KERNEL_DIR=" + kernels, "--cells", files.cells, "--budget", "20s", "--margin", "0.001"])
         if result.returncode != 1 or result.stderr:
             problems.append("a difference: exit status %d, %s" % (result.returncode, result.stderr))
     return problems

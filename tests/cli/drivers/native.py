@@ -53,7 +53,7 @@ def check_agreement(runner):
         pairs = {pair["b"]: pair for pair in json.loads(result.stdout)["pairs"] if pair["a"] == "cpu"}
         tiers = [pairs[name]["tier"] if name in pairs else "none" for name in names]
         apis = {device["name"]: device["api"] for device in json.loads(result.stdout)["devices"]}  # a part of comparison keys
-        if result.returncode or result.stderr or not set(tiers) <= {"T1", "T2"} or not all(apis[name].endswith(", native") for name in names):
+        if result.returncode or result.stderr or not set(tiers) <= {"T1", "T2"} or {pairs[name]["owed"] for name in names} != {"T2"} or not all(apis[name].endswith(", native") for name in names):
             problems.append("%s: exit status %d, %s, %s, %s" % (scene[0], result.returncode, tiers, apis, result.stderr))
     return problems
 

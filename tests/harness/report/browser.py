@@ -130,6 +130,8 @@ def make_diff(raingauge, folder):
     for name, which in (("gl", {}), ("vulkan", {"is_vulkan": True}), ("new", {"is_new": True})):
         (folder / f"{name}.exr").write_bytes(made.exr(64, 48, lambda x, y, which=which: light(x, y, **which)))
     pairs = [{**made.diff(raingauge, folder, f"{a}.exr", f"{b}.exr"), "a": a, "b": b} for a, b in (("gl", "vulkan"), ("gl", "new"), ("vulkan", "new"))]
+    for pair in pairs:
+        pair["owed"] = "T0"
     for pair in pairs[1:]:
         pair["blame"] = {"stage": "flow_blur", "text": STAGE.split("\n", maxsplit=1)[0], "device": "new"}
     made.write(folder / "diff.json", {"format": 1, "devices": [], "failures": [], "pairs": pairs, "pictures": [{"device": name, "file": f"{name}.exr"} for name in ("gl", "vulkan", "new")]})
@@ -481,6 +483,22 @@ def check_machines(browser, page):
         return problems + browser.messages()
 
 
+def check_owed(browser, page):
+    """pairs that reach what their devices owe each other are told apart from those that differ; older records say not what is owed"""
+    pairs = [{"a": tier, "b": str(owed), "tier": tier, "max": 1, "differing": 1, **({"owed": owed} if owed else {})}
+             for tier, owed in (("T0", "T1"), ("T1", "T1"), ("T2", "T2"), ("T1", "T0"), ("T2", "T1"), ("none", "T2"), ("T1", None))]
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        made.write(folder / "diff.json", {"format": 1, "devices": [], "failures": [], "pairs": pairs})
+        result = made.report(browser.raingauge, folder, "diff.json", "-o", "page.html")
+        if result.returncode or result.stderr:
+            return [result.stderr]
+        browser.open(folder / "page.html", "#overview")
+        text = " ".join(browser.find(".total")[0].text.split())
+    wanted = "4 differ: T1 and T0, T2 and T1, none and T2, T1 and None. Equal up to rounding, as a GPU may be: T1 and T1. The same scene, drawn in another way: T2 and T2."
+    return [] if wanted in text else [text]
+
+
 def check_looks(browser, page):
     """the page is dark if the reader prefers it, and a print has all rows, whole tables and no controls"""
     browser.open(page)
@@ -520,7 +538,7 @@ def main():
         page = make_page(raingauge, pathlib.Path(folder), odd=True)
         browser = Browser(raingauge)
         try:
-            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_broken, check_gate, check_news, check_jumps, check_pictures, check_changes, check_machines, check_looks], browser, page)
+            failed = made.run([check_views, check_start, check_first_screen, check_links, check_keyboard, check_plots, check_hostile, check_broken, check_gate, check_news, check_jumps, check_pictures, check_changes, check_machines, check_owed, check_looks], browser, page)
             if len(sys.argv) > 2:
                 with tempfile.TemporaryDirectory() as shown:
                     keep_pictures(browser, make_page(raingauge, pathlib.Path(shown)), pathlib.Path(sys.argv[2]))
