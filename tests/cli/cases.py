@@ -132,7 +132,7 @@ COMMANDS = [
     Case("doctor --device " + 40 * "x", 2, UNKNOWN_DEVICE),
     Case("doctor --device ,", 2, r"--device ',': names no device"),
     Case("doctor --device cpu,,,", 2, r"--device 'cpu,,,': names no device beside a comma"),
-    Case("doctor --device=", 2, r"--device '': is empty; write a value behind it, or leave it out"),
+    Case("doctor --device=", 2, r"--device '': is empty; write a value after it, or leave it out"),
     Case("doctor --prologue --json", 2, r"--prologue and --json: choose one"),
     Case("doctor cpu", 2, r"doctor: 'cpu' is one argument too many"),
     Case("doctor --device cpu", 0, None),

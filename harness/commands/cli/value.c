@@ -121,7 +121,7 @@ static bool set_choice(const struct rg_option *row, int *choice, const char *tex
 static bool set_text(const struct rg_option *row, char **copy, const char *text)
 {
     if (!*text)
-        return rg_error("--%s '': is empty; write a value behind it, or leave it out", row->name);
+        return rg_error("--%s '': is empty; write a value after it, or leave it out", row->name);
     char option[64];
     snprintf(option, sizeof(option), "--%s", row->name);
     if (row->names == RG_NAMES_DEVICES && !rg_device_names_check(option, text))

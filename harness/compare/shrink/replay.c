@@ -34,8 +34,8 @@ static bool is_of_this_version(const struct rg_case *c, const struct rg_digests 
     if (!stage)
         return rg_error("the case: there are fewer than %d stages here; %s", c->stages_run, mend);
     if (strcmp(stage, c->stage) != 0)
-        return rg_error("the case: behind %d is stage '%s' here, and not '%s'; %s", c->stages_run,
-                        stage, c->stage, mend);
+        return rg_error("the case: stage %d is '%s' here, and not '%s'; %s", c->stages_run, stage,
+                        c->stage, mend);
     return knows_asset(digests, c->asset) ||
            rg_error("the case: there is no asset '%s' here; %s", c->asset, mend);
 }
@@ -47,12 +47,12 @@ static int tell(const struct rg_case *c, const struct rg_digests *digests, const
                                     strcmp(digests->rows[row].asset, c->asset) != 0))
         row++;
     if (row == digests->count) {
-        printf("other: %s leaves no %s behind stage %d\n", device, c->asset, c->stages_run);
+        printf("other: %s leaves no %s after stage %d\n", device, c->asset, c->stages_run);
         return RG_EXIT_FAIL;
     }
     const uint64_t hash = digests->rows[row].hash;
     const bool is_same = hash == c->expected;
-    printf("%s: %s leaves %016" PRIx64 " in %s behind stage %s; expected %016" PRIx64 "%s\n",
+    printf("%s: %s leaves %016" PRIx64 " in %s after stage %s; expected %016" PRIx64 "%s\n",
            is_same ? "same" : "other", device, hash, c->asset, c->stage, c->expected,
            hash == c->found && !is_same ? ", as was found" : "");
     return is_same ? RG_EXIT_PASS : RG_EXIT_FAIL;

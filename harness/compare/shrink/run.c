@@ -39,7 +39,7 @@ static void read_parts(const char *path, unsigned char *bytes, size_t size) { //
     FILE *file = fopen(path, "rb");
     for (size_t head; file && (head = fread(part, 1, sizeof(part), file));)
         if (head != sizeof(part) || part[0] > size || part[1] > size - part[0] || fread(bytes + part[0], 1, part[1], file) != part[1])
-            FAIL(2, "%s: a part of it is cut off, or ends behind the slot\n", path);
+            FAIL(2, "%s: a part of it is cut off, or ends after the slot\n", path);
     if (!file || fclose(file)) FAIL(2, "%s: cannot be read\n", path);
 }
 

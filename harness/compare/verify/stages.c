@@ -36,7 +36,7 @@ static void compare(struct rg_verify *v, const struct rg_digest_run *run, struct
         rg_checks_add_error(v->checks, run->subject.technique->name, "stages", device->info.name);
     else if (rg_blame_first(&now, expected) < 0)
         rg_checks_add(v->checks, run->subject.technique->name, "stages", device->info.name, RG_OK,
-                      "%s%s%d frames, %d digests of assets behind %d stages, as on %s", pose,
+                      "%s%s%d frames, %d digests of assets after %d stages, as on %s", pose,
                       *pose ? ": " : "", run->frames, now.count,
                       now.count ? now.rows[now.count - 1].stages_run : 0, v->reference->info.name);
     else

@@ -84,7 +84,7 @@ json_t *rg_document_read(const char *path, const char *mend, char why[RG_WHY_SIZ
     bool ok = document && rg_document_unseal(path, document, true, why);
     free(text);
     if (ok && at < size) {
-        snprintf(why, RG_WHY_SIZE, "%.200s: has more behind its end; %s", path, mend);
+        snprintf(why, RG_WHY_SIZE, "%.200s: has more after its end; %s", path, mend);
         ok = false;
     }
     if (!ok)

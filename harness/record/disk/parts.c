@@ -120,7 +120,7 @@ static bool take(struct reading *r, const char *path)
     json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
     bool ok = true;
     if (document && at < size)
-        snprintf(why, sizeof(why), "%.200s: has more behind its end; %s", path, mend);
+        snprintf(why, sizeof(why), "%.200s: has more after its end; %s", path, mend);
     if (document && !*why && is_of_format(document, path) == false)
         ok = false;
     else if (*why || !document || !rg_document_unseal(path, document, true, why))

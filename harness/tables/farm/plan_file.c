@@ -238,7 +238,7 @@ bool rg_farm_plan_read(struct rg_farm_plan *plan, const char *path)
     json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
     bool ok = document && take_plan(&reader, document, plan);
     if (ok && at < size)
-        ok = rg_reader_refuse(&reader, "", "has more behind its end");
+        ok = rg_reader_refuse(&reader, "", "has more after its end");
     free(text);
     json_decref(document);
     if (ok)

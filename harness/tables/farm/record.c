@@ -157,7 +157,7 @@ enum rg_farm_found rg_farm_record_read(const struct rg_farm_plan *plan,
     if (document)
         found = read_document(plan, group, document, path, is_checked, result, why);
     if (found == RG_FARM_WHOLE && at < size) {
-        snprintf(why, RG_WHY_SIZE, "%.200s: has more behind its end; %s", path, mend);
+        snprintf(why, RG_WHY_SIZE, "%.200s: has more after its end; %s", path, mend);
         found = RG_FARM_DAMAGED;
     }
     if (found != RG_FARM_WHOLE)

@@ -84,7 +84,7 @@ static bool is_sound(const struct rg_own *own, const struct rg_claim *claim, con
                      int needs)
 {
     if (claim->test == RG_CLAIM_ORDER && !own->printed_count)
-        return rg_error("claim %s: is about printed rates, and no row has any; write them behind a "
+        return rg_error("claim %s: is about printed rates, and no row has any; write them after a "
                         "bar, as in resolution_px=512 | fps=87",
                         test);
     if (claim->test == RG_CLAIM_FLATTENS && !own->table.truth)
@@ -103,7 +103,7 @@ static bool take_words(struct rg_claim *claim, char *words)
 {
     const size_t length = words ? strlen(words) : 0;
     if (!length)
-        return rg_error("claim: has no words; write them behind a bar, as in claim falls | gets "
+        return rg_error("claim: has no words; write them after a bar, as in claim falls | gets "
                         "slower with more texels");
     claim->words = words;
     claim->source = RG_CLAIM_PRINTED;

@@ -149,7 +149,7 @@ static bool take_line(struct rg_own *own, char *text, bool seen[KINDS])
     if (kind && !own->technique)
         return rg_error("%s: write 'table NAME TECHNIQUE WIDTHxHEIGHT' above it", text);
     if (!*rest)
-        return rg_error("%s: nothing stands behind it", text);
+        return rg_error("%s: nothing follows it", text);
     if (seen[kind] && !kinds[kind].may_repeat)
         return rg_error("%s: stands twice; take one out", text);
     seen[kind] = true;

@@ -271,7 +271,7 @@ def check_refused(runner):
         bad = {
             "cut.json": (text[:len(text) // 2], "cut.json: line "),
             "edited.json": (text.replace('"outcome": "ok"', '"outcome": "fail"', 1), "its checksum is wrong"),
-            "more.json": (text + text, "goes on behind its end"),
+            "more.json": (text + text, "goes on after its end"),
             "foreign.json": ('{"format": 1, "table": "creus-5.4", "cells": []}', "is no baseline"),
             "list.json": ("[1, 2]", "is no baseline"),
             "notes.txt": ("a line\n", "line 1 is no JSON"),

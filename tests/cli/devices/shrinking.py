@@ -75,7 +75,7 @@ def check_shrunk(runner):
                 ("frames ", "# ", r"lacks its .*frames"),
                 ("frames ", "frames 1\nframes ", r"line \d+: 'frames' is there twice"),
                 ("set view=pane", "set view=pane\nset view=box", r"line \d+: 'view' is set twice; leave one out"),
-                ("stage %s" % STAGE, "stage flow_water", r"behind \d+ is stage '%s' here, and not 'flow_water'" % STAGE),
+                ("stage %s" % STAGE, "stage flow_water", r"stage \d+ is '%s' here, and not 'flow_water'" % STAGE),
                 ("behind ", "behind 9", r"there are fewer than 9\d+ stages here; write one anew"),
                 ("asset normals", "asset nonsense", r"there is no asset 'nonsense' here; write one anew"),
                 ("technique flow", "technique nonsense", r"line 3: technique 'nonsense' is no value of a case here")):
@@ -183,7 +183,7 @@ def check_alone(runner):
         for cut in (struct.pack("=I", 0), struct.pack("=IIB", 0, 2, 0), struct.pack("=IIB", slots[1][1], 1, 0)):
             with open(os.path.join(alone, slots[1][2]), "wb") as file:
                 file.write(cut)
-            if run([]) != (2, "01-blurred.before: a part of it is cut off, or ends behind the slot\n"):
+            if run([]) != (2, "01-blurred.before: a part of it is cut off, or ends after the slot\n"):
                 problems.append("a short file: %s" % (run([]),))
     return problems
 
@@ -232,7 +232,7 @@ def check_files(runner):
 def check_nothing_to_shrink(runner):
     """shrink of two devices that agree fails, shrink without enough memory is refused, and neither writes anything"""
     problems = []
-    for options, status, says in ((SMALL, 1, "leaves in every asset"), (SMALL + " --memory 1M", 2, "of --memory are left")):
+    for options, status, says in ((SMALL, 1, "leaves the same bits as"), (SMALL + " --memory 1M", 2, "of --memory are left")):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "case.txt")
             result = runner.run(["shrink", "flow", "--frame", "1", "--device", "cpu,cpu:reference", "-o", path] + options.split())

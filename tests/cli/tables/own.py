@@ -19,7 +19,7 @@ WRONG = (
     ("table mine fog 8x8", 1, r"technique 'fog': unknown", ""),
     ("table mine flow 8x", 1, r"size '8x': write WIDTHxHEIGHT", ""),
     ("table mine flow", 1, r"size '': write WIDTHxHEIGHT", ""),
-    ("table", 1, r"table: nothing stands behind it", ""),
+    ("table", 1, r"table: nothing follows it", ""),
     ("table other flow 8x8", 3, r"table: stands twice"),
     ("set drops=1", 3, r"set: stands twice"),
     ("clam falls | x", 3, r"'clam': no line begins so; the nearest is 'claim'"),

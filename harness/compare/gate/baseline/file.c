@@ -259,7 +259,7 @@ bool rg_baseline_read(struct rg_baseline *baseline, const char *path)
     json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
     bool ok = document != NULL;
     if (ok && at < size) {
-        snprintf(why, sizeof(why), "%.200s: goes on behind its end; %s", path, mend);
+        snprintf(why, sizeof(why), "%.200s: goes on after its end; %s", path, mend);
         ok = false;
     }
     ok = ok && read_document(path, document, baseline, why);

@@ -89,7 +89,7 @@ static bool take_field(const char *place, struct rg_expectation *row, char *text
     if (row->values[field])
         return rg_error("%s: field '%s' stands twice; take one out", place, text);
     if (!*value)
-        return rg_error("%s: field '%s' has no value; write one behind it", place, text);
+        return rg_error("%s: field '%s' has no value; write one after it", place, text);
     row->values[field] = value;
     row->at[field] = line;
     row->line_count = line - row->line + 1;

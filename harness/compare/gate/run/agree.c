@@ -110,7 +110,7 @@ static bool have_alike_states(struct rg_gate_case *c, const struct rg_baseline_r
             continue;
         return c->before ? rg_agreement_differs(found, "the state '%s' has digest %s, and had %s",
                                                 is->name, is->digest, was)
-                         : rg_agreement_differs(found, "the state '%s' differs behind %d frames",
+                         : rg_agreement_differs(found, "the state '%s' differs after %d frames",
                                                 is->name, c->cell->frames);
     }
     return true;
@@ -175,7 +175,7 @@ static void blame(struct rg_gate_case *c, struct rg_truth *truth, bool holds)
     struct rg_agreement *found = &c->agreement;
     if (rg_truth_open(truth) && find_stage(c, truth->device) && holds && !*found->details)
         snprintf(found->details, RG_AGREEMENT_TEXT,
-                 "cpu:reference leaves the same bits behind every stage now: what has changed is "
+                 "cpu:reference leaves the same bits after every stage now: what has changed is "
                  "%s%.400s, and not how the device does",
                  *truth->libraries ? "what the host computes with, " : "what raingauge computes",
                  truth->libraries);
