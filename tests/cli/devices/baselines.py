@@ -102,6 +102,18 @@ def check_same(runner):
     return problems
 
 
+def check_few(runner):
+    """under RG_FEW_SAMPLES a launch has three timings of a cell, which else has more"""
+    counts = {}
+    with Files(TORUS) as files:
+        for value in ("1", None):
+            path = files.path("baseline.json")
+            runner.run(["baseline", *CPU, "--cells", files.cells, "-o", path, *QUICK], {"RG_FEW_SAMPLES": value})
+            with open(path) as file:
+                counts[value] = json.load(file)["baseline"][0]["timings"]
+    return [] if counts["1"] == 3 < counts[None] else ["timings: %s" % counts]
+
+
 def check_timed(runner):
     """times under the same key get verdicts; a million times slower is found, whether cells or the baseline are"""
     with Files(TORUS) as files:
@@ -511,5 +523,5 @@ def check_short_names(runner):
     return problems
 
 
-CHECKS = [check_same, check_short_names, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_fallen, check_meanwhile, check_long, check_forms,
+CHECKS = [check_same, check_short_names, check_few, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_fallen, check_meanwhile, check_long, check_forms,
           check_absent, check_untimed, check_spared, check_kept]
