@@ -148,9 +148,9 @@ test: whole $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@echo "== building in $(ASAN)"
 	@$(STEPS) $(ASAN)/build.log ninja -C $(ASAN)
 	@echo "== testing, all devices"
-	@meson test -C $(BUILD) --no-rebuild --print-errorlogs $(AT_ONCE) || true
+	@meson test -C $(BUILD) --no-rebuild --print-errorlogs $(AT_ONCE) --no-suite host || true
 	@echo "== testing under sanitizers, the CPU devices and the harness"
-	@meson test -C $(ASAN) --no-rebuild --print-errorlogs $(AT_ONCE) --suite sanitized || true
+	@meson test -C $(ASAN) --no-rebuild --print-errorlogs $(AT_ONCE) --suite sanitized --suite host || true
 	@echo "== testing in $(TSAN): whether threads race"
 	@meson test -C $(TSAN) --print-errorlogs --suite watched || true
 	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json \

@@ -71,6 +71,7 @@ COMMANDS = [
     Case("list figures", 0, None),
     Case("list", 2, r"list: name what to list: techniques, tables, figures, devices, or params TECHNIQUE"),
     Case("list device", 2, r"list 'device': unknown; the nearest is 'devices', and there are techniques, tables, figures, devices and params TECHNIQUE"),
+    Case("list param", 2, r"list 'param': unknown; the nearest is 'params', and there are"),
     Case("list params", 2, r"name a technique; `raingauge list techniques`"),
     Case("list params nonsense", 2, r"technique 'nonsense': unknown"),
     Case("list devices twice", 2, r"'twice' is one argument too many"),

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "harness/record/output.h"
+#include "harness/tables/print.h"
 #include "tests/harness/record/made.h"
 
 // Rows 1 to 3, counted from 0; row 2 is missing. Their settings are "a=ROW b=2".
@@ -35,6 +36,25 @@ static void test_kept_rows(void **state)
     assert_false(rg_result_keep_rows(&result, 0, 0));
     assert_int_equal(rg_result_first_missing(&result), 2);
     rg_result_free(&result);
+}
+
+// A table that lacks a row, its last one too, leaves no file.
+static void test_whole(void **state)
+{
+    (void)state;
+    for (int last = 1; last <= 3; last++) {
+        char folder[64] = "/tmp/raingauge-rows-XXXXXX", path[128];
+        struct rg_result result = make_result();
+        result.last_row = last; // row 2 is missing
+        assert_non_null(mkdtemp(folder));
+        rg_result_finish(&result, RG_RESULT_CSV, folder);
+        for (int i = 0; rg_result_formats[i]; i++) {
+            snprintf(path, sizeof(path), "%s/%s.%s", folder, result.table, rg_result_formats[i]);
+            assert_int_equal(!unlink(path), last < 2);
+        }
+        assert_int_equal(rmdir(folder), 0);
+        rg_result_free(&result);
+    }
 }
 
 // Every cell is another one, and is met once.
@@ -105,9 +125,8 @@ static void test_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kept_rows),
-        cmocka_unit_test(test_cells),
-        cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_kept_rows), cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_cells),     cmocka_unit_test(test_samples),
         cmocka_unit_test(test_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

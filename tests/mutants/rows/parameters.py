@@ -11,6 +11,7 @@ THREADS = "harness/console/threads.c"
 
 LOG = "core/base/log.c"
 ROWS = [
+    Fault("harness/commands/list.c", "for (int i = 0; «lists[i]»; i++)\n        rg_nearest_try(&nearest, what, lists[i]);", "lists[i + 1]", "the last list is never the nearest", tests=("command line, cases",)),
     Fault(VALUE, "if («!*text»)", "false", "an option's text may be empty"),
     Fault(LOG, "return «level == RG_LOG_INFO»;", "true", "each cell that meets an error prints it", tests=("log",)),
     Fault(LOG, "if («is_held»)", "false", "what is only counted logs errors", tests=("log",)),

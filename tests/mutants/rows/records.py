@@ -52,6 +52,7 @@ ROWS = [
     Fault(REGENERATE, "for (int i = 0; «keeps» && i < made; i++)", "true", "a run whose state folder another holds keeps rows there", tests=("command line, losses",)),
     Fault("harness/commands/tables/inputs.c", "table->rows[row].set, «set»);", "NULL", "a table's files replace one that --set names", tests=("command line, tables",)),
     Fault("harness/commands/tables/inputs.c", "«row ? row : \"\"»", "\"\"", "a sweep's files replace one that an axis names", tests=("command line, tables",)),
+    Fault("harness/tables/print.c", "const bool is_whole = «rg_result_first_missing(result) > result->last_row»;", "rg_result_first_missing(result) >= result->last_row", "a table that lacks its last row is written", tests=("rows",)),
     Fault("harness/tables/print.c", "«full < 2»; full++)", "false", "a journal replaces a file that is read", tests=("command line, tables",)),
     Fault(REGENERATE, "«(exit == RG_EXIT_USAGE || exit == RG_EXIT_HARNESS)» && i < count; i++)", "false", "what was measured is lost where the claims cannot be printed", tests=("command line, losses",)),
     Fault("harness/commands/tables/sweep.c", ".fresh = «o->fresh»,", "true", "an interrupted sweep begins anew", tests=("command line, losses",)),
