@@ -80,6 +80,20 @@ static void rows_are_all_combinations(void **state)
     free(grid);
 }
 
+// As many rows as a table may have are taken, and more are not.
+static void a_grid_may_be_full(void **state)
+{
+    (void)state;
+    for (int more = 0; more <= 1; more++) {
+        char axis[32];
+        snprintf(axis, sizeof(axis), "seed=1,2..%d", RG_TABLE_ROWS / 2 + more);
+        struct rg_grid *grid = grid_of((const char *const[]){axis, "panes=glass,mirror", NULL});
+        assert_int_equal(rg_grid_make(grid, rg_technique_find("flow")), !more);
+        assert_true(more || grid->table.row_count == RG_TABLE_ROWS);
+        free(grid);
+    }
+}
+
 static void other_grids_are_refused(void **state)
 {
     (void)state;
@@ -99,9 +113,8 @@ static void other_grids_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(axes_have_values_and_ranges),
-        cmocka_unit_test(other_axes_are_refused),
-        cmocka_unit_test(rows_are_all_combinations),
+        cmocka_unit_test(axes_have_values_and_ranges), cmocka_unit_test(other_axes_are_refused),
+        cmocka_unit_test(rows_are_all_combinations),   cmocka_unit_test(a_grid_may_be_full),
         cmocka_unit_test(other_grids_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,6 +14,7 @@ HOLD, REGENERATE, CLOCK = "harness/record/disk/hold.c", "harness/tables/runs/reg
 TEMPORARY, FIELDS = "core/image/files/temporary.c", "harness/record/schema/fields.c"
 
 ROWS = [
+    Fault("harness/record/schema/read_head.c", "return «array != NULL»;", "true", "a record may lack its list of what is missing", tests=("damaged",)),
     Fault(OUTPUT, "return «lstat(path, &st)» || rg_temporary_try", "true", "what cannot be replaced is found out after the work"),
     Fault(JOURNAL, "journal->has_file = «has_same_head(&found, &journal->held)»;", "true", "a journal of another machine is taken over"),
     Fault(JOURNAL, "return «!strcmp(a->set, b->set)» && a->row_count", "true", "a row of other parameters is taken over"),

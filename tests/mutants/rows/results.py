@@ -11,6 +11,7 @@ TREND, COSTS, PREPARE, BEGIN = ("harness/tables/sheet/trend.c", "harness/tables/
                                 "harness/tables/measuring/prepare.c", "harness/tables/begin.c")
 
 ROWS = [
+    Fault("harness/tables/own/grid.c", "if («rows > RG_TABLE_ROWS»)", "rows >= RG_TABLE_ROWS", "a sweep of as many rows as a table may have is refused", tests=("sweep",)),
     Fault("harness/tables/sheet/beside.c", "«of.device < result->device_count»; of.device++) {\n        const struct rg_record *record = rg_result_at(result, of);\n        const int64_t count", "of.device < 1", "the first device alone counts work", tests=("brief",)),
     Fault(SETTLE, "return rule->error / «rule->look_count» / 2;", "1", "each look spends all of the error"),
     Fault(SETTLE, "s.strict = rg_median_sorted(values, s.units, tail_of(rule) / «part_count»);", "1", "each part of a claim spends all of the error"),
