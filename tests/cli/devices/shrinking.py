@@ -78,6 +78,7 @@ def check_shrunk(runner):
                 ("stage %s" % STAGE, "stage flow_water", r"stage \d+ is '%s' here, and not 'flow_water'" % STAGE),
                 ("behind ", "behind 9", r"there are fewer than 9\d+ stages here; write one anew"),
                 ("asset normals", "asset nonsense", r"there is no asset 'nonsense' here; write one anew"),
+                ("class values", "class nothing", r"line \d+: class 'nothing' is no value of a case here"),
                 ("technique flow", "technique nonsense", r"line 3: technique 'nonsense' is no value of a case here")):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text.replace(right, wrong))

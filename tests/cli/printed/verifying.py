@@ -17,6 +17,13 @@ def check_verify_json(runner):
     return problems
 
 
+def check_verify_mutants(runner):
+    """mutants run on cpu, even if only cpu:reference is named"""
+    report, status, problems = run_json(runner, VERIFY.replace("--device cpu ", "--device cpu:reference "))
+    on = [check["device"] for check in report["checks"] if check["check"] == "mutants"]
+    return problems + ([] if status == 0 and on == ["cpu"] else ["exit status %d, mutants on %s" % (status, on)])
+
+
 def check_verify_dry(runner):
     """verify ends with 4 for an image without rain, which proves nothing, and reports no other check wrongly"""
     result = runner.run((VERIFY + "--set share=0").split())
@@ -30,4 +37,4 @@ def check_verify_dry(runner):
     return problems
 
 
-LONG = [check_verify_json, check_verify_dry]
+LONG = [check_verify_json, check_verify_mutants, check_verify_dry]

@@ -19,6 +19,7 @@
 
 #include "core/base/doing.h"
 #include "core/base/log.h"
+#include "harness/console/exit.h"
 #include "harness/devices/workers/serve.h"
 #include "harness/devices/workers/worker.h"
 
@@ -243,6 +244,8 @@ static void an_exit_is_no_success(void **state)
     assert_non_null(strstr(logged, "its driver ended the process with status 0 while running"));
     assert_int_equal(ask(*state, RG_CALL_SYNC, -6, NULL), RG_CRASH);
     assert_non_null(strstr(logged, "its driver ended the process with status 5 while running"));
+    assert_int_equal(ask(*state, RG_CALL_SYNC, -1 - RG_EXIT_HARNESS, NULL), RG_LACKING);
+    assert_non_null(strstr(logged, "its process ended, for it had no memory for a message while"));
 }
 
 static void a_hang_is_ended(void **state)

@@ -46,17 +46,22 @@ static void hear(enum rg_log_level level, const char *line, void *user)
 }
 
 // The records of even groups lie in A, those of odd ones in B.
-static void begin(struct rig *rig)
+static void begin_with(struct rig *rig, int tables)
 {
     *rig = (struct rig){.folder = "/tmp/raingauge-test-merge-XXXXXX"};
     assert_non_null(mkdtemp(rig->folder));
     snprintf(rig->a, sizeof(rig->a), "%s/a", rig->folder);
     snprintf(rig->b, sizeof(rig->b), "%s/b", rig->folder);
     snprintf(rig->out, sizeof(rig->out), "%s/out", rig->folder);
-    make_farm(&rig->farm, TABLES, ROWS, VARIANTS);
+    make_farm(&rig->farm, tables, ROWS, VARIANTS);
     rg_text_copy(rig->farm.plan.digest, RG_FARM_DIGEST, "0123456789abcdef");
-    for (int64_t g = 0; g < GROUPS; g++)
+    for (int64_t g = 0; g < rig->farm.plan.group_count; g++)
         leave_record(&rig->farm, g, 0, g % 2 ? rig->b : rig->a);
+}
+
+static void begin(struct rig *rig)
+{
+    begin_with(rig, TABLES);
 }
 
 static void end(struct rig *rig)
@@ -207,6 +212,45 @@ static void test_half_copied(void **state)
     end(&rig);
 }
 
+static int count_lines(const struct rig *rig, const char *words)
+{
+    int count = 0;
+    for (const char *at = rig->heard; (at = strstr(at, words)); at++)
+        count++;
+    return count;
+}
+
+// Ten of a kind are named, and the others only counted; but all cells count as missing.
+static void test_many(void **state)
+{
+    (void)state;
+    struct rig rig;
+    begin_with(&rig, 3);
+    const int64_t groups = rig.farm.plan.group_count;
+    assert_int_equal(groups, 12);
+    for (int64_t g = 0; g < groups; g++)
+        leave_record(&rig.farm, g, 0, g % 2 ? rig.a : rig.b);
+    assert_true(find(&rig));
+    assert_int_equal(rig.found.twice, groups);
+    expect_heard(&rig, "2 records more are there twice");
+    assert_int_equal(count_lines(&rig, "\n"), 11);
+    for (int64_t g = 0; g < groups; g++) {
+        const char *path = record_path(&rig.farm, g, g % 2 ? rig.a : rig.b);
+        assert_int_equal(remove(path), 0);
+        path = record_path(&rig.farm, g, g % 2 ? rig.b : rig.a);
+        assert_int_equal(truncate(path, 9), 0);
+    }
+    assert_true(find(&rig));
+    assert_int_equal(rig.found.damaged, groups);
+    expect_heard(&rig, "2 records more are damaged");
+    assert_int_equal(count_lines(&rig, "\n"), 11);
+    *rig.heard = 0;
+    assert_int_equal(missing(&rig), rig.farm.plan.cell_count);
+    expect_heard(&rig, "2 groups more are missing");
+    assert_int_equal(count_lines(&rig, ": missing, 4 cells"), 10);
+    end(&rig);
+}
+
 // Replaces the first occurrence in a record; without `to` the rest is cut off.
 static void damage(const char *path, const char *from, const char *to)
 {
@@ -349,6 +393,7 @@ int main(void)
         cmocka_unit_test(test_half_copied), cmocka_unit_test(test_damaged),
         cmocka_unit_test(test_foreign),     cmocka_unit_test(test_no_record),
         cmocka_unit_test(test_twice),       cmocka_unit_test(test_two_keys),
+        cmocka_unit_test(test_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
