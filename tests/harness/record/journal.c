@@ -269,6 +269,19 @@ static int taken(struct rig *rig, int last_row, int messages)
     return count;
 }
 
+static bool is_of_others(struct rig *rig, int last_row)
+{
+    struct rg_result result;
+    begin(rig, &result, last_row);
+    rg_log_listen(hear, rig);
+    struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, false);
+    rg_log_listen(NULL, NULL);
+    const bool is_others = rg_journal_is_of_others(journal);
+    rg_journal_close(journal);
+    rg_result_free(&result);
+    return is_others;
+}
+
 // Writes the journal with a field of an object changed, and counts the rows that are taken.
 static int taken_with(struct rig *rig, json_t *journal, const char *path, json_t *object,
                       const char *field, json_t *value, int messages)
@@ -293,6 +306,8 @@ static void test_other_runs(void **state)
     json_t *json = make_journal(rig, path);
     assert_int_equal(taken(rig, 1, 0), 1);
     assert_int_equal(taken(rig, 0, 1), 0); // other rows
+    assert_false(is_of_others(rig, 1));
+    assert_true(is_of_others(rig, 0)); // so that a run with a fallen driver spares it
     static const char *const fields[] = {"technique", "truth", "quick", "note"};
     for (int i = 0; i < 4; i++)
         assert_int_equal(taken_with(rig, json, path, json, fields[i], json_string("another"), 1),
