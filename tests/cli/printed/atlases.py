@@ -57,6 +57,8 @@ def check_compared(runner):
         for k in range(4):  # random pixels, from a separate generator
             codes = [[(7919 * (row * 8 + column + 1) * (k + 3) ** 2) % 65521 for column in range(8)] for row in range(262)]
             write_codes("%s/cam/cv0_v10_h%d_osc%d.png" % (tmp, 20 * k + 10, k), 8, codes)
+        for k in range(2):  # even ones, which are like nothing
+            write_codes("%s/cam/cv0_v30_h%d_osc0.png" % (tmp, 20 * k + 10), 8, [[0] * 8] * 262)
         chord = [max(1 - ((column - 3.5) / 2.97) ** 2, 0) ** 0.5 for column in range(8)]
         ends = [min(1, min(row, 261 - row) / 6) for row in range(262)]
         write_codes(tmp + "/cv0_osc0.png", 8, [[int(60000 * c * e) for c in chord] for e in ends])
@@ -65,7 +67,9 @@ def check_compared(runner):
     sets = {row["set"]: row for row in told["sets"]}
     if status or sets["everywhere"]["median"] < 0.95 or sets["view 0"]["pictures"] != 4 or abs(sets["view 0"]["median"]) > 0.3:
         problems.append("exit status %d, %s" % (status, told["sets"]))
-    if len(told["pictures"]) != 5 or told["brightness"] is not None or "mean brightness: not compared" not in text:
+    if told["flat"] != 2 or "\n2 pictures are even, theirs or ours, " not in text:
+        problems.append("%d are even: %s" % (told["flat"], text))
+    if len(told["pictures"]) != 7 or told["brightness"] is not None or "mean brightness: not compared" not in text:
         problems.append("%s\n%s" % (told, text))
     if not re.search(r"\nlight from everywhere +1 +0\.9\d\d +100\.0 % +0\.9\d\d  cv0_osc0\.png\n", text):
         problems.append(text)

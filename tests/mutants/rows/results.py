@@ -11,6 +11,9 @@ TREND, COSTS, PREPARE, BEGIN = ("harness/tables/sheet/trend.c", "harness/tables/
                                 "harness/tables/measuring/prepare.c", "harness/tables/begin.c")
 
 ROWS = [
+    Fault("harness/atlas/compare.c", "«flat += comparison->rows[i].flat;»", "flat = comparison->rows[i].flat;", "of even pictures only the last is counted", tests=("command line, atlas",)),
+    Fault("harness/tables/measuring/textures.c", "(int)rg_table_value(table, at.row, \"level\"));\n        else\n            «rg_record_end_by_error(record);»", ";", "a texture that cannot be looked at counts as good", tests=("regenerate",)),
+    Fault("harness/record/record.c", "snprintf(to, size - used, «\"%s%s %.10g\"», comma", "\"%s%s %g\"", "rows are named by numbers of six digits", tests=("sheets, cells",)),
     Fault("harness/tables/own/grid.c", "if («rows > RG_TABLE_ROWS»)", "rows >= RG_TABLE_ROWS", "a sweep of as many rows as a table may have is refused", tests=("sweep",)),
     Fault("harness/tables/sheet/beside.c", "«of.device < result->device_count»; of.device++) {\n        const struct rg_record *record = rg_result_at(result, of);\n        const int64_t count", "of.device < 1", "the first device alone counts work", tests=("brief",)),
     Fault(SETTLE, "return rule->error / «rule->look_count» / 2;", "1", "each look spends all of the error"),

@@ -205,6 +205,9 @@ static void test_range(void **state)
     char name[256];
     rg_record_row_name(paper, name, sizeof(name));
     assert_string_equal(name, "columns 1000, merge on");
+    paper->row[0].number = 1048576;
+    rg_record_row_name(paper, name, sizeof(name));
+    assert_string_equal(name, "columns 1048576, merge on");
     rg_result_free(&rig.result);
 }
 
