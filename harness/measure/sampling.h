@@ -1,4 +1,4 @@
-// Decides how a job is sampled from the time of a frame: pure functions.
+// Decides how a job is sampled from the time of a frame.
 #ifndef RG_HARNESS_MEASURE_SAMPLING_H
 #define RG_HARNESS_MEASURE_SAMPLING_H
 
@@ -12,6 +12,9 @@ struct rg_sampling {
     int samples;
     double passes_ms; // limit of the run after the samples that times passes
 };
+
+// Whether the user asks for the fewest samples and timings, to try a script (RG_FEW_SAMPLES).
+bool rg_sampling_few(void);
 
 // Whether an untimed frame precedes a sample, so that another job's data in the caches does not
 // slow the sample.

@@ -5,6 +5,7 @@
 
 #include "core/base/log.h"
 #include "harness/measure/expected.h"
+#include "harness/measure/sampling.h"
 #include "harness/record/passport/passport.h"
 #include "harness/tables/table.h"
 
@@ -59,7 +60,7 @@ void rg_table_begin(struct rg_result *result, const struct rg_table *table,
     copy_or_none(result->quick, sizeof(result->quick), table->quick);
     rg_text_copy(result->note, sizeof(result->note), table->note);
     result->full = part->full;
-    result->few_samples = !part->full && getenv("RG_FEW_SAMPLES");
+    result->few_samples = !part->full && rg_sampling_few();
     result->is_of_textures = table->is_of_textures;
     result->width = table->width;
     result->height = table->height;

@@ -83,10 +83,9 @@ bool rg_search_begin(struct rg_search *s, const struct rg_shrink_request *asked)
     bool ok = s->best.subject.settings && find_difference(s);
     s->has_none = ok && (!s->blame.found || s->blame.is_alone);
     if (s->has_none)
-        ok =
-            rg_error("shrink: %s leaves the same bits as %s in every asset after every stage; give "
-                     "another frame, size or setting",
-                     asked->device->info.name, asked->truth->info.name);
+        ok = rg_error("shrink: %s leaves the same bits as %s after every stage; give another "
+                      "frame, size or setting",
+                      asked->device->info.name, asked->truth->info.name);
     if (ok)
         hold_best(s);
     return ok;

@@ -102,5 +102,5 @@ ROWS = [
     Fault("harness/tables/figures/chin.c", ".frame = «250»,", "220", "a figure of a later step shows the earlier one", tests=("figures",)),
     Fault("harness/tables/figures/figures.c", "if («!strcmp(figure->id, id)»)", "!strncmp(figure->id, id, strlen(id))", "the beginning of a figure's name is taken for it", tests=("figures",)),
     Fault("harness/console/sheet.c", "n < «sheet->note_count»; n++)\n        print_md_note(out, sheet->notes[n], sheet->note_width);\n}", "sheet->note_count - sheet->lead_count", "the last notes of a table are missing", tests=("sheets, notes",)),
-    Fault("harness/tables/begin.c", "!part->full && «getenv(\"RG_FEW_SAMPLES\")»;", "true", "quick tables take few samples unasked", tests=("command line, results",)),
+    Fault("harness/tables/begin.c", "!part->full && «rg_sampling_few()»;", "true", "quick tables take few samples unasked", tests=("command line, results",)),
 ]

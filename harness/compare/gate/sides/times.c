@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/log.h"
@@ -11,6 +10,7 @@
 #include "harness/devices/frames/session.h"
 #include "harness/judge/stats.h"
 #include "harness/measure/others.h"
+#include "harness/measure/sampling.h"
 #include "harness/record/record.h"
 
 // A launch takes several blocks, or times of B alone. Opening a cell costs as much as several
@@ -124,7 +124,7 @@ static bool warm_up_one(struct rg_session *session, double *frame_ms)
 // Chooses the numbers of frames and timings for frames of this length.
 static void settle(struct rg_slot *slot, double frame_ms)
 {
-    const double slot_ms = getenv("RG_FEW_SAMPLES") ? 0 : SLOT_MS;
+    const double slot_ms = rg_sampling_few() ? 0 : SLOT_MS;
     frame_ms = fmax(frame_ms, 1e-6);
     slot->frames = (int)fmin(fmax(ceil(TIMING_MS / frame_ms), 1), RG_SLOT_FRAMES);
     slot->timings =

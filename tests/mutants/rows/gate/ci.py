@@ -90,7 +90,7 @@ ROWS = [
     Fault(RUN, "const bool is_done = ok && !rg_interrupted() && «found != RG_EXIT_USAGE»;", "true", "launches within a budget that was too short are lost", tests=("command line, gates",)),
     Fault(TIMES, "«(t->launch ? due_ms : now_ms)» >= t->end_ms);", "now_ms", "a gate that cannot decide anything goes on to its budget's end", tests=("time of a gate",)),
     Fault(TIMES, "timed->is_over = t->end_ms > 0 && now_ms + «more_ms» >= t->end_ms;", "0", "a baseline makes a gate longer than its budget", tests=("command line, baselines",)),
-    Fault(TIMES, "const double slot_ms = «getenv(\"RG_FEW_SAMPLES\") ? 0 : SLOT_MS»;", "0", "launches of a gate have few timings unasked", tests=("command line, baselines",)),
+    Fault(TIMES, "const double slot_ms = «rg_sampling_few() ? 0 : SLOT_MS»;", "0", "launches of a gate have few timings unasked", tests=("command line, baselines",)),
     Fault(TIMES, "if («timed->outcome == RG_UNSUPPORTED»)", "false", "a driver that is gone while it is timed skips its cells", tests=("command line, gates",)),
     Fault("backends/gl/pass.c", "d < size && «is_name» &&", "false", "a program of the cache is other code than the same compiled anew", tests=("command line, gates",)),
     Fault("backends/library.c", "    if («!*id»)\n", "0", "libraries without a build id are all the same", tests=("command line, gates",)),
