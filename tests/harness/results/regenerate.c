@@ -162,23 +162,6 @@ static void test_table(void **state)
     finish(&rig);
 }
 
-// A table of textures: a row whose file is missing is an error, and so is one that names no
-// texture.
-static void test_lost_textures(void **state)
-{
-    (void)state;
-    struct rig rig;
-    struct rg_table textures = table;
-    textures.is_of_textures = true;
-    measure(&rig, &textures, 2);
-    const struct rg_record *nameless = record_at(&rig, 0, 0), *broken = record_at(&rig, 1, 1);
-    assert_int_equal(nameless->outcome, RG_ERROR);
-    assert_non_null(strstr(nameless->detail, "has no texture 'small'"));
-    assert_int_equal(broken->outcome, RG_ERROR);
-    assert_non_null(strstr(broken->detail, "/nonexistent.exr"));
-    finish(&rig);
-}
-
 // A row has no drops: the variant without rain shows nothing and is not timed; the other variant is
 // timed.
 static void test_no_rain(void **state)
@@ -359,10 +342,9 @@ int main(void)
     setenv("RG_LONG_S", "1e9", 1); // messages are counted, and a busy machine takes long
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_another_image), cmocka_unit_test(test_check_frames),
-        cmocka_unit_test(test_table),         cmocka_unit_test(test_lost_textures),
-        cmocka_unit_test(test_no_rain),       cmocka_unit_test(test_quick_rows),
-        cmocka_unit_test(test_textures),      cmocka_unit_test(test_unsupported),
-        cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_table),         cmocka_unit_test(test_no_rain),
+        cmocka_unit_test(test_quick_rows),    cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_unsupported),   cmocka_unit_test(test_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

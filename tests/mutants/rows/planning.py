@@ -8,7 +8,7 @@ FARM, PLANS, MERGES = "harness/tables/farm/", ("plans of a farm",), ("merges of 
 COMPILE, PROGRESS, MEASURE = "harness/tables/runs/compile.c", "harness/console/progress.c", "harness/tables/measuring/measure.c"
 
 ROWS = [
-    Fault("harness/tables/farm/found.c", "cells += «group->cell_count»;", "groups < MOST_LINES ? group->cell_count : 0", "cells of groups that get no line are not missing", tests=("merges of a farm",)),
+    Fault(FARM + "found.c", "cells += «group->cell_count»;", "groups < MOST_LINES ? group->cell_count : 0", "cells of groups that get no line are not missing", tests=("merges of a farm",)),
     Fault(ORDER, "for (enum rg_turn turn = «0»; turn < RG_TURNS && !any; turn++)", "RG_TURN_NEEDED", "nothing comes first", tests=("priority",)),
     Fault(ORDER, "if (!*any || «is_cheaper(order, &step, found)»)", "true", "the last table is the first", tests=("priority",)),
     Fault(ORDER, "return adds && «(turn == RG_TURN_FIRST) == !s->rows»;", "true", "tables of which nothing is there are refined", tests=("priority",)),

@@ -14,7 +14,7 @@ HOLD, REGENERATE, CLOCK = "harness/record/disk/hold.c", "harness/tables/runs/reg
 TEMPORARY, FIELDS = "core/image/files/temporary.c", "harness/record/schema/fields.c"
 
 ROWS = [
-    Fault("harness/record/disk/journal.c", "journal->is_of_others = «true»;", "false", "a run with a fallen driver replaces the journal of another", tests=("journal",)),
+    Fault(JOURNAL, "journal->is_of_others = «true»;", "false", "a run with a fallen driver replaces the journal of another", tests=("journal",)),
     Fault("harness/record/schema/read_head.c", "return «array != NULL»;", "true", "a record may lack its list of what is missing", tests=("damaged",)),
     Fault(OUTPUT, "return «lstat(path, &st)» || rg_temporary_try", "true", "what cannot be replaced is found out after the work"),
     Fault(JOURNAL, "journal->has_file = «has_same_head(&found, &journal->held)»;", "true", "a journal of another machine is taken over"),

@@ -20,7 +20,7 @@ SHRINKING = ("command line, shrinking",)
 ROWS = [
     Fault("harness/compare/text/shell.c", "«!isalnum((unsigned char)text[i])» &&", "!isgraph((unsigned char)text[i])", "words with a dollar sign stand bare in printed commands", tests=("words of a shell",)),
     Fault("harness/commands/comparing/verify.c", "if («!strcmp(devices->devices[i]->info.name, name)»)\n            return devices->devices[i];", "!strncmp(devices->devices[i]->info.name, name, strlen(name))", "mutants run on cpu:reference", tests=("command line, long",)),
-    Fault("harness/compare/shrink/case.c", "(rg_outcome_find(text, &c->fall.outcome) && «rg_outcome_is_broken(c->fall.outcome)»);", "true", "a case may be of a class that is no failure", tests=SHRINKING),
+    Fault(CASE, "(rg_outcome_find(text, &c->fall.outcome) && «rg_outcome_is_broken(c->fall.outcome)»);", "true", "a case may be of a class that is no failure", tests=SHRINKING),
     Fault("harness/compare/verify/shards.c", "units->all[i].is_here = «shard_of[i] == shard->number»;", "true", "each shard verifies all", tests=("command line, parts",)),
     Fault("harness/compare/verify/shards.c", "drop_again(checks, «first»);", "checks->count", "cpu:reference is told once a shard", tests=("command line, long",)),
     Fault("harness/commands/comparing/verify.c", "if («check_frames(o)» && find_shard(o, &shard) &&", "true", "stages of no frame are compared, and pass"),

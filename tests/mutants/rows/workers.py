@@ -21,7 +21,7 @@ FOUND, DAMAGED, IN_WORKERS, LIES = ("damaged findings",), ("damaged replies",), 
 END = "harness/devices/workers/end.c"
 
 ROWS = [
-    Fault("harness/devices/workers/end.c", "return WIFEXITED(status) && «WEXITSTATUS(status)» == RG_EXIT_HARNESS;", "status", "a worker without memory is taken for a driver that ended it", tests=("workers that end",)),
+    Fault(END, "return WIFEXITED(status) && «WEXITSTATUS(status)» == RG_EXIT_HARNESS;", "status", "a worker without memory is taken for a driver that ended it", tests=("workers that end",)),
     Fault(WORKER, "if («worker->ended < RG_WORKER_LIVES»)", "true", "a worker is started without end", tests=("workers that end",)),
     Fault(SERVE, "setrlimit(«RLIMIT_CORE», &none);", "RLIMIT_NICE", "cores of crashed drivers are kept", tests=("workers that end",)),
     Fault(WORKER, "return «worker->process» && worker->life == life;", "true", "what was open is there though its process has ended"),
