@@ -25,12 +25,19 @@ static void name_it(struct rg_trace *trace, const char *what, int track, const c
                          track, "args", "name", rg_json_text(name)));
 }
 
-// A slice from `at_ms` of the command's clock on. Times are in microseconds.
+// The clock of the trace, which begins with it: on a machine that is up for weeks, the system's
+// count of milliseconds has no digits left for a pass.
+static double clock_ms(const struct rg_trace *trace)
+{
+    return rg_now_ms() - trace->begin_ms;
+}
+
+// A slice from `at_ms` of the trace's clock on. Times are in microseconds.
 static void add_slice(struct rg_trace *trace, enum track track, const char *name, double at_ms,
                       double ms)
 {
     add(trace, json_pack("{sssssisisfsf}", "ph", "X", "name", name, "pid", trace->devices, "tid",
-                         (int)track, "ts", 1e3 * (at_ms - trace->begin_ms), "dur", 1e3 * ms));
+                         (int)track, "ts", 1e3 * at_ms, "dur", 1e3 * ms));
 }
 
 // --- frames ---
@@ -44,7 +51,7 @@ static bool trace_frame(struct rg_trace *trace, struct rg_session *session, cons
     double wall_ms;
     if (has_clock && !rg_session_time(session, &begin_ns))
         return false;
-    const double at_ms = rg_now_ms();
+    const double at_ms = clock_ms(trace);
     if (!rg_session_frames(session, 1, &wall_ms) ||
         (has_clock && !rg_session_time(session, &end_ns)))
         return false;
@@ -69,7 +76,7 @@ static void add_pass(const char *kernel, double ms, void *user)
 // The slice of the frame encloses those of its passes, which fill it one after the other.
 static bool trace_passes(struct rg_trace *trace, struct rg_session *session, const char *name)
 {
-    const double at_ms = rg_now_ms();
+    const double at_ms = clock_ms(trace);
     struct passes passes = {trace, at_ms};
     if (!rg_session_stages(session, add_pass, &passes))
         return false;
@@ -103,11 +110,11 @@ bool rg_trace_device(struct rg_trace *trace, struct rg_device *device,
     for (int track = FRAMES; track < TRACKS; track++)
         if (track != API_CLOCK || device->info.limits.has_clock)
             name_it(trace, "thread_name", track, tracks[track]);
-    const double at_ms = rg_now_ms();
+    const double at_ms = clock_ms(trace);
     struct rg_session *session = rg_session_open(device, subject);
     if (!session)
         return false;
-    add_slice(trace, FRAMES, "open", at_ms, rg_now_ms() - at_ms);
+    add_slice(trace, FRAMES, "open", at_ms, clock_ms(trace) - at_ms);
     const bool ok = trace_frames(trace, session, frames);
     rg_session_close(session);
     return ok;
