@@ -56,7 +56,8 @@ class Faults:
     def run(self, command, api, **more):
         """Runs a command on a device under the library; its status and its messages."""
         env = {name: value for name, value in os.environ.items() if not CHANGES.match(name)}
-        with tempfile.TemporaryDirectory() as folder:
+        # A process that was given up may write on while its folder goes.
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
             with open(os.path.join(folder, "cells.txt"), "w") as file:
                 file.write(CELL)
             env.update(GOMP_SPINCOUNT="0", RG_LONG_S="1e9", RG_PROBE_S="0", XDG_STATE_HOME=folder, LD_PRELOAD=self.library, **more)
@@ -86,7 +87,10 @@ class Faults:
                 for function in functions for how in WAYS if self.means_something(function, how, command)]
 
     def end(self, fault):
-        return self.run(fault.command, fault.api, RG_FAULT="%s:%s:0" % (fault.function, fault.how))
+        try:
+            return self.run(fault.command, fault.api, RG_FAULT="%s:%s:0" % (fault.function, fault.how))
+        except (OSError, subprocess.TimeoutExpired) as error:
+            return None, [str(error)]
 
 
 def try_all(faults, asked, at_once):
