@@ -29,15 +29,17 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(HERE))
 
 
+def rows_of(path):
+    """A module of rows."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 def areas():
     """The modules of rows, by name, in order."""
-    found = {}
-    for path in sorted((HERE / "rows").glob("**/*.py")):
-        spec = importlib.util.spec_from_file_location(path.stem, path)
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        found[path.stem] = module
-    return found
+    return {path.stem: rows_of(path) for path in sorted((HERE / "rows").glob("**/*.py"))}
 
 
 def numbered(modules):
@@ -107,11 +109,17 @@ def tests_of(build):
     return {test["name"]: dict(test, workdir=test["workdir"] or build) for test in json.loads(told.stdout)}
 
 
-def build_copy(copy, modules, wanted):
+def configure(copy, *options):
+    """The folder of a copy's build."""
     build = copy / "build"
     if not (build / "build.ninja").exists():
-        subprocess.run(["meson", "setup", build, copy], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["meson", "setup", build, copy, *options], check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["ninja", "-C", build, "build.ninja"], check=True, stdout=subprocess.DEVNULL)
+    return build
+
+
+def build_copy(copy, modules, wanted):
+    build = configure(copy)
     known = tests_of(build)
     names = {name for area in wanted for name in modules[area].TESTS}
     names |= {name for area in wanted for row in modules[area].ROWS for name in row.tests}
