@@ -82,7 +82,11 @@ bool rg_search_begin(struct rg_search *s, const struct rg_shrink_request *asked)
     s->best.subject.settings = rg_settings_copy(subject->technique, subject->settings, "");
     bool ok = s->best.subject.settings && find_difference(s);
     s->has_none = ok && (!s->blame.found || s->blame.is_alone);
-    if (s->has_none)
+    if (s->has_none && s->blame.is_alone)
+        ok = rg_error("shrink: %s, which no smaller run explains; give another frame, size or "
+                      "setting",
+                      s->blame.text);
+    else if (s->has_none)
         ok = rg_error("shrink: %s leaves the same bits as %s after every stage; give another "
                       "frame, size or setting",
                       asked->device->info.name, asked->truth->info.name);

@@ -152,11 +152,11 @@ static void test_verdicts(void **state)
     static const struct {
         double ratio, swing;
         enum rg_verdict_of_two verdict;
-    } cases[] = {{1, 0.01, RG_TWO_PASS},         {1.08, 0.01, RG_TWO_PASS},
-                 {0.93, 0.01, RG_TWO_PASS},      {1.099, 0.02, RG_TWO_INCONCLUSIVE},
-                 {1.11, 0.01, RG_TWO_REGRESSED}, {1.15, 0.08, RG_TWO_REGRESSED},
-                 {0.89, 0.01, RG_TWO_IMPROVED},  {1.12, 0.3, RG_TWO_INCONCLUSIVE},
-                 {1, 0.6, RG_TWO_INCONCLUSIVE}};
+    } cases[] = {{1, 0.01, RG_TWO_PASS},           {1.08, 0.01, RG_TWO_PASS},
+                 {0.93, 0.01, RG_TWO_PASS},        {1.099, 0.02, RG_TWO_INCONCLUSIVE},
+                 {1.11, 0.01, RG_TWO_REGRESSED},   {1.15, 0.08, RG_TWO_REGRESSED},
+                 {0.89, 0.01, RG_TWO_IMPROVED},    {1.12, 0.3, RG_TWO_INCONCLUSIVE},
+                 {0.89, 0.3, RG_TWO_INCONCLUSIVE}, {1, 0.6, RG_TWO_INCONCLUSIVE}};
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         const struct rg_gate_sample a = sample_of(10, cases[i].swing, 23);
         const struct rg_gate_sample b = sample_of(10 * cases[i].ratio, cases[i].swing, 16);
@@ -168,6 +168,33 @@ static void test_verdicts(void **state)
     const struct rg_gate_sample none = {.count = 0}, some = sample_of(10, 0.01, 16);
     assert_int_equal(rg_gate_decide_apart(&rule, &none, some.logs, 16).units, 0);
     assert_int_equal(rg_gate_decide_apart(&rule, &some, some.logs, 0).verdict, RG_TWO_INCONCLUSIVE);
+}
+
+// Half of the absolute distances from the median are at most 6 of 23 steps of `a`, and 4 of 16 of
+// `b`. The interval's end must be half of the margin above 0, and the median all of it; 95 % power
+// needs 1.645 errors more. With three times the swing the first is the harder.
+static void test_what_could_be_seen(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = {
+        .is_apart = true, .margin = 0.1, .error = 0.05, .rows = 1, .look_count = 1, .looks = {16}};
+    for (int times = 1; times <= 3; times += 2) {
+        const struct rg_gate_sample a = sample_of(10, 0.1 * times, 23);
+        const struct rg_gate_sample b = sample_of(10, 0.05 * times, 16);
+        const double of_a = 1.4826 * 0.1 * times * 6 / 23, of_b = 1.4826 * 0.05 * times * 4 / 16;
+        const double error = sqrt((of_a * of_a / 23 + of_b * of_b / 16) / 3 * acos(-1));
+        const double least = times > 1 ? log1p(0.05) + 1.959964 * error : log1p(0.1);
+        struct rg_gate_decision d = rg_gate_decide_apart(&rule, &a, b.logs, 16);
+        assert_near(d.spread, of_a, 1e-9);
+        assert_near(d.error, error, 1e-6);
+        assert_near(d.smallest, expm1(least + 1.644854 * error), 1e-5);
+        assert_near(rg_gate_power(&rule, &d, expm1(least)), 0.5, 1e-4);
+        assert_near(d.shift, d.ratio, 1e-12);
+        assert_false(d.is_grouped);
+        d = rg_gate_decide_apart(&rule, &b, a.logs, 23);
+        assert_near(d.spread, of_a, 1e-9);
+        assert_int_equal(d.units, 23);
+    }
 }
 
 // Advice has an infinite margin, and so no verdict worth printing.
@@ -315,6 +342,37 @@ static void test_course(void **state)
     assert_int_equal(found.decision.verdict, RG_TWO_INCONCLUSIVE);
 }
 
+static bool take_as_before(int row, bool b_first, struct rg_quads *quads, void *user)
+{
+    const struct rg_gate_sample *before = user;
+    (void)b_first;
+    *quads = (struct rg_quads){.log = before[row].logs[0], .b_ms = exp(before[row].logs[0])};
+    return true;
+}
+
+static bool launch_any(int number, void *user)
+{
+    (void)user;
+    return number >= 0;
+}
+
+// Each row is held against its own earlier times.
+static void test_rows(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_apart(2);
+    struct rg_gate_sample before[] = {sample_of(20, 0.01, 24), sample_of(30, 0.01, 24)};
+    const struct rg_quad_source source = {launch_any, take_as_before, NULL, before, before};
+    struct rg_gate_row found[2];
+    assert_true(rg_course_run(&rule, &source, RG_COURSE_SEED, found));
+    for (int row = 0; row < 2; row++) {
+        assert_int_equal(found[row].decision.verdict, RG_TWO_PASS);
+        assert_near(found[row].decision.ratio, 1, 0.01);
+        assert_near(found[row].a_ms.median, row ? 30 : 20, 0.1);
+        assert_near(found[row].b_ms.median, row ? 30 : 20, 0.3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -323,6 +381,7 @@ int main(void)
         cmocka_unit_test(test_advice),   cmocka_unit_test(test_shared),
         cmocka_unit_test(test_links),    cmocka_unit_test(test_same),
         cmocka_unit_test(test_slower),   cmocka_unit_test(test_course),
+        cmocka_unit_test(test_rows),     cmocka_unit_test(test_what_could_be_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

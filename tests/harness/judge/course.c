@@ -21,6 +21,7 @@ struct script {
     double later_ratio;   // of row 0 from launch `later` on
     int later;            // 0: never
     int broken_row, over; // the row that breaks, -1: none; launches until time is over, 0: never
+    int lost;             // launches until none can be made any more; 0: 2000
     int disturbed_every;  // row 0 keeps one quad of so many; 0: all
     double noise;
     int launches, taken[MOST_ROWS], b_first[MOST_ROWS];
@@ -35,7 +36,7 @@ static bool launch(int number, void *user)
     assert_int_equal(number, s->launches);
     s->launches++;
     s->is_first = true;
-    return number < 2000;
+    return number < (s->lost ? s->lost : 2000);
 }
 
 static bool take(int row, bool b_first, struct rg_quads *quads, void *user)
@@ -147,8 +148,7 @@ static void test_first_look_again(void **state)
     assert_int_equal(found[0].launches, units + 16);
 }
 
-// A row that breaks ends alone. When the time is over all rows end, and those still open get no
-// verdict.
+// A row that breaks ends alone.
 static void test_ends(void **state)
 {
     (void)state;
@@ -160,12 +160,39 @@ static void test_ends(void **state)
     assert_int_equal(found[1].decision.verdict, RG_TWO_INCONCLUSIVE);
     assert_int_equal(found[1].end, RG_END_BROKEN);
     assert_int_equal(s.taken[1], 5);
-    s = SCRIPT(.ratios = {1.1, 1}, .over = 20);
-    run(&s, 2, found);
-    assert_int_equal(s.launches, 20);
-    assert_int_equal(found[0].end, RG_END_OVER); // found once, not confirmed
-    assert_int_equal(found[0].decision.verdict, RG_TWO_INCONCLUSIVE);
-    assert_int_equal(found[1].decision.verdict, RG_TWO_PASS);
+    assert_int_equal(found[1].launches, 4); // the fifth gave no times
+    assert_below(fabs(found[1].b_ms.median - 10), 0.05);
+}
+
+// When time is over, or a launch cannot be made, all rows end. A row that was found once and not
+// confirmed tells what its last launches gave.
+static void test_cut_short(void **state)
+{
+    (void)state;
+    struct rg_gate_row found[2];
+    for (int is_lost = 0; is_lost < 2; is_lost++) {
+        struct script s = SCRIPT(.ratios = {1.1, 1});
+        *(is_lost ? &s.lost : &s.over) = 20;
+        run(&s, 2, found);
+        assert_int_equal(s.launches, is_lost ? 21 : 20);
+        assert_int_equal(found[0].end, is_lost ? RG_END_BROKEN : RG_END_OVER);
+        assert_int_equal(found[0].decision.verdict, RG_TWO_INCONCLUSIVE);
+        assert_int_equal(found[0].launches, 20);
+        assert_int_equal(found[0].before.verdict, RG_TWO_REGRESSED);
+        assert_int_equal(found[0].before.units, 16);
+        assert_int_equal(found[0].decision.units, 4);
+        assert_below(fabs(found[0].b_ms.median - 11), 0.05);
+        assert_int_equal(found[1].end, RG_END_DECIDED);
+        assert_int_equal(found[1].decision.verdict, RG_TWO_PASS);
+    }
+    struct script s = SCRIPT(.ratios = {1, 1}, .over = 1);
+    s.launches = 1;
+    const struct rg_gate_rule rule = rg_gate_rule_of(2);
+    const struct rg_quad_source source = {launch, take, is_over, &s, NULL};
+    assert_true(rg_course_run(&rule, &source, RG_COURSE_SEED, found)); // over at once
+    assert_int_equal(found[1].end, RG_END_OVER);
+    assert_equals(found[1].decision.ratio, 1);
+    assert_equals(found[1].a_ms.median, 0);
 }
 
 // On equal sides, none of 300 courses ends with a verdict but pass or inconclusive. The machine is
@@ -224,13 +251,34 @@ static void test_disturbed(void **state)
     assert_int_equal(found[0].launches, 33);
 }
 
+// Beyond 32 disturbed launches a row ends if these are more than three times those that count: with
+// three of four disturbed after 33 and 10, with two of three never.
+static void test_hopeless(void **state)
+{
+    (void)state;
+    struct rg_gate_row found[1];
+    struct script s = SCRIPT(.ratios = {1}, .disturbed_every = 4);
+    run(&s, 1, found);
+    assert_int_equal(found[0].end, RG_END_DISTURBED);
+    assert_int_equal(found[0].launches, 43);
+    assert_int_equal(found[0].disturbed, 33);
+    assert_int_equal(found[0].decision.verdict, RG_TWO_INCONCLUSIVE);
+    assert_below(fabs(found[0].b_ms.median - 10), 0.05); // without those of disturbed ones
+    s = SCRIPT(.ratios = {1}, .disturbed_every = 3);
+    s.noise = 0.6;
+    run(&s, 1, found);
+    assert_int_equal(found[0].end, RG_END_LOOKS);
+    assert_int_equal(found[0].launches, 768);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_verdicts),     cmocka_unit_test(test_orders),
         cmocka_unit_test(test_confirmation), cmocka_unit_test(test_first_look_again),
         cmocka_unit_test(test_ends),         cmocka_unit_test(test_disturbed),
-        cmocka_unit_test(test_linked_noise),
+        cmocka_unit_test(test_linked_noise), cmocka_unit_test(test_cut_short),
+        cmocka_unit_test(test_hopeless),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

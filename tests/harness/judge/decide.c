@@ -44,6 +44,31 @@ static void fill(enum noise noise, double change, double *logs, int count)
 
 // --- closed cases ---
 
+// docs/ci.md promises these margins, errors and looks.
+static void test_rules(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule turns = rg_gate_rule_of(3), apart = rg_gate_rule_apart(7);
+    assert_false(turns.is_apart);
+    assert_equals(turns.margin, 0.05);
+    assert_equals(turns.error, 0.01);
+    assert_int_equal(turns.rows, 3);
+    assert_int_equal(turns.look_count, 5);
+    assert_memory_equal(turns.looks, ((int[]){16, 32, 64, 128, 256}), 5 * sizeof(int));
+    assert_true(apart.is_apart);
+    assert_equals(apart.margin, 0.1);
+    assert_equals(apart.error, 0.01);
+    assert_int_equal(apart.rows, 7);
+    assert_int_equal(apart.look_count, 3);
+    assert_memory_equal(apart.looks, ((int[]){8, 16, 32}), 3 * sizeof(int));
+    static const char *const names[] = {[RG_TWO_INCONCLUSIVE] = "inconclusive",
+                                        [RG_TWO_PASS] = "pass",
+                                        [RG_TWO_REGRESSED] = "regressed",
+                                        [RG_TWO_IMPROVED] = "improved"};
+    for (int i = 0; i < 4; i++)
+        assert_string_equal(rg_two_name((enum rg_verdict_of_two)i), names[i]);
+}
+
 // A machine that slows down steadily slows both sides alike. A side that takes twice as long has
 // log 2.
 static void test_quads(void **state)
@@ -97,7 +122,8 @@ static void test_verdicts(void **state)
     } cases[] = {{0, 0.001, RG_TWO_PASS},          {0.02, 0.001, RG_TWO_PASS},
                  {-0.02, 0.001, RG_TWO_PASS},      {0.03, 0.001, RG_TWO_REGRESSED},
                  {0.2, 0.01, RG_TWO_REGRESSED},    {-0.03, 0.001, RG_TWO_IMPROVED},
-                 {0.03, 0.1, RG_TWO_INCONCLUSIVE}, {0, 0.2, RG_TWO_INCONCLUSIVE}};
+                 {0.03, 0.1, RG_TWO_INCONCLUSIVE}, {-0.03, 0.1, RG_TWO_INCONCLUSIVE},
+                 {0, 0.2, RG_TWO_INCONCLUSIVE}};
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         double logs[32];
         for (int k = 0; k < 32; k++)
@@ -125,6 +151,54 @@ static void test_links(void **state)
     assert_int_equal(d.units, 66);
 }
 
+// As many launches above their median as below it, which change sides so often, an odd number.
+static void fill_changing(double *logs, int count, int changes)
+{
+    int at = 0;
+    for (int run = 0; run <= changes; run++) {
+        const int length = run < changes - 1 ? 1 : (count - changes + 1) / 2;
+        for (int i = 0; i < length; i++)
+            logs[at++] = run % 2 ? -0.02 : 0.02;
+    }
+    assert_int_equal(at, count);
+}
+
+// The autocorrelation of such launches is (count - 1 - 2 changes) / count. It must exceed both 0.2
+// and 1.645 / sqrt(count), which is 0.58 for 8 launches, 0.41 for 16 and 0.10 for 256.
+static void test_what_links(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    static const struct {
+        int count, changes;
+        bool is_grouped;
+    } cases[] = {{8, 1, true},       // 0.63
+                 {16, 3, true},      // 0.56
+                 {16, 5, false},     // 0.31
+                 {256, 99, true},    // 0.22
+                 {256, 107, false}}; // 0.16
+    double logs[256];
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        fill_changing(logs, cases[i].count, cases[i].changes);
+        const struct rg_gate_decision d = rg_gate_decide(&rule, logs, cases[i].count);
+        assert_int_equal(d.is_grouped, cases[i].is_grouped);
+        if (!d.is_grouped)
+            assert_int_equal(d.units, cases[i].count);
+    }
+}
+
+// A group counts as the mean of its two launches.
+static void test_groups_are_means(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    const double logs[] = {0.05, 0.055, 0.05, 0.055, -0.05, -0.055, -0.05, -0.055};
+    const struct rg_gate_decision d = rg_gate_decide(&rule, logs, 8);
+    assert_int_equal(d.units, 4);
+    assert_near(d.ratio, 1, 1e-12);
+    assert_near(d.spread, 1.4826 * 0.0525, 1e-12);
+}
+
 // A timer that shows no difference in more than one of twenty launches decides nothing.
 static void test_coarse(void **state)
 {
@@ -138,6 +212,43 @@ static void test_coarse(void **state)
         assert_int_equal(d.is_coarse, ties > 3);
         assert_int_equal(d.verdict, ties > 3 ? RG_TWO_INCONCLUSIVE : RG_TWO_PASS);
     }
+}
+
+// One of twenty is not more than that.
+static void test_one_of_twenty(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    double logs[20];
+    for (int ties = 1; ties <= 2; ties++) {
+        for (int i = 0; i < 20; i++)
+            logs[i] = i < ties ? 0 : 0.001 * ((i * 7) % 20 - 9.5);
+        assert_int_equal(rg_gate_decide(&rule, logs, 20).is_coarse, ties > 1);
+    }
+}
+
+// The means of all pairs, in hundredths: 1, 1.5, 2, 3.5, 4 and 6.
+static void test_shift(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    const double logs[] = {0.06, 0.01, 0.02};
+    const struct rg_gate_decision d = rg_gate_decide(&rule, logs, 3);
+    assert_near(d.shift, exp(0.0275), 1e-12);
+    assert_near(d.ratio, exp(0.02), 1e-12);
+}
+
+// Launches beyond RG_GATE_UNITS are left out.
+static void test_most_launches(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    static double logs[RG_GATE_UNITS + 100];
+    for (int i = 0; i < RG_GATE_UNITS + 100; i++)
+        logs[i] = i >= RG_GATE_UNITS ? 9 : i % 2 ? 0.02 : 0.01;
+    const struct rg_gate_decision d = rg_gate_decide(&rule, logs, RG_GATE_UNITS + 100);
+    assert_int_equal(d.units, RG_GATE_UNITS);
+    assert_near(d.ratio, exp(0.015), 1e-12);
 }
 
 // Of more launches than the shift takes, it takes some from all.
@@ -172,6 +283,12 @@ static void test_what_could_be_seen(void **state)
         logs[i] *= 0.001;
     d = rg_gate_decide(&rule, logs, 64);
     assert_near(d.smallest, expm1(log1p(0.005) + 1.644854 * error * 0.001), 1e-8);
+    // Without any, a change is noticed if it is more than half of the margin.
+    for (int i = 0; i < 64; i++)
+        logs[i] = 0.001;
+    d = rg_gate_decide(&rule, logs, 64);
+    assert_equals(rg_gate_power(&rule, &d, 0.0051), 1);
+    assert_equals(rg_gate_power(&rule, &d, 0.0049), 0);
     // Launches too few for an interval could show nothing, however alike they are.
     d = rg_gate_decide(&rule, logs, 4);
     assert_true(isinf(d.smallest));
@@ -247,11 +364,22 @@ static void test_coverage(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_quads),         cmocka_unit_test(test_interval),
-        cmocka_unit_test(test_verdicts),      cmocka_unit_test(test_links),
-        cmocka_unit_test(test_coarse),        cmocka_unit_test(test_what_could_be_seen),
-        cmocka_unit_test(test_shift_of_many), cmocka_unit_test(test_same),
-        cmocka_unit_test(test_slower),        cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_rules),
+        cmocka_unit_test(test_what_links),
+        cmocka_unit_test(test_groups_are_means),
+        cmocka_unit_test(test_one_of_twenty),
+        cmocka_unit_test(test_shift),
+        cmocka_unit_test(test_most_launches),
+        cmocka_unit_test(test_quads),
+        cmocka_unit_test(test_interval),
+        cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_links),
+        cmocka_unit_test(test_coarse),
+        cmocka_unit_test(test_what_could_be_seen),
+        cmocka_unit_test(test_shift_of_many),
+        cmocka_unit_test(test_same),
+        cmocka_unit_test(test_slower),
+        cmocka_unit_test(test_coverage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -238,6 +238,66 @@ static void last_bits_are_told(void **state)
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
+static const struct {
+    enum rg_format format;
+    uint32_t now, due;
+    enum rg_difference kind;
+} steps[] = {
+    {RG_R32F, 0x3f800010, 0x3f800000, RG_DIFFERENCE_LAST_BITS},
+    {RG_R32F, 0x3f800011, 0x3f800000, RG_DIFFERENCE_VALUES},
+    {RG_R32F, 0x80000008, 0x00000008, RG_DIFFERENCE_LAST_BITS},
+    {RG_R32F, 0x80000009, 0x00000008, RG_DIFFERENCE_VALUES},
+    {RG_RGBA16F, 0x3c003c02, 0x3c003c00, RG_DIFFERENCE_LAST_BITS},
+    {RG_RGBA16F, 0x3c003c03, 0x3c003c00, RG_DIFFERENCE_VALUES},
+    {RG_RGBA16F, 0x3c023c00, 0x3c003c00, RG_DIFFERENCE_LAST_BITS},
+    {RG_RGBA16F, 0x3c033c00, 0x3c003c00, RG_DIFFERENCE_VALUES},
+    {RG_RGBA16F, 0x80010000, 0x00010000, RG_DIFFERENCE_LAST_BITS},
+    {RG_RGBA16F, 0x80020000, 0x00010000, RG_DIFFERENCE_VALUES},
+    {RG_RGBA16F, 0xfc000000, 0x00000000, RG_DIFFERENCE_NAN},
+    {RG_RGBA16F, 0xfbff0000, 0x00000000, RG_DIFFERENCE_VALUES},
+    {RG_RG11B10F, 0x40000002, 0x40000000, RG_DIFFERENCE_LAST_BITS},
+    {RG_RG11B10F, 0x40000003, 0x40000000, RG_DIFFERENCE_VALUES},
+    {RG_RG11B10F, 0x40800000, 0x40000000, RG_DIFFERENCE_LAST_BITS}, // 2 of the third part
+    {RG_RG11B10F, 0x40c00000, 0x40000000, RG_DIFFERENCE_VALUES},
+    {RG_RG11B10F, 0x003e0000, 0x00000000, RG_DIFFERENCE_NAN},    // the second part: 11 bits
+    {RG_RG11B10F, 0xf8000000, 0x00000000, RG_DIFFERENCE_NAN},    // the third: 10
+    {RG_RG11B10F, 0xf0000000, 0x00000000, RG_DIFFERENCE_VALUES}, // the largest exponent below
+    {RG_RGBA8, 0xff000000, 0xfe000000, RG_DIFFERENCE_LAST_BITS},
+    {RG_RGBA8, 0xff000000, 0xfd000000, RG_DIFFERENCE_VALUES},
+};
+
+// docs/ci.md: floats by up to 16 units in the last place, halves by 2, codes by 1; small floats are
+// like halves. Each part of a word counts by itself, also on both sides of zero.
+static void last_bits_have_their_number(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof(steps) / sizeof(steps[0]); i++) {
+        setup(NULL);
+        make_image(steps[i].format, steps[i].format == RG_RGBA16F ? 2 : 4);
+        contents.size = expected.size = steps[i].format == RG_RGBA16F ? 32 : 64;
+        memset(now, 0, sizeof(now));
+        memset(due, 0, sizeof(due));
+        memcpy(&now[5], &steps[i].now, 4);
+        memcpy(&due[5], &steps[i].due, 4);
+        if (found() != steps[i].kind)
+            fail_msg("%08x, not %08x: %s", steps[i].now, steps[i].due, rg_difference_name(found()));
+    }
+}
+
+// Of contents of two sizes, words within the shorter are compared.
+static void the_shorter_is_compared(void **state)
+{
+    (void)state;
+    now[2] = now[7] = now[9] = 50;
+    for (int is_due = 0; is_due < 2; is_due++) {
+        contents.size = is_due ? 64 : 32;
+        expected.size = is_due ? 32 : 64;
+        assert_int_equal(found(), RG_DIFFERENCE_SIZE);
+        assert_int_equal(differing.first, 2);
+        assert_int_equal(differing.count, 2);
+    }
+}
+
 // A step one texel to the right is an edge; a step two texels away is not.
 static void an_edge_is_told(void **state)
 {
@@ -257,6 +317,60 @@ static void an_edge_is_told(void **state)
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     now[0] = 5.0f; // a value that is nowhere
     assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+}
+
+// A texel has eight neighbours, of either picture; an image of several layers or levels has no
+// edges that are looked for.
+static void edges_lie_on_every_side(void **state)
+{
+    (void)state;
+    for (int y = 0; y < 4; y++)
+        for (int x = 0; x < 4; x++) { // where the bright texel is, instead of at (1, 1)
+            const int away = abs(x - 1) > abs(y - 1) ? abs(x - 1) : abs(y - 1);
+            setup(NULL);
+            make_image(RG_R32F, 4);
+            for (int i = 0; i < WORDS; i++)
+                now[i] = due[i] = 1;
+            due[4 * 1 + 1] = now[4 * y + x] = 9;
+            assert_int_equal(found(), away == 0   ? RG_DIFFERENCE_NONE
+                                      : away == 1 ? RG_DIFFERENCE_EDGE
+                                                  : RG_DIFFERENCE_VALUES);
+            contents.desc.layers = contents.desc.levels = away == 1 ? 2 : 1;
+            if (away)
+                assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+        }
+    make_image(RG_R32F, 4);
+    for (int i = 0; i < WORDS; i++)
+        now[i] = due[i] = 1;
+    due[5] = 5; // a value that the device has nowhere
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+    due[5] = 1;
+    now[0] = due[3] = now[3] = 9; // a value that the truth has in that row, but three columns away
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+}
+
+// docs/ci.md lists the names.
+static void kinds_have_names_and_words(void **state)
+{
+    (void)state;
+    static const char *const told[][2] = {
+        {"none", "no difference"},
+        {"size", "of size"},
+        {"nan", "a NaN or an infinity in one of the two alone"},
+        {"missing", "missing: what was there before the stage still is"},
+        {"surplus", "surplus: the stage was not to write there"},
+        {"order", "the same elements in another order"},
+        {"last-bits", "in the last bits"},
+        {"edge", "at edges, by a texel"},
+        {"values", "other values"}};
+    for (int i = 0; i < RG_DIFFERENCE_COUNT; i++) {
+        assert_string_equal(rg_difference_name((enum rg_difference)i), told[i][0]);
+        assert_string_equal(rg_difference_words((enum rg_difference)i), told[i][1]);
+    }
+    words.words = "fuf";
+    assert_int_equal(rg_difference_element(&words), 12);
+    words.words = NULL;
+    assert_int_equal(rg_difference_element(&words), 4);
 }
 
 static void names_are_read_back(void **state)
@@ -368,6 +482,10 @@ int main(void)
         cmocka_unit_test_setup(another_order_is_told, setup),
         cmocka_unit_test_setup(last_bits_are_told, setup),
         cmocka_unit_test_setup(an_edge_is_told, setup),
+        cmocka_unit_test_setup(last_bits_have_their_number, setup),
+        cmocka_unit_test_setup(the_shorter_is_compared, setup),
+        cmocka_unit_test_setup(edges_lie_on_every_side, setup),
+        cmocka_unit_test_setup(kinds_have_names_and_words, setup),
         cmocka_unit_test(names_are_read_back),
         cmocka_unit_test(where_devices_part_is_found),
         cmocka_unit_test(a_texel_is_named),

@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <jansson.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
@@ -131,6 +132,50 @@ static void bad_input_is_one_line(void **state)
     }
     assert_int_equal(run(&requests[2]), 2);
     assert_non_null(strstr(last_error, "120 x 80 pixels but"));
+}
+
+// Pictures without rain prove nothing, and neither does a comparison of what is no rain.
+static void pictures_without_rain_are_nothing(void **state)
+{
+    (void)state;
+    const struct rg_diff_request dry = {.a = background, .b = background, .background = background};
+    assert_int_equal(run(&dry), 4);
+    assert_int_equal(error_count, 1);
+    assert_non_null(strstr(last_error, "background.exr: has no rain before "));
+    assert_int_equal(run(&(struct rg_diff_request){.a = background, .b = background}), 0);
+    assert_int_equal(
+        run(&(struct rg_diff_request){.a = a, .b = background, .background = background}), 1);
+}
+
+// Options reach the comparison, and files beside its prefix are spared.
+static void options_are_heeded(void **state)
+{
+    (void)state;
+    char heat[128];
+    struct rg_diff_request request = {
+        .a = a, .b = b, .json = true, .options = {.exposure = 2, .pixels_per_degree = 40}};
+    assert_int_equal(run(&request), 1);
+    json_t *root = json_loads(text, 0, NULL);
+    json_t *pair = json_array_get(json_object_get(root, "pairs"), 0);
+    assert_equals(json_number_value(json_object_get(pair, "exposure")), 2);
+    assert_equals(json_number_value(json_object_get(pair, "pixels_per_degree")), 40);
+    assert_string_equal(json_string_value(json_object_get(pair, "b")), b);
+    assert_int_equal(json_array_size(json_object_get(pair, "beside")), 0);
+    json_decref(root);
+    for (int i = 0; i < 2; i++) {
+        snprintf(heat, sizeof(heat), "%s-%s.png", prefix, i ? "difference" : "flip");
+        write_rain(heat, 160, 4, 60);
+        const char *const read[] = {a, b, background};
+        for (int k = 0; k < 3; k++) {
+            request = (struct rg_diff_request){.a = k == 0 ? heat : read[0],
+                                               .b = k == 1 ? heat : read[1],
+                                               .background = k == 2 ? heat : read[2],
+                                               .heatmap_prefix = prefix};
+            assert_int_equal(run(&request), 2);
+            assert_non_null(strstr(last_error, "would be overwritten"));
+        }
+        unlink(heat);
+    }
 }
 
 // An alpha of 1 makes no difference, and grey equals red, green and blue alike.
@@ -286,6 +331,8 @@ int main(void)
         cmocka_unit_test(json_has_the_documented_shape),
         cmocka_unit_test(what_figures_are_of),
         cmocka_unit_test(bad_input_is_one_line),
+        cmocka_unit_test(pictures_without_rain_are_nothing),
+        cmocka_unit_test(options_are_heeded),
         cmocka_unit_test(channels_that_show_the_same),
         cmocka_unit_test(heat_maps_are_written),
         cmocka_unit_test(heat_colours_are_magma),

@@ -199,6 +199,31 @@ static void poses_need_not_say(void **state)
     assert_int_equal(rg_verify_stage_work(&v), 2);
 }
 
+// A device beside the reference takes as many steps as it; a contrast is drawn twice, and the model
+// once before all mutants.
+static void the_bar_counts_all_steps(void **state)
+{
+    (void)state;
+    static const struct rg_mutant mutants[] = {{"a", "", 1, 1}, {"b", "", 1, 1}, {NULL}};
+    static const struct rg_contrast contrasts[] = {
+        {"c", "", ""}, {"d", "", ""}, {"e", "", ""}, {NULL}};
+    struct rg_proof seen = long_proof;
+    struct rg_device reference, one, other;
+    const struct rg_devices three = {.count = 3, .devices = {&one, &reference, &other}};
+    struct rg_verify v = {.technique = &rig_flow,
+                          .reference = &reference,
+                          .devices = &three,
+                          .length = RG_VERIFY_QUICK,
+                          .steps = -1};
+    rig_flow.proof = &seen;
+    seen.mutants = mutants;
+    assert_int_equal(rg_verify_device_work(&v), 3 * (2 * RG_VERIFY_SEEDS + 1));
+    assert_int_equal(rg_verify_stage_work(&v), 2 * 4);
+    assert_int_equal(rg_verify_mutant_work(&v), 300);
+    seen.contrasts = contrasts;
+    assert_int_equal(rg_verify_mutant_work(&v), 300 + 600);
+}
+
 // Except in full runs, the first pose has every seed, and the others take turns.
 static void poses_take_turns_with_seeds(void **state)
 {
@@ -215,13 +240,15 @@ static void poses_take_turns_with_seeds(void **state)
     }
 }
 
-// Draws mutants of flow in this scene, and expects this outcome.
-static void verify_mutants(const char *scene, const struct rg_mutant *mutants,
-                           enum rg_outcome outcome, const char *says)
+// Draws mutants and contrasts of flow in this scene, and expects this outcome.
+static void verify_contrasts(const char *scene, const struct rg_mutant *mutants,
+                             const struct rg_contrast *contrasts, enum rg_outcome outcome,
+                             const char *says)
 {
     const struct rg_proof seen = {.dry = "drops=0 rain_drops_s=0 pane_rain_mm_h=0",
                                   .mutant_scene = scene,
-                                  .mutants = mutants};
+                                  .mutants = mutants,
+                                  .contrasts = contrasts};
     struct rg_checks checks = {0};
     struct rg_progress progress;
     struct rg_verify v = {.technique = &rig_flow,
@@ -243,6 +270,12 @@ static void verify_mutants(const char *scene, const struct rg_mutant *mutants,
     rg_checks_free(&checks);
 }
 
+static void verify_mutants(const char *scene, const struct rg_mutant *mutants,
+                           enum rg_outcome outcome, const char *says)
+{
+    verify_contrasts(scene, mutants, NULL, outcome, says);
+}
+
 // flow in a scene where another seed shows, but another model does not.
 static void a_mutant_that_lives_fails(void **state)
 {
@@ -253,6 +286,20 @@ static void a_mutant_that_lives_fails(void **state)
                                         {NULL, NULL, 0, 0}};
     verify_mutants(RIG_CHEAP " pane_rain_mm_h=0 drops=400", mutants, RG_FAIL,
                    "killed 1/3; T1 accepts: a model behind, a rounding");
+}
+
+// A contrast has a scene of its own, over the defaults: what is wrong in it is right in the
+// others'.
+static void a_contrast_is_a_mutant(void **state)
+{
+    (void)state;
+    const struct rg_mutant none[] = {{NULL, NULL, 0, 0}};
+    const struct rg_contrast contrasts[] = {
+        {"other drops", RIG_CHEAP " pane_rain_mm_h=0 drops=60", "drops=400"},
+        {"a model behind", RIG_CHEAP " pane_rain_mm_h=0 drops=60", "model_size=0.5"},
+        {NULL, NULL, NULL}};
+    verify_contrasts(RIG_CHEAP " pane_rain_mm_h=0 drops=400", none, contrasts, RG_FAIL,
+                     "killed 1/2; T1 accepts: a model behind");
 }
 
 // A mutant that cannot be drawn is a fault of the list, even if all the others are killed.
@@ -354,6 +401,8 @@ int main(void)
         cmocka_unit_test_setup(usual_runs_are_shorter, rig_setup),
         cmocka_unit_test_setup(poses_need_not_say, rig_setup),
         cmocka_unit_test_setup(poses_take_turns_with_seeds, rig_setup),
+        cmocka_unit_test_setup(the_bar_counts_all_steps, rig_setup),
+        cmocka_unit_test_setup(a_contrast_is_a_mutant, rig_setup),
         cmocka_unit_test(errors_are_somebodys),
         cmocka_unit_test_setup(a_mutant_that_lives_fails, rig_setup),
         cmocka_unit_test_setup(a_mutant_that_is_none_fails, rig_setup),
