@@ -45,7 +45,7 @@ static void add_trend(const struct evidence *e, struct rg_claim_parts *p)
 {
     const double middle = (e->count - 1) / 2.0;
     double squares = 0;
-    if (!add(p, (struct rg_claim_part){0, e->count - 1, .about = RG_PART_TREND}, 0, INFINITY))
+    if (!add(p, (struct rg_claim_part){.slow = e->count - 1, .about = RG_PART_TREND}, 0, INFINITY))
         return;
     for (int i = 0; i < e->count; i++)
         squares += (i - middle) * (i - middle);

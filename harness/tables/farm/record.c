@@ -109,8 +109,11 @@ static bool has_cell(const struct rg_result *result, const struct rg_farm_cell *
 static bool has_group(const struct rg_farm_plan *plan, const struct rg_farm_group *group,
                       const struct rg_result *result, const char *path, char why[RG_WHY_SIZE])
 {
-    if (strcmp(result->table, group->table) != 0 || result->full != plan->full)
+    if (strcmp(result->table, group->table) != 0)
         return refuse(why, path, "table", result->table, group->table);
+    if (result->full != plan->full)
+        return refuse(why, path, "length", result->full ? "full" : "quick",
+                      plan->full ? "full" : "quick");
     for (int i = 0; i < group->cell_count; i++) {
         const struct rg_farm_cell *cell = &plan->cells[group->first_cell + i];
         char id[RG_FARM_ID];

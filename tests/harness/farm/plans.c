@@ -13,6 +13,8 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "harness/record/disk/seal.h"
+#include "harness/tables/claims/claim.h"
 #include "harness/tables/farm/cut.h"
 #include "harness/tables/papers/papers.h"
 #include "kernels/dialect/rng.h"
@@ -55,6 +57,66 @@ static void test_groups(void **state)
     rg_farm_plan_free(&plan);
     plan_table(&plan, "creus-5.1", true, "cpu"); // textures
     assert_int_equal(plan.group_count, 1);
+    rg_farm_plan_free(&plan);
+}
+
+// A claim about each row by itself ties none; rows that no claim ties stand alone.
+static void test_ids_of_groups(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *table;
+        bool full;
+        const char *ids; // of the first groups
+        int groups;
+    } rows[] = {{"creus-5.3", true, "creus-5.3/1-9 creus-5.3/10-18 ", 2},
+                {"creus-5.5", true, "creus-5.5/1-9 creus-5.5/10 creus-5.5/11 ", 3},
+                {"feng-1", false, "feng-1/1,4,7 ", 1},
+                {"feng-1", true, "feng-1/1-7 ", 1},
+                {"feng-2", true, "feng-2/1-5 feng-2/6 feng-2/7 ", 26},
+                {"ye-1", true, "ye-1/1 ye-1/2 ye-1/3 ye-1/4 ye-1/5 ", 5},
+                {"chin-timing", true, "chin-timing/1 ", 1}};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        struct rg_farm_plan plan;
+        char ids[8192] = "";
+        plan_table(&plan, rows[i].table, rows[i].full, "cpu");
+        for (int64_t g = 0; g < plan.group_count; g++)
+            snprintf(ids + strlen(ids), sizeof(ids) - strlen(ids), "%s ", plan.groups[g].id);
+        if (strncmp(ids, rows[i].ids, strlen(rows[i].ids)) != 0)
+            fail_msg("%s begins with %s, not %s", rows[i].table, ids, rows[i].ids);
+        assert_int_equal(plan.group_count, rows[i].groups);
+        rg_farm_plan_free(&plan);
+    }
+}
+
+// Rows with gaps, and claims that have a row in common: rows 1, 3 and 8, and 5, 6 and 7.
+static void test_rows_with_gaps(void **state)
+{
+    (void)state;
+    static const struct rg_claim gaps[] = {
+        {.table = "creus-5.4", .variant = "full", .test = RG_CLAIM_RATIO, .first = 5, .last = 6},
+        {.table = "creus-5.4", .variant = "full", .test = RG_CLAIM_RATIO, .first = 3, .last = 8},
+        {.table = "creus-5.4", .variant = "full", .test = RG_CLAIM_RATIO, .first = 7, .last = 6},
+        {.table = "creus-5.4", .variant = "full", .test = RG_CLAIM_RATIO, .first = 8, .last = 1},
+        {.table = "creus-5.4", .variant = "full", .test = RG_CLAIM_RATE, .first = 1, .last = 8},
+        {.table = "creus-5.3", .variant = "full", .test = RG_CLAIM_FALLS, .first = 1, .last = 8},
+        {.table = NULL}};
+    static const char *const ids[] = {"creus-5.4/1,3,8", "creus-5.4/2", "creus-5.4/4",
+                                      "creus-5.4/5-7"};
+    const struct rg_claim *all = rg_claims;
+    struct rg_farm_plan plan;
+    rg_claims = gaps;
+    plan_table(&plan, "creus-5.4", true, "cpu");
+    rg_claims = all;
+    assert_int_equal(plan.group_count, 4);
+    for (int g = 0; g < 4; g++)
+        assert_string_equal(plan.groups[g].id, ids[g]);
+    // Each of three works and two variants, row by row.
+    assert_int_equal(plan.groups[0].cell_count, 3 * 3 * 2);
+    for (int i = 0; i < 18; i++)
+        assert_int_equal(plan.cells[i].row, i < 6 ? 1 : i < 12 ? 3 : 8);
+    assert_string_equal(plan.cells[1].variant, "no_geometry");
+    assert_string_equal(plan.cells[2].work, "reading");
     rg_farm_plan_free(&plan);
 }
 
@@ -109,7 +171,38 @@ static void test_devices(void **state)
         assert_false(rg_farm_name_devices(&plan, wrong[i]));
         assert_non_null(strstr(heard, i < 2 ? "--device all: " : "'cpu' twice"));
     }
+    struct rg_farm_plan plan = {0};
+    assert_false(rg_farm_name_devices(&plan, "cpu,fog"));
+    assert_non_null(strstr(heard, "device 'fog': unknown"));
     rg_log_listen(NULL, NULL);
+    plan = (struct rg_farm_plan){0};
+    assert_true(rg_farm_name_devices(&plan, "many=cpu@B=2,cpu,cpu:reference"));
+    static const char *const due[][2] = {
+        {"many", "many=cpu@B=2"}, {"cpu", "cpu"}, {"cpu:reference", "cpu:reference"}};
+    assert_int_equal(plan.device_count, 3);
+    for (int d = 0; d < 3; d++) {
+        assert_string_equal(plan.devices[d].name, due[d][0]);
+        assert_string_equal(plan.devices[d].asked, due[d][1]);
+    }
+}
+
+// A plan has as many devices as a record.
+static void test_too_many_devices(void **state)
+{
+    (void)state;
+    char names[64 * (RG_MAX_DEVICES + 1)] = "";
+    struct rg_farm_plan plan = {0};
+    for (int d = 0; d < RG_MAX_DEVICES; d++)
+        snprintf(names + strlen(names), sizeof(names) - strlen(names), "%sd%d=cpu@N=%d",
+                 d ? "," : "", d, d);
+    assert_true(rg_farm_name_devices(&plan, names));
+    assert_int_equal(plan.device_count, RG_MAX_DEVICES);
+    plan = (struct rg_farm_plan){0};
+    snprintf(names + strlen(names), sizeof(names) - strlen(names), ",more=cpu@N=more");
+    rg_log_listen(hear, NULL);
+    assert_false(rg_farm_name_devices(&plan, names));
+    rg_log_listen(NULL, NULL);
+    assert_non_null(strstr(heard, "--device: more than "));
 }
 
 // --- expected times ---
@@ -251,6 +344,23 @@ static void test_array(void **state)
 
 // --- a file ---
 
+static void expect_cells(const struct rg_farm_plan *found, const struct rg_farm_plan *due)
+{
+    for (int64_t g = 0; g < found->group_count; g++) {
+        assert_string_equal(found->groups[g].id, due->groups[g].id);
+        assert_int_equal(found->groups[g].first_cell, due->groups[g].first_cell);
+        assert_int_equal(found->groups[g].cell_count, due->groups[g].cell_count);
+        assert_string_equal(found->groups[g].table, due->groups[g].table);
+        assert_below(fabs(found->groups[g].seconds - due->groups[g].seconds), 1e-6);
+    }
+    for (int64_t i = 0; i < found->cell_count; i++) {
+        assert_int_equal(found->cells[i].row, due->cells[i].row);
+        assert_int_equal(found->cells[i].device, due->cells[i].device);
+        assert_string_equal(found->cells[i].work, due->cells[i].work);
+        assert_string_equal(found->cells[i].variant, due->cells[i].variant);
+    }
+}
+
 static void test_file(void **state)
 {
     (void)state;
@@ -258,6 +368,9 @@ static void test_file(void **state)
     struct rg_farm_plan found = {0};
     make_farm(&farm, 2, 3, 2);
     farm.plan.shards = 7;
+    farm.plan.full = true;
+    snprintf(farm.plan.devices[1].asked, RG_FARM_ASKED, "cpu:reference@A=1");
+    snprintf(farm.plan.cells[2].work, RG_NAME_SIZE, "ours");
     farm.plan.cells[1] = (struct rg_farm_cell){1, "", "v0", 1, 1.0 / 3, true};
     rg_farm_sum(&farm.plan);
     assert_true(rg_farm_plan_write(&farm.plan, path));
@@ -268,11 +381,12 @@ static void test_file(void **state)
     assert_int_equal(found.shards, 7);
     assert_int_equal(found.group_count, farm.plan.group_count);
     assert_int_equal(found.cell_count, farm.plan.cell_count);
-    for (int64_t g = 0; g < found.group_count; g++) {
-        assert_string_equal(found.groups[g].id, farm.plan.groups[g].id);
-        assert_int_equal(found.groups[g].first_cell, farm.plan.groups[g].first_cell);
-        assert_int_equal(found.groups[g].cell_count, farm.plan.groups[g].cell_count);
-    }
+    expect_cells(&found, &farm.plan);
+    assert_true(found.full);
+    assert_int_equal(found.device_count, 2);
+    assert_string_equal(found.devices[0].name, "cpu");
+    assert_string_equal(found.devices[1].name, "cpu:reference");
+    assert_string_equal(found.devices[1].asked, "cpu:reference@A=1");
     assert_true(found.cells[1].is_known && !found.cells[0].is_known);
     assert_equals(found.cells[1].seconds, 0.333333333);
     assert_int_equal(found.cells[1].device, 1);
@@ -325,14 +439,95 @@ static void test_refused(void **state)
     unlink(path);
 }
 
+// Writes a plan again with another value at a place, under a seal that fits.
+static void seal_with(const char *text)
+{
+    json_error_t error;
+    json_t *json = json_loads(text, 0, &error);
+    assert_non_null(json);
+    assert_true(rg_seal(json));
+    assert_int_equal(json_dump_file(json, path, RG_JSON_FLAGS), 0);
+    json_decref(json);
+}
+
+#define HEAD    "\"format\":1,\"commit\":\"c\",\"full\":false,\"shards\":0,"
+#define DEVICES "\"devices\":[{\"name\":\"cpu\",\"asked\":\"cpu\"}],"
+#define CELL(row, device)                                                                          \
+    "{\"row\":" row                                                                                \
+    ",\"work\":\"\",\"variant\":\"v\",\"seconds\":1,\"known\":false,\"device\":\"" device "\"}"
+#define GROUP(cells) "{\"id\":\"t/1\",\"table\":\"t\",\"cells\":[" cells "]}"
+
+// A plan that is sealed, and yet none that raingauge wrote: the line names the place.
+static void test_malformed(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *says; // NULL: it is read
+    } rows[] = {
+        {"{" HEAD DEVICES "\"groups\":[" GROUP(CELL("1", "cpu")) "]}", NULL},
+        {"{" HEAD DEVICES "\"groups\":[" GROUP(CELL("1", "cpu") "," CELL("2", "gl")) "]}",
+         "groups[0].cells[1].device is 'gl', which 'devices' does not name"},
+        {"{" HEAD DEVICES "\"groups\":[" GROUP(CELL("1", "cpu")) "," GROUP("") "]}",
+         "groups[1].cells is empty"},
+        {"{" HEAD DEVICES "\"groups\":[" GROUP(CELL("0", "cpu")) "]}", "groups[0].cells[0].row"},
+        {"{" HEAD DEVICES "\"groups\":[{\"table\":\"t\",\"cells\":[]}]}", "groups[0].id"},
+        {"{" HEAD "\"devices\":[{\"name\":\"cpu\"}],\"groups\":[" GROUP(CELL("1", "cpu")) "]}",
+         "devices[0].asked"},
+        {"{\"format\":1,\"full\":false,\"shards\":0," DEVICES
+         "\"groups\":[" GROUP(CELL("1", "cpu")) "]}",
+         "commit"}};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        struct rg_farm_plan found = {0};
+        seal_with(rows[i].text);
+        rg_log_listen(hear, NULL);
+        *heard = 0;
+        assert_int_equal(rg_farm_plan_read(&found, path), !rows[i].says);
+        rg_log_listen(NULL, NULL);
+        if (rows[i].says && (!strstr(heard, rows[i].says) || !strstr(heard, path)))
+            fail_msg("'%s' is not in: %s", rows[i].says, heard);
+        rg_farm_plan_free(&found);
+    }
+    unlink(path);
+}
+
+static void test_more_after_its_end(void **state)
+{
+    (void)state;
+    struct farm farm;
+    struct rg_farm_plan found = {0};
+    make_farm(&farm, 1, 1, 1);
+    assert_true(rg_farm_plan_write(&farm.plan, path));
+    FILE *file = fopen(path, "ab");
+    assert_non_null(file);
+    fputs("\n{}", file);
+    fclose(file);
+    rg_log_listen(hear, NULL);
+    assert_false(rg_farm_plan_read(&found, path));
+    rg_log_listen(NULL, NULL);
+    assert_non_null(strstr(heard, "has more after its end"));
+    rg_farm_plan_free(&found);
+    unmake_farm(&farm);
+    unlink(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_groups),   cmocka_unit_test(test_rows_and_works),
-        cmocka_unit_test(test_ids),      cmocka_unit_test(test_devices),
-        cmocka_unit_test(test_expected), cmocka_unit_test(test_lengths),
-        cmocka_unit_test(test_cut),      cmocka_unit_test(test_array),
-        cmocka_unit_test(test_file),     cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_ids_of_groups),
+        cmocka_unit_test(test_rows_with_gaps),
+        cmocka_unit_test(test_rows_and_works),
+        cmocka_unit_test(test_ids),
+        cmocka_unit_test(test_devices),
+        cmocka_unit_test(test_too_many_devices),
+        cmocka_unit_test(test_expected),
+        cmocka_unit_test(test_lengths),
+        cmocka_unit_test(test_cut),
+        cmocka_unit_test(test_array),
+        cmocka_unit_test(test_file),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_malformed),
+        cmocka_unit_test(test_more_after_its_end),
     };
     snprintf(path, sizeof(path), "/tmp/raingauge-test-plan-%d.json", (int)getpid());
     return cmocka_run_group_tests(tests, NULL, NULL);

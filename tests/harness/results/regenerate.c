@@ -71,11 +71,14 @@ static bool read_another_image(struct rg_image *image, int layer, int level, voi
     return ok;
 }
 
+static const char *work; // that is measured; NULL: all
+static bool is_short;    // samples are the fewest, for what is seen without them
+
 // Returns the number of messages.
 static int measure(struct rig *rig, const struct rg_table *of, int count)
 {
     int messages = 0;
-    const struct rg_table_part part = {.last_row = count - 1};
+    const struct rg_table_part part = {.last_row = count - 1, .work = work};
     *rig = (struct rig){.devices = {.count = 1, .devices = {rg_device_open("cpu")}}};
     rig->kept.devices = &rig->devices;
     honest = rig->devices.devices[0]->backend;
@@ -83,6 +86,7 @@ static int measure(struct rig *rig, const struct rg_table *of, int count)
     changed.image_read = image_read ? image_read : honest->image_read;
     rig->devices.devices[0]->backend = &changed;
     rg_table_begin(&rig->result, of, &part, &rig->devices);
+    rig->result.few_samples = is_short;
     rg_log_listen(keep_quiet, &messages);
     assert_true(rg_table_measure(&rig->result, of, &rig->kept, NULL, NULL, NULL));
     rg_log_listen(NULL, NULL);
@@ -148,12 +152,19 @@ static void test_table(void **state)
             const bool broken = row == 1 && variant == 1;
             assert_int_equal(record->outcome, broken ? RG_ERROR : RG_OK);
             assert_int_equal(record->truth_error.outcome, broken ? RG_ERROR : RG_OK);
-            assert_true(broken || record->truth_error.flip_mask_mean > 0.001);
+            if (broken)
+                continue;
+            // The rain's own pixels differ by more than all together.
+            assert_above(record->truth_error.flip_mean, 0);
+            assert_above(record->truth_error.flip_mask_mean, record->truth_error.flip_mean);
+            assert_above(record->truth_error.flip_mask_mean, 0.001);
+            assert_in_range(record->truth_error.max_codes, 1, 255);
         }
     }
     const struct rg_record *broken = record_at(&rig, 1, 1);
-    if (!strstr(broken->detail, "/nonexistent.exr"))
+    if (!strstr(broken->detail, "no image to check it by: /nonexistent.exr"))
         fail_msg("the file is not named: %s", broken->detail);
+    assert_string_equal(broken->truth_error.detail, broken->detail);
     // Both assignments of a row are taken: the number of texels and that of drops.
     const int64_t small = record_at(&rig, 0, 1)->counters[0].value;
     const int64_t few = record_at(&rig, 2, 1)->counters[0].value;
@@ -176,7 +187,80 @@ static void test_no_rain(void **state)
     assert_int_equal(dry->truth_error.outcome, RG_NOTHING);
     assert_int_equal(dry->sample_count, 0);
     assert_non_null(strstr(dry->detail, "without rain"));
+    assert_string_equal(dry->truth_error.detail, dry->detail);
     finish(&rig);
+}
+
+// What the table shows restores what its rows omit, and the truth goes over it; without both, the
+// first row has other drops than its truth.
+static void test_shown(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *shown, *truth;
+        bool is_equal;
+    } cases[] = {{"drops=20", "drops=20", true},
+                 {"drops=20 seed=5", "seed=5", true},
+                 {"seed=5", "drops=20", false},
+                 {NULL, "drops=40", true}}; // its own
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        struct rg_table shows = table;
+        struct rig rig;
+        shows.variants[0] = table.variants[1];
+        shows.variants[1].name = NULL;
+        shows.shown = cases[i].shown;
+        shows.truth = cases[i].truth;
+        is_short = true;
+        measure(&rig, &shows, 1);
+        is_short = false;
+        const struct rg_truth_error *error = &record_at(&rig, 0, 0)->truth_error;
+        assert_int_equal(error->outcome, RG_OK);
+        assert_int_equal(error->max_codes == 0, cases[i].is_equal);
+        assert_int_equal(error->flip_mask_mean == 0, cases[i].is_equal);
+        finish(&rig);
+    }
+}
+
+// A cell is timed though its truth cannot be drawn, which its error tells.
+static void test_no_truth(void **state)
+{
+    (void)state;
+    struct rg_table lost = table;
+    struct rig rig;
+    lost.truth = "environment=/nonexistent.exr";
+    lost.variants[1].name = NULL;
+    is_short = true;
+    measure(&rig, &lost, 1);
+    is_short = false;
+    const struct rg_record *record = record_at(&rig, 0, 0);
+    assert_int_equal(record->outcome, RG_OK);
+    assert_at_least(record->sample_count, RG_LEAST_SAMPLES);
+    assert_int_equal(record->truth_error.outcome, RG_ERROR);
+    assert_non_null(strstr(record->truth_error.detail, "/nonexistent.exr"));
+    finish(&rig);
+}
+
+// A work that cpu:reference cannot do is checked by what it draws with other settings: here those
+// of another picture, or of the same.
+static void test_drawn_elsewhere(void **state)
+{
+    (void)state;
+    static const char *const elsewhere[] = {"drops=20", "drops=40"};
+    for (int same = 0; same < 2; same++) {
+        struct rg_table asks = table;
+        struct rig rig;
+        asks.works[0] = (struct rg_table_work){
+            .name = "queries", .set = "", .saves = "", .elsewhere = elsewhere[same]};
+        asks.variants[0] = table.variants[1];
+        asks.variants[1].name = NULL;
+        work = "queries";
+        is_short = true;
+        measure(&rig, &asks, 1);
+        work = NULL;
+        is_short = false;
+        assert_int_equal(record_at(&rig, 0, 0)->outcome, same ? RG_OK : RG_FAIL);
+        finish(&rig);
+    }
 }
 
 // --- the measured rows of a table ---
@@ -245,10 +329,10 @@ static void test_quick_rows(void **state)
 // --- tables of textures, and sizes that a device cannot hold ---
 
 static const struct rg_table_row levels[] = {
-    {"", {0, 16, 16}, "environment"},
-    {"", {9, 1, 1}, "environment"},
-    {"", {0, 16, 16}, "carpet"},
-    {"resolution_px=nonsense", {0, 16, 16}, "environment"},
+    {"", {0, 16, 16}, "environment"},  {"", {9, 1, 1}, "environment"},
+    {"", {0, 16, 16}, "carpet"},       {"resolution_px=nonsense", {0, 16, 16}, "environment"},
+    {"", {1, 8, 8}, "environment"},    {"", {2, 4, 4}, "environment"},
+    {"", {-1, 32, 32}, "environment"},
 };
 static const struct rg_table texture_table = {
     .id = "textures",
@@ -262,7 +346,7 @@ static const struct rg_table texture_table = {
     .is_of_textures = true,
     .width = 64,
     .height = 64,
-    .row_count = 4,
+    .row_count = 7,
     .rows = levels,
     .note = "a note",
 };
@@ -276,14 +360,24 @@ static void test_textures(void **state)
 {
     (void)state;
     struct rig rig;
-    measure(&rig, &texture_table, 4);
+    measure(&rig, &texture_table, 7);
     const struct rg_record *whole = record_at(&rig, 0, 0);
     assert_int_equal(whole->outcome, RG_OK);
     assert_equals(told(whole, "width_px"), 16);
     assert_equals(told(whole, "height_px"), 16);
     assert_int_equal(record_at(&rig, 1, 0)->outcome, RG_FAIL); // no such level
     assert_int_equal(record_at(&rig, 2, 0)->outcome, RG_ERROR);
+    assert_string_equal(record_at(&rig, 2, 0)->detail, "flow has no texture 'carpet'");
     assert_int_equal(record_at(&rig, 3, 0)->outcome, RG_ERROR);
+    // Two levels: 16 and 8.
+    assert_int_equal(record_at(&rig, 4, 0)->outcome, RG_OK);
+    assert_equals(told(record_at(&rig, 4, 0), "width_px"), 8);
+    assert_equals(told(record_at(&rig, 4, 0), "height_px"), 8);
+    assert_int_equal(record_at(&rig, 5, 0)->outcome, RG_FAIL);
+    assert_string_equal(record_at(&rig, 5, 0)->detail, "the texture ends with level 1");
+    assert_int_equal(record_at(&rig, 6, 0)->outcome, RG_UNSUPPORTED);
+    assert_string_equal(record_at(&rig, 6, 0)->detail,
+                        "the texture is reduced, and begins with level 0");
     finish(&rig);
 }
 
@@ -341,10 +435,17 @@ int main(void)
 {
     setenv("RG_LONG_S", "1e9", 1); // messages are counted, and a busy machine takes long
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_another_image), cmocka_unit_test(test_check_frames),
-        cmocka_unit_test(test_table),         cmocka_unit_test(test_no_rain),
-        cmocka_unit_test(test_quick_rows),    cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_unsupported),   cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_another_image),
+        cmocka_unit_test(test_check_frames),
+        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_no_rain),
+        cmocka_unit_test(test_shown),
+        cmocka_unit_test(test_no_truth),
+        cmocka_unit_test(test_drawn_elsewhere),
+        cmocka_unit_test(test_quick_rows),
+        cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_unsupported),
+        cmocka_unit_test(test_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

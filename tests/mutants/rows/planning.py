@@ -5,6 +5,7 @@ TESTS = ("priority", "within a budget", "time left", "foreseen")
 
 ORDER, CELL, BUDGET = "harness/tables/runs/order.c", "harness/tables/measuring/cell.c", "harness/tables/runs/budget.c"
 FARM, PLANS, MERGES = "harness/tables/farm/", ("plans of a farm",), ("merges of a farm",)
+TIMES, RECORDS, SHARDS, VISITS = ("times of a farm",), ("records of a farm",), ("shards of a farm",), ("visits to rows",)
 COMPILE, PROGRESS, MEASURE = "harness/tables/runs/compile.c", "harness/console/progress.c", "harness/tables/measuring/measure.c"
 
 ROWS = [
@@ -71,4 +72,45 @@ ROWS = [
     Fault(FARM + "shard.c", "    if («found != RG_FARM_WHOLE»)", "true", "a shard that runs again measures all", tests=("command line, befallen",)),
     Fault(FARM + "merge.c", "table->left_out[row - table->first_row] = «true»;", "false", "rows of another machine are missing", tests=MERGES),
     Fault("harness/commands/tables/plan.c", "plan->groups[g].seconds > «plan->groups[found].seconds»", "plan->groups[g - 1].seconds", "a plan names some group as its largest", tests=("command line, farm",)),
+    Fault("harness/tables/measuring/options.c", "return «is_full» ? &full : &quick;", "!is_full", "full tables are measured as quick ones", tests=("foreseen",)),
+    Fault(MEASURE, "if (m->table->rows_at_once && «rows == m->table->rows_at_once»)", "rows > m->table->rows_at_once", "one row more than a table allows is open", tests=VISITS),
+    Fault(MEASURE, "room = room && «(int64_t)instances * OBJECTS_AN_INSTANCE <= most»;", "(int64_t)instances * OBJECTS_AN_INSTANCE < most", "a device with just enough room has too little", tests=VISITS),
+    Fault(MEASURE, "visits = «m->group_count > 1 || row <= last» ? VISITS : 1;", "true", "rows that are open together are opened again", tests=VISITS),
+    Fault(MEASURE, "if («rg_result_wants(result, row)» && !rg_journal_has(journal, row))\n            units", "true", "rows that are left out count in the bar", tests=VISITS),
+    Fault(MEASURE, ".options = *(«result->few_samples» ? rg_table_few", "false", "a tight budget takes all samples", tests=VISITS),
+    Fault(FARM + "make.c", "return «!strcmp(claim->table, table->id)» &&", "true", "another table's claims tie rows", tests=PLANS),
+    Fault(FARM + "make.c", "table->id) && «!rg_claim_is_of_each_row(claim)» &&", "true", "claims about each row by itself tie rows", tests=PLANS),
+    Fault(FARM + "make.c", "if («!rg_backend_of(name.full)»)", "false", "a plan names devices that no raingauge has", tests=PLANS),
+    Fault(FARM + "expect.c", "ms += («table->truth ? 2 : 1») *", "1", "truths take no time", tests=TIMES),
+    Fault(FARM + "expect.c", "if (reference && «!has_reference»)", "true", "images of a device that is timed count twice", tests=TIMES),
+    Fault(FARM + "expect.c", "images_ms(e, table, cell) «/ e->plan->device_count»;", "/ 1", "a row's images are drawn for each device", tests=TIMES),
+    Fault(FARM + "expect.c", "record->create_ms «+ fmax(record->first_frame_ms - ms, 0)»,", "+ 0", "what the first frame takes is no opening", tests=TIMES),
+    Fault(FARM + "expect.c", "if («record->outcome != RG_OK || !record->sample_count»)", "false", "a cell that failed takes what samples would", tests=TIMES),
+    Fault(FARM + "expect.c", "return fmax(ms / 1000, «LEAST_S»);", "0.0", "what does not run takes no time", tests=TIMES),
+    Fault(FARM + "expect.c", "«add(mean_of(e, t, e->plan->device_count), cell->seconds);»", ";", "cells of a table tell nothing of its other devices", tests=TIMES),
+    Fault(FARM + "expect.c", "const struct rg_cell_frames frames = {«OPEN_LOADS * load_ms»,", "FRAME_LOADS * load_ms", "opening is guessed as a frame", tests=TIMES),
+    Fault(FARM + "plan_file.c", "if («cell.device == plan->device_count»)", "false", "a cell's device may be none of the plan's", tests=PLANS),
+    Fault(FARM + "plan_file.c", "if (ok && «at < size»)", "false", "what follows a plan is passed over", tests=PLANS),
+    Fault(FARM + "plan_file.c", "if («!json_array_size(cells)»)", "false", "a plan has groups without cells", tests=PLANS),
+    Fault(FARM + "plan_file.c", "\"groups[%zu].cells[%zu]\", i, «k»);", "i", "a malformed cell is told as another", tests=PLANS),
+    Fault(FARM + "plan_file.c", "if (ok)\n        «rg_farm_sum(plan);»", ";", "groups that were read take no time", tests=PLANS),
+    Fault(FARM + "record.c", "if («strcmp(result->table, group->table) != 0»)", "false", "another table's record is a group's", tests=RECORDS),
+    Fault(FARM + "record.c", "if («result->full != plan->full»)", "false", "records of both lengths are merged", tests=RECORDS),
+    Fault(FARM + "record.c", "«strcmp(text_of(json_object_get(document, \"group\"), \"id\"), group->id) != 0» ||", "false", "another group's record is told to lack cells", tests=RECORDS),
+    Fault(FARM + "record.c", "if («!strcmp(record->device.name, device)» &&", "true", "a record without a device is whole", tests=RECORDS),
+    Fault(FARM + "record.c", "«!strcmp(record->work, cell->work)»)", "true", "a record without a work is whole", tests=RECORDS),
+    Fault(FARM + "record.c", "found == RG_FARM_WHOLE && «at < size»)", "false", "what follows a record is passed over", tests=RECORDS),
+    Fault(FARM + "record.c", "\"seconds\", «rg_number_kept(seconds)»);", "group->seconds", "a record tells the expected seconds", tests=RECORDS),
+    Fault(FARM + "merge.c", "a->width == b->width && «a->height == b->height»;", "true", "pictures of other heights make a table", tests=RECORDS),
+    Fault(FARM + "merge.c", "same = «!strcmp(a->variants[i], b->variants[i])»;", "true", "variants change places in a table", tests=RECORDS),
+    Fault(FARM + "merge.c", ": *table.table ? «rg_result_exit(&table)»", "RG_EXIT_PASS", "a merge of cells that failed passes", tests=RECORDS),
+    Fault(FARM + "merge.c", "was changed meanwhile; merge again\", «record->path»);", "group->id", "a record that vanished is told without its path", tests=RECORDS),
+    Fault(FARM + "shard.c", "if («shard_of[g] == shard->number»)", "shard_of[g] >= shard->number", "a shard measures later shards' groups", tests=SHARDS),
+    Fault(FARM + "shard.c", ".last_row = cells[«group->cell_count - 1»].row - 1,", "0", "a shard measures a group's first row", tests=SHARDS),
+    Fault(FARM + "shard.c", "left_out[row - part.first_row] = «!rg_farm_has_row(m->plan, g, g + 1, row)»;", "false", "a shard measures rows between those of a group", tests=SHARDS),
+    Fault(FARM + "shard.c", "rg_duration_text(«group->seconds», expected)", "seconds", "a group is told to take what was expected", tests=SHARDS),
+    Fault(FARM + "shard.c", "const double seconds = (rg_now_ms() - begin_ms) «/ 1000»;", "/ 1", "a record's seconds are milliseconds", tests=SHARDS),
+    Fault(FARM + "shard.c", "const int exit = «rg_result_exit(&there)»;", "RG_EXIT_PASS", "a shard that goes on forgets what failed", tests=SHARDS),
+    Fault(FARM + "shard.c", "«rg_closing_add(&m->closing, &result);»", ";", "a shard does not tell what it measured", tests=SHARDS),
+    Fault(FARM + "shard.c", "if («!m->groups») {", "false", "a shard without groups passes", tests=SHARDS),
 ]

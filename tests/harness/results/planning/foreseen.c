@@ -141,9 +141,32 @@ static void a_cell_takes_what_its_frames_take(void **state)
     assert_below(fabs(rg_cell_image_ms(&plain, &slow) - (7 + 9 * 3 + 500)), 1e-6);
 }
 
+// As docs/records.md says: at most 15 samples of 15 ms in a second, or 61 of 60 ms in two; at least
+// 6, which a tight budget and RG_FEW_SAMPLES take.
+static void samples_are_those_of_the_page(void **state)
+{
+    (void)state;
+    const struct rg_measure_options *quick = rg_table_options(false),
+                                    *full = rg_table_options(true), *few = rg_table_few_samples();
+    assert_int_equal(quick->most_samples, 15);
+    assert_int_equal(full->most_samples, 61);
+    assert_int_equal(few->most_samples, 6);
+    assert_equals(quick->sample_ms, 15);
+    assert_equals(full->sample_ms, 60);
+    assert_equals(few->sample_ms, 15);
+    assert_equals(quick->job_ms, 1000);
+    assert_equals(full->job_ms, 2000);
+    const struct rg_measure_options *const all[] = {quick, full, few};
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(all[i]->least_samples, 6);
+        assert_true(all[i]->load && all[i]->watch);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(samples_are_those_of_the_page),
         cmocka_unit_test(a_sweep_is_of_rain_that_has_built_up),
         cmocka_unit_test(looking_takes_a_moment),
         cmocka_unit_test(a_cell_takes_what_its_frames_take),

@@ -1,0 +1,225 @@
+// Files of a table: when they are written, what they must not replace, and how a command ends.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "harness/console/exit.h"
+#include "harness/tables/print.h"
+#include "tests/harness/results/forms/rig.h"
+#include "tests/tools/expect.h"
+
+static char folder[64], heard[1024];
+
+static void hear(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)user;
+    snprintf(heard, sizeof(heard), "%s", line);
+}
+
+static int remove_one(const char *path, const struct stat *st, int type, struct FTW *ftw)
+{
+    (void)st;
+    (void)type;
+    (void)ftw;
+    return remove(path);
+}
+
+static int begin(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof(folder), "/tmp/raingauge-written-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+    *heard = 0;
+    rg_log_listen(hear, NULL);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    rg_log_listen(NULL, NULL);
+    nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    return 0;
+}
+
+// The path of a file in the folder, until the next call.
+static const char *path_of(const char *name)
+{
+    static char path[256];
+    snprintf(path, sizeof(path), "%s/%s", folder, name);
+    return path;
+}
+
+static void write_text(const char *name, const char *text)
+{
+    FILE *file = fopen(path_of(name), "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static bool holds(const char *name, const char *text)
+{
+    char found[16] = "";
+    FILE *file = fopen(path_of(name), "r");
+    assert_non_null(file);
+    found[fread(found, 1, sizeof(found) - 1, file)] = 0;
+    fclose(file);
+    return !strcmp(found, text);
+}
+
+// --- how a table ends ---
+
+// By the outcomes of its cells; an image that could not be compared with the truth is a failure,
+// and one that shows no rain is told by its cell.
+static void a_table_ends_as_its_cells(void **state)
+{
+    (void)state;
+    static const struct {
+        enum rg_outcome cell, truth;
+        int exit;
+    } cases[] = {{RG_OK, RG_OK, RG_EXIT_PASS},
+                 {RG_FAIL, RG_OK, RG_EXIT_FAIL},
+                 {RG_CRASH, RG_OK, RG_EXIT_FAIL},
+                 {RG_UNSUPPORTED, RG_OK, RG_EXIT_PASS},
+                 {RG_NOTHING, RG_OK, RG_EXIT_NOTHING},
+                 {RG_LACKING, RG_OK, RG_EXIT_HARNESS},
+                 {RG_OK, RG_ERROR, RG_EXIT_FAIL},
+                 {RG_OK, RG_LACKING, RG_EXIT_HARNESS},
+                 {RG_OK, RG_UNSUPPORTED, RG_EXIT_PASS},
+                 {RG_OK, RG_NOTHING, RG_EXIT_PASS},
+                 {RG_UNSUPPORTED, RG_CRASH, RG_EXIT_FAIL}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        struct rig rig;
+        sheet_measure(&rig, &sheet_names_table, (double[]){40, 30, 20, 10});
+        struct rg_record *record = sheet_record_at(&rig, 2, 0);
+        record->outcome = cases[i].cell;
+        record->truth_error.outcome = cases[i].truth;
+        assert_int_equal(rg_result_exit(&rig.result), cases[i].exit);
+        rg_result_free(&rig.result);
+    }
+    struct rig rig;
+    sheet_measure(&rig, &sheet_names_table, (double[]){40, 30, 20, 10});
+    for (int row = 0; row < 4; row++)
+        sheet_record_at(&rig, row, 0)->outcome = RG_UNSUPPORTED;
+    assert_int_equal(rg_result_exit(&rig.result), RG_EXIT_UNSUPPORTED);
+    rg_result_free(&rig.result);
+}
+
+// --- earlier files ---
+
+// A result without a number replaces none that is there; it is written where there is none.
+static void files_stay_where_nothing_was_measured(void **state)
+{
+    (void)state;
+    struct rig rig;
+    sheet_measure(&rig, &sheet_names_table, (double[]){0, 0, 0, 0});
+    write_text("names.json", "earlier");
+    write_text("names.md", "as well");
+    assert_true(rg_result_write(&rig.result, folder));
+    assert_true(holds("names.json", "earlier") && holds("names.md", "as well"));
+    char due[512];
+    snprintf(due, sizeof(due), "%s: is kept, for no cell of names was measured now",
+             path_of("names.json"));
+    assert_string_equal(heard, due);
+    assert_int_equal(unlink(path_of("names.json")), 0);
+    assert_true(rg_result_write(&rig.result, folder));
+    assert_false(holds("names.json", "earlier") || holds("names.md", "as well"));
+    rg_result_free(&rig.result);
+    // One number is enough.
+    sheet_measure(&rig, &sheet_names_table, (double[]){0, 0, 0, 10});
+    write_text("names.json", "earlier");
+    assert_true(rg_result_write(&rig.result, folder));
+    assert_false(holds("names.json", "earlier"));
+    for (int i = 0; rg_result_formats[i]; i++) {
+        char name[32];
+        snprintf(name, sizeof(name), "names.%s", rg_result_formats[i]);
+        assert_int_equal(unlink(path_of(name)), 0);
+    }
+    assert_int_equal(rmdir(folder), 0); // no other file
+    rg_result_free(&rig.result);
+}
+
+// Each file that a table leaves, its journals included, could replace what is read.
+static void files_that_are_read_are_spared(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        bool is_spared;
+    } cases[] = {{"names.md", false},
+                 {"names.csv", false},
+                 {"names.json", false},
+                 {"names.tex", false},
+                 {"names-quick.journal", false},
+                 {"names-full.journal", false},
+                 {"names.txt", true},
+                 {"name.json", true},
+                 {"other.json", true}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        write_text(cases[i].name, "read");
+        *heard = 0;
+        assert_int_equal(rg_result_spares(&sheet_names_table, folder, path_of(cases[i].name)),
+                         cases[i].is_spared);
+        assert_int_equal(!*heard, cases[i].is_spared);
+        assert_int_equal(unlink(path_of(cases[i].name)), 0);
+    }
+}
+
+// All files of all tables are tried before any is measured: a folder in the place of one is
+// noticed.
+static void files_that_cannot_be_written_are_told(void **state)
+{
+    (void)state;
+    static const struct rg_table *const tables[] = {&sheet_names_table, &sheet_axis_table};
+    static const char *const names[] = {"names.md", "names.tex", "axis.csv", "axis.tex"};
+    assert_true(rg_results_can_be_written(tables, 2, folder));
+    for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
+        assert_int_equal(mkdir(path_of(names[i]), 0777), 0);
+        assert_false(rg_results_can_be_written(tables, 2, folder));
+        assert_non_null(strstr(heard, names[i]));
+        assert_true(rg_results_can_be_written(&tables[1], i < 2, folder));
+        assert_int_equal(rmdir(path_of(names[i])), 0);
+    }
+}
+
+// --- the end of a command ---
+
+// A table whose files are lost is printed all the same, and the command fails.
+static void a_table_whose_files_are_lost(void **state)
+{
+    (void)state;
+    struct rig rig;
+    sheet_measure(&rig, &sheet_names_table, (double[]){40, 30, 20, 10});
+    assert_int_equal(rg_result_finish(&rig.result, RG_RESULT_CSV, folder), RG_EXIT_PASS);
+    assert_false(holds("names.csv", ""));
+    assert_int_equal(rg_result_finish(&rig.result, RG_RESULT_CSV, NULL), RG_EXIT_PASS);
+    assert_int_equal(rg_result_finish(&rig.result, RG_RESULT_CSV, path_of("none/of/these")),
+                     RG_EXIT_USAGE);
+    sheet_record_at(&rig, 1, 0)->outcome = RG_FAIL;
+    assert_int_equal(rg_result_finish(&rig.result, RG_RESULT_CSV, folder), RG_EXIT_FAIL);
+    rg_result_free(&rig.result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_table_ends_as_its_cells, begin, end),
+        cmocka_unit_test_setup_teardown(files_stay_where_nothing_was_measured, begin, end),
+        cmocka_unit_test_setup_teardown(files_that_are_read_are_spared, begin, end),
+        cmocka_unit_test_setup_teardown(files_that_cannot_be_written_are_told, begin, end),
+        cmocka_unit_test_setup_teardown(a_table_whose_files_are_lost, begin, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
