@@ -128,6 +128,53 @@ static void names_have_an_end(void **state)
     assert_int_equal(logged_lines, 1);
 }
 
+// Reads so many cells, each of as many frames as one may have.
+static bool read_many(int count)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    for (int i = 0; i < count; i++)
+        fprintf(out, "c%d raster 8x8 100000\n", i);
+    assert_int_equal(fclose(out), 0);
+    struct rg_gate_cells cells;
+    const bool ok = read_text(text, &cells);
+    if (ok)
+        assert_ptr_equal(rg_gate_cells_find(&cells, "c1"), &cells.cells[1]);
+    rg_gate_cells_free(&cells);
+    free(text);
+    return ok;
+}
+
+static void cells_and_frames_have_an_end(void **state)
+{
+    (void)state;
+    assert_true(read_many(RG_GATE_CELLS));
+    assert_false(read_many(RG_GATE_CELLS + 1));
+    assert_string_equal(logged, "my.txt:4097: more than 4096 cells; split the file");
+}
+
+// A parameter whose name begins another's stands there once.
+static void a_key_that_begins_another_is_not_that_one(void **state)
+{
+    (void)state;
+    struct rg_gate_cells cells;
+    assert_true(read_text("a drops 8x8 1 environment=sky environment_px=16", &cells));
+    rg_gate_cells_free(&cells);
+    assert_true(read_text("a drops 8x8 1 environment_px=16 environment=sky", &cells));
+    rg_gate_cells_free(&cells);
+}
+
+static void fixed_functions_are_cells_too(void **state)
+{
+    (void)state;
+    assert_string_equal(rg_gate_fixed_cell(0), "fixed/nearest");
+    assert_string_equal(rg_gate_fixed_cell(2), "fixed/mip-nearest");
+    assert_string_equal(rg_gate_fixed_cell(5), "fixed/LOD-bias-and-clamp");
+    assert_string_equal(rg_gate_fixed_cell(0), "fixed/nearest"); // the first is still there
+}
+
 static void a_file_that_is_not_there_is_said(void **state)
 {
     (void)state;
@@ -165,6 +212,9 @@ int main(void)
         cmocka_unit_test(cells_have_what_their_lines_say),
         cmocka_unit_test(what_is_wrong_is_said_with_its_line),
         cmocka_unit_test(names_have_an_end),
+        cmocka_unit_test(cells_and_frames_have_an_end),
+        cmocka_unit_test(a_key_that_begins_another_is_not_that_one),
+        cmocka_unit_test(fixed_functions_are_cells_too),
         cmocka_unit_test(a_file_that_is_not_there_is_said),
         cmocka_unit_test(the_built_in_cells_are_of_all_techniques),
     };

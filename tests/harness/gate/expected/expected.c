@@ -231,6 +231,47 @@ static void mesas_files_are_read_as_they_are(void **state)
     rg_known_free(&expected);
 }
 
+// Every status that deqp-runner writes; those that are no failure expect nothing.
+static void every_status_of_mesas_is_known(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *status;
+        enum rg_outcome outcome;
+        const char *word;
+    } rows[] = {
+        {"Fail", RG_FAIL, "expected"},
+        {"Fail", RG_TIMEOUT, "fails differently"},
+        {"Crash", RG_CRASH, "expected"},
+        {"Crash", RG_FAIL, "fails differently"},
+        {"Timeout", RG_TIMEOUT, "expected"},
+        {"Timeout", RG_ERROR, "fails differently"},
+        {"ExpectedFail", RG_ERROR, "expected"},
+        {"ExpectedFail", RG_CRASH, "fails differently"},
+        {"UnexpectedImprovement(Fail)", RG_ERROR, "expected"},
+        {"Flake", RG_CRASH, "flaky"},
+        {"Flake", RG_OK, "flaky"},
+        {"KnownFlake", RG_TIMEOUT, "flaky"},
+        {"KnownFlake", RG_ERROR, "flaky"},
+        {"UnexpectedImprovement(Pass)", RG_FAIL, ""},
+        {"UnexpectedImprovement(Skip)", RG_FAIL, ""},
+        {"Pass", RG_FAIL, ""},
+        {"Warn", RG_FAIL, ""},
+        {"Skip", RG_FAIL, ""},
+        {"Missing", RG_FAIL, ""},
+    };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        struct rg_known expected = {.count = 0};
+        char text[80];
+        snprintf(text, sizeof(text), "a,%s\n", rows[i].status);
+        assert_true(add(&expected, text, RG_FORM_FAILS));
+        const struct judged judged = {
+            {"a", "gl", "M", rows[i].outcome, NAN, NAN, false}, "2026-11-30", rows[i].word};
+        judge(&expected, &judged, 1);
+        rg_known_free(&expected);
+    }
+}
+
 // --- errors in files ---
 
 #define REST "\n reason r\n since 2026-01-01\n until 2026-02-01\n"
@@ -360,6 +401,8 @@ static void an_expectation_of_no_cell_is_told(void **state)
         assert_true(add(&expected, rows[i].text, rows[i].form));
         assert_int_equal(rg_gate_warn_of_unused(&expected, &cells), rows[i].unused);
         assert_int_equal(logged_lines, rows[i].unused > 0);
+        if (rows[i].unused)
+            assert_non_null(strstr(logged, "; mend the pattern, or take the expectation out"));
         if (strncmp(logged, rows[i].said, strlen(rows[i].said)) != 0)
             fail_msg("row %zu said: %s", i, logged);
         rg_known_free(&expected);
@@ -454,6 +497,7 @@ int main(void)
         cmocka_unit_test(patterns_describe_whole_names),
         cmocka_unit_test(results_meet_what_is_expected),
         cmocka_unit_test(mesas_files_are_read_as_they_are),
+        cmocka_unit_test(every_status_of_mesas_is_known),
         cmocka_unit_test(what_is_wrong_is_said_with_its_line),
         cmocka_unit_test(an_empty_file_expects_nothing),
         cmocka_unit_test(large_files_are_read),

@@ -252,6 +252,69 @@ static void what_is_new_is_added(void **state)
            NEW("b", "  outcome    crash\n"));
 }
 
+// A driver that fell before it told its name stands in no row.
+static void what_is_not_known_of_a_driver_is_not_written(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"a", "gl", "", RG_FAIL, NAN, 0.5, false},
+                                                     {"b", "gl", NULL, RG_TIMEOUT, 1, 1, false}};
+    expect("", RG_FORM_OWN, results, 2, "2026-01-15",
+           "fail a\n  device     gl\n  outcome    fail\n  difference 0.5\n  reason     not "
+           "explained\n  since      2026-01-15\n  until      2026-04-15\n\n"
+           "fail b\n  device     gl\n  outcome    timeout\n  reason     not explained\n"
+           "  since      2026-01-15\n  until      2026-04-15\n");
+    // Names that Mesa's form would read as something else.
+    static const struct rg_known_result odd[] = {{"#a", "gl", "M", RG_FAIL, 1, 1, false},
+                                                 {"b\x7f", "gl", "M", RG_FAIL, 1, 1, false},
+                                                 {"c\n", "gl", "M", RG_FAIL, 1, 1, false},
+                                                 {"", "gl", "M", RG_FAIL, 1, 1, false},
+                                                 {"d#", "gl", "M", RG_CRASH, 1, 1, false}};
+    expect("", RG_FORM_FAILS, odd, 5, "2026-01-15", "d#,Crash\n");
+}
+
+#define FLAKE(rest) "flake a*\n" rest "  reason r\n  since 2026-01-01\n  until 2026-02-01\n"
+
+// A flake keeps the outcomes that it had; only a failure has pixels.
+static void a_flake_gains_outcomes_and_loses_none(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"a1", "gl", "M", RG_CRASH, NAN, NAN, false},
+                                                     {"a2", "gl", "M", RG_FAIL, 7, 0.5, false}};
+    expect(FLAKE("  outcome timeout\n"), RG_FORM_OWN, results, 1, "2026-01-15",
+           FLAKE("  outcome    crash timeout\n"));
+    expect(FLAKE("  outcome fail\n  difference 0.25..1\n  pixels 9\n"), RG_FORM_OWN, results, 2,
+           "2026-01-15",
+           FLAKE("  outcome    fail crash\n  difference 0.25..1\n  pixels     7..9\n"));
+    expect("fail a*\n  outcome fail\n  difference 1..2\n  reason r\n  since 2026-01-01\n"
+           "  until 2026-02-01\n",
+           RG_FORM_OWN, results + 1, 1, "2026-01-15",
+           "fail a*\n  outcome fail\n  difference 0.5..2\n  reason r\n  since 2026-01-01\n"
+           "  until 2026-02-01\n");
+}
+
+// Of two files each has its own rows; what is new is added only where that is asked for.
+static void each_file_is_mended_by_itself(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_OK, 0, 0, false},
+                                                     {"b", "gl", "M", RG_OK, 0, 0, false},
+                                                     {"c", "gl", "M", RG_CRASH, 0, 0, false}};
+    static const char first[] = "a,Fail\nx,Fail\n", second[] = "y,Fail\nb,Fail\nz,Crash\n";
+    struct rg_known known = {.count = 0};
+    char *now;
+    assert_true(rg_known_add_text(&known, "1", first, strlen(first), RG_FORM_FAILS));
+    assert_true(rg_known_add_text(&known, "2", second, strlen(second), RG_FORM_FAILS));
+    assert_true(rg_known_mend(&known, 1, results, 3, 20500, false, &now));
+    assert_string_equal(now, "y,Fail\nz,Crash\n");
+    free(now);
+    assert_true(rg_known_mend(&known, 0, results, 3, 20500, true, &now));
+    assert_string_equal(now, "x,Fail\nc,Crash\n");
+    free(now);
+    assert_true(rg_known_mend(&known, 0, results + 2, 1, 20500, false, &now));
+    assert_null(now);
+    rg_known_free(&known);
+}
+
 // Rows far apart are mended, and lines keep their endings.
 static void long_files_and_foreign_line_ends_are_kept(void **state)
 {
@@ -316,6 +379,9 @@ int main(void)
         cmocka_unit_test(what_nothing_is_known_of_stays_expected),
         cmocka_unit_test(other_rows_keep_what_nothing_is_known_of),
         cmocka_unit_test(what_is_new_is_added),
+        cmocka_unit_test(what_is_not_known_of_a_driver_is_not_written),
+        cmocka_unit_test(a_flake_gains_outcomes_and_loses_none),
+        cmocka_unit_test(each_file_is_mended_by_itself),
         cmocka_unit_test(long_files_and_foreign_line_ends_are_kept),
         cmocka_unit_test(hostile_names_are_matched_by_what_is_written),
     };

@@ -12,6 +12,7 @@ CELLS = "harness/compare/gate/cells/cells.c"
 FILE = "core/base/files/file.c"
 COMMAND = "harness/commands/comparing/gate.c"
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
+PART, RECORDS = "harness/compare/gate/shards/part.c", ("records of shards",)
 
 ROWS = [
     Fault(OUTPUTS, "bool ok = «spares_kept(outputs->pictures, file)»;", "true", "a gate's journal replaces its cells", tests=("command line, baselines",)),
@@ -105,4 +106,39 @@ ROWS = [
     Fault(COMMAND, "if («is_read && !o->gtest.list»)", "false", "nobody is told of an expectation of no cell", tests=("command line, reports",)),
     Fault(CELLS, "           «has_keys_once(cell->assignments)»;", "true", "of a parameter that stands twice the last holds", tests=("gate cells",)),
     Fault(COMMAND, "    if («!gate->is_told»)\n        return exit;", "false", "a gate that fails early leaves an empty report", tests=("command line, gates",)),
+    Fault(MERGE, "if (number >= 0 && «(size_t)number < count»)", "true", "a record writes behind its cells", tests=("shards of a gate",)),
+    Fault(MERGE, "        ok = «!at[i]» || rg_report_read", "false", "a shard that is missing ends the others", tests=RECORDS),
+    Fault(MERGE, "if (*device ? !is_required && own && «!strcmp(own, device)»\n", "true", "fixed functions of each device are told for all", tests=RECORDS),
+    Fault(MERGE, "const char *b = json_string_value(json_array_get(pair, «RG_SIDE_B»));", "RG_SIDE_A", "fixed functions of B are not told", tests=RECORDS),
+    Fault(MERGE, "place = 1 + i + («is_fixed ? count : 0»);", "0", "fixed functions stand between cells", tests=RECORDS),
+    Fault(MERGE, "rg_gate_case_name(«is_fixed ? RG_GATE_FIXED : result->cell», result->device);", "result->cell", "a fixed function has no place", tests=RECORDS),
+    Fault(MERGE, "return x->place != y->place ? «(x->place > y->place) - (x->place < y->place)»\n", "0", "results stand in the shards' order", tests=RECORDS),
+    Fault(MERGE, ".driver = «json_string_value(json_object_get(found, \"driver\"))»,", "text_of(found, \"driver\")", "a device that told no driver has one without a name", tests=RECORDS),
+    Fault(MERGE, ".pixels = «number_of(found, \"pixels\")»,", "number_of(found, \"difference\")", "a shard's pixels are its difference", tests=RECORDS),
+    Fault(MERGE, ".is_foreign = «json_is_true(json_object_get(found, \"foreign\"))»};", "false", "a shard's device is blamed for another's failure", tests=RECORDS),
+    Fault(MERGE, "            «rg_exit_worse(*beyond, rg_exit_of_record(json_object_get(parts->documents[i], \"exit\")))»;", "rg_exit_of_record(json_object_get(parts->documents[i], \"exit\"))", "a gate ends as its last shard", tests=RECORDS + ("shards of a gate",)),
+    Fault(MERGE, "gate->note = rg_parts_texts(parts, \"note\", «true»);", "false", "each shard tells its devices anew", tests=RECORDS),
+    Fault(MERGE, "    gate->chosen = (int)json_array_size(json_object_get(parts->of, «\"names\"»));", "\"pairs\"", "a gate of shards has as many cases as pairs", tests=RECORDS),
+    Fault(MERGE, "return text_of(parts->of, «\"expectations\"»);", "\"baseline\"", "shards' expectations are those of a baseline", tests=RECORDS),
+    Fault(MERGE, "if (*was && «strcmp(was, driver) != 0»)", "true", "two shards of one driver are refused", tests=("shards of a gate",)),
+    Fault(PART, "    rg_digest_of(text, «size», digest);", "0", "all files have one digest", tests=RECORDS),
+    Fault(PART, "fprintf(out, \"%d %zu\\n\", «(int)known->files[i].form», lines->size);", "0", "flakes are as good as skips to a shard", tests=RECORDS),
+    Fault(PART, "        fwrite(lines->raw, 1, «lines->size», out);", "lines->size / 2", "half of a file of expectations decides", tests=RECORDS),
+    Fault(PART, "        rg_digest_of_cell(«&cells->cells[i]», one);", "&cells->cells[0]", "shards of other cells make one report", tests=RECORDS),
+    Fault(PART, "fprintf(out, \"%s %s\\n\", «cells->cells[i].name», one);", "\"\"", "shards of cells of other names make one report", tests=RECORDS),
+    Fault(PART, "                     «rg_number_json(asked->margin)», \"filter\",", "rg_number_json(0)", "shards of another margin make one report", tests=RECORDS),
+    Fault(PART, "\"pictures\",\n                     «asked->pictures_only», \"strict\"", "false", "shards of pictures and of times make one report", tests=RECORDS),
+    Fault(PART, "\"expectations\", «inputs->expectations», \"times\",", "inputs->baseline", "shards of other expectations make one report", tests=RECORDS),
+    Fault(PART, "\"baseline\", «inputs->baseline»,\n", "inputs->times", "shards of another baseline make one report", tests=RECORDS),
+    Fault(PART, "\"times\", «inputs->times», \"require\",", "inputs->baseline", "shards of other times make one report", tests=RECORDS),
+    Fault(PART, "        if (times && name && «seconds > 0»)\n", "seconds >= 0", "a case that took no time is known to", tests=RECORDS),
+    Fault(PART, "json_object_set_new(times, «name», json_real(seconds));", "\"a\"", "all times are of one case", tests=RECORDS),
+    Fault(PART, "json_t *times = «json_is_array(cases)» ? json_object() : NULL;", "document != NULL", "what is no record of a gate has no times", tests=RECORDS),
+    Fault(PART, "for (int64_t i = «asked->shard.number == 1 ? 0 : left»; i < gate->result_count; i++)", "0", "what is left out is told by each shard", tests=RECORDS),
+    Fault(PART, "for (int64_t i = «asked->shard.number == 1 ? 0 : left»; i < gate->result_count; i++)", "asked->shard.number == 1 ? 0 : left + 1", "a shard loses its first result", tests=RECORDS),
+    Fault(PART, "    for (int i = 0; i < «gate->told_count»; i++)\n", "gate->report.case_count > 0", "a shard's other cases have no place", tests=RECORDS),
+    Fault(PART, "json_array_append_new(json, json_integer(«gate->cases[i].place»));", "i", "each shard begins with the first cell", tests=RECORDS),
+    Fault(PART, "\"driver\", «result->driver», \"outcome\",", "result->device", "a result's driver is its device", tests=RECORDS),
+    Fault(PART, "                     «result->is_foreign»);", "0", "a record blames a device for another's failure", tests=RECORDS),
+    Fault(PART, "rg_json_text(gate->note ? gate->note : \"\"), \"exit\", «beyond»);", "0", "a shard forgets what went wrong beyond its cases", tests=RECORDS),
 ]

@@ -1,0 +1,353 @@
+// What is said about a device's fixed functions, held against a baseline's or another driver's.
+// Stand-ins draw them.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/compare/gate/run/fixed.h"
+#include "harness/console/clock.h"
+#include "harness/measure/serving/fixed.h"
+#include "shaders/fixed/fixed.h"
+#include "tests/tools/expect.h"
+
+static void silent(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+}
+
+// --- stand-ins ---
+
+static struct rg_device devices[RG_SIDES];
+static json_t *digests[RG_SIDES]; // that a side's device leaves
+static int failed[RG_SIDES];
+static const char *falls; // the device that does not start
+static uint8_t code[RG_SIDES];
+static double now_ms;
+
+double rg_now_ms(void)
+{
+    return now_ms;
+}
+
+static int side_of(const struct rg_device *device)
+{
+    return device == &devices[RG_SIDE_B];
+}
+
+bool rg_side_launch(struct rg_side *side)
+{
+    if (falls && !strcmp(side->name, falls))
+        return rg_crash_error("%s fell", side->name);
+    side->device = &devices[!strcmp(side->name, "gl")];
+    return true;
+}
+
+json_t *rg_fixed_digests(struct rg_device *device, int *count)
+{
+    now_ms += 750;
+    *count = failed[side_of(device)];
+    return json_incref(digests[side_of(device)]);
+}
+
+// Two codes, one of which is the same on both sides.
+bool rg_fixed_show(struct rg_device *device, int row, struct rg_fixed_drawn *drawn)
+{
+    uint8_t *bytes = malloc(2);
+    assert_non_null(bytes);
+    bytes[0] = 9;
+    bytes[1] = code[side_of(device)];
+    assert_string_equal(rg_fixed_draws[row].feature, "linear");
+    *drawn = (struct rg_fixed_drawn){bytes, 2};
+    return true;
+}
+
+// --- a device that has three functions ---
+
+static struct rg_known known;
+static struct rg_baseline baseline;
+static const struct rg_gate_pairs pairs = {.count = 1, .all = {{{"old", "gl"}}}};
+static struct rg_gate_request request;
+static struct rg_gate gate;
+static struct rg_running_gate run;
+static struct rg_known_result results[RG_FIXED_MAX_DRAWS];
+
+static json_t *left(const char *linear, const char *stencil)
+{
+    json_t *json = json_pack("{s:s, s:s}", "linear", linear, "nearest", "2222");
+    if (stencil)
+        json_object_set_new(json, "stencil", json_string(stencil));
+    return json;
+}
+
+static json_t *parts(const char *device)
+{
+    return json_pack("{s:s, s:s, s:s, s:s, s:s}", "cpu", "Xeon", "features", "avx2", "variables",
+                     "", "driver", "Mesa", "device", device);
+}
+
+static void begin(bool has_baseline, json_t *then, json_t *now)
+{
+    static const char llvmpipe[] = "llvmpipe (LLVM 15.0.6, 256 bits)";
+    memset(&run, 0, sizeof(run));
+    memset(&gate, 0, sizeof(gate));
+    memset(failed, 0, sizeof(failed));
+    falls = NULL;
+    now_ms = 1000;
+    code[RG_SIDE_A] = code[RG_SIDE_B] = 100;
+    digests[RG_SIDE_A] = then;
+    digests[RG_SIDE_B] = now;
+    request = (struct rg_gate_request){.pairs = &pairs, .known = &known, .today = 20500};
+    baseline = (struct rg_baseline){.device_count = 1, .devices = {{"gl", parts(llvmpipe)}}};
+    baseline.passport =
+        json_pack("{s:[{s:s, s:O}]}", "devices", "name", "gl", "fixed_functions", then);
+    request.baseline = has_baseline ? &baseline : NULL;
+    gate.results = results;
+    run.asked = &request;
+    run.gate = &gate;
+    run.side_count = 2;
+    run.has_fixed[RG_SIDE_B] = true;
+    run.parts[RG_SIDE_B] = parts(llvmpipe);
+    for (int side = 0; side < RG_SIDES; side++) {
+        run.sides[side].name = pairs.all[0].names[side];
+        snprintf(run.infos[side].name, RG_DEVICE_NAME_SIZE, "%s", run.sides[side].name);
+        snprintf(run.infos[side].device, sizeof(run.infos[side].device), "%s", llvmpipe);
+        snprintf(run.infos[side].driver, sizeof(run.infos[side].driver), "Mesa %d", side);
+    }
+}
+
+static void end(void)
+{
+    json_decref(digests[RG_SIDE_A]);
+    json_decref(digests[RG_SIDE_B]);
+    json_decref(run.parts[RG_SIDE_B]);
+    rg_baseline_free(&baseline);
+    gate.results = NULL;
+    rg_gate_free(&gate);
+}
+
+static void assert_case(int i, const char *name, enum rg_ending ending, bool compared,
+                        const char *message)
+{
+    assert_at_least(gate.report.case_count, i + 1);
+    const struct rg_report_case *c = &gate.report.cases[i];
+    assert_string_equal(c->name, name);
+    assert_string_equal(c->message, message);
+    assert_int_equal(c->ending, ending);
+    assert_int_equal(c->is_compared, compared);
+    assert_string_equal(c->technique, "fixed");
+    assert_true(c->device_count == 1 && !strcmp(c->devices[0], "gl"));
+}
+
+// --- a baseline ---
+
+static void digests_of_the_baseline_are_counted(void **state)
+{
+    (void)state;
+    begin(true, left("1111", "3333"), left("1111", "3333"));
+    assert_true(rg_gate_hold_fixed(&run));
+    assert_int_equal(gate.report.case_count, 1);
+    assert_case(0, "fixed.gl", RG_ENDING_PASS, true, "3 digests are the baseline's");
+    assert_equals(gate.report.cases[0].seconds, 0.75);
+    assert_true(gate.is_told && gate.result_count == 0);
+    assert_string_equal(gate.drivers[0], "Mesa 1");
+    end();
+    begin(true, left("1111", "3333"), left("0000", NULL));
+    assert_true(rg_gate_hold_fixed(&run));
+    assert_int_equal(gate.report.case_count, 3);
+    assert_case(0, "fixed/linear.gl", RG_ENDING_DIFFERS, true,
+                "0000 and not 1111, which is the baseline's");
+    assert_case(1, "fixed/stencil.gl", RG_ENDING_DIFFERS, true,
+                "leaves no digest and not 3333, which is the baseline's");
+    assert_case(2, "fixed.gl", RG_ENDING_PASS, true, "1 digests are the baseline's, and 2 are not");
+    assert_int_equal(gate.result_count, 2);
+    assert_string_equal(results[1].cell, "fixed/stencil");
+    assert_string_equal(results[1].device, "gl");
+    assert_string_equal(results[1].driver, "Mesa 1");
+    assert_true(results[1].outcome == RG_FAIL && isnan(results[1].pixels));
+    end();
+    begin(true, left("1111", NULL), left("1111", "3333")); // what is new is no difference
+    assert_true(rg_gate_hold_fixed(&run));
+    assert_case(0, "fixed.gl", RG_ENDING_PASS, true, "2 digests are the baseline's");
+    end();
+}
+
+static void expectations_name_them(void **state)
+{
+    (void)state;
+    static const char text[] = "fail fixed/*\n  device gl\n  driver Mesa 1\n  outcome fail\n"
+                               "  reason r\n  since 2026-01-01\n  until 2026-12-31\n";
+    assert_true(rg_known_add_text(&known, "known", text, strlen(text), RG_FORM_OWN));
+    begin(true, left("1111", NULL), left("0000", NULL));
+    assert_true(rg_gate_hold_fixed(&run));
+    assert_case(0, "fixed/nearest.gl", RG_ENDING_UNEXPECTED_PASS, true, "fixed");
+    assert_case(1, "fixed/linear.gl", RG_ENDING_EXPECTED_FAILURE, true,
+                "expected: 0000 and not 1111, which is the baseline's");
+    assert_true(results[0].outcome == RG_OK && gate.result_count == 2);
+    end();
+    rg_known_free(&known);
+}
+
+static void what_cannot_be_compared_is_skipped_and_says_why(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *part, *value;
+        enum rg_ending ending;
+        const char *why;
+    } rows[] = {
+        {"cpu", "Epyc", RG_ENDING_SKIPPED, "cpu Xeon and not Epyc"},
+        {"features", "sse2", RG_ENDING_SKIPPED, "features avx2 and not sse2"},
+        {"variables", "X=1", RG_ENDING_SKIPPED, "variables unknown and not X=1"},
+        {"device", "llvmpipe (LLVM 9, 128 bits)", RG_ENDING_SKIPPED,
+         "device llvmpipe (LLVM , 256 bits) and not llvmpipe (LLVM , 128 bits)"},
+        {"device", "llvmpipe (LLVM 9, 256 bits)", RG_ENDING_PASS, NULL},
+        {"driver", "Mesa 9", RG_ENDING_PASS, NULL},
+        {NULL, "name", RG_ENDING_UNSUPPORTED, "the device did not open"},
+        {NULL, "end", RG_ENDING_INCONCLUSIVE, "the time was over"},
+    };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        char due[200] = "3 digests are the baseline's";
+        begin(true, left("1111", "3333"), left("1111", "3333"));
+        if (rows[i].part)
+            json_object_set_new(baseline.devices[0].parts, rows[i].part,
+                                json_string(rows[i].value));
+        else if (!strcmp(rows[i].value, "name"))
+            *run.infos[RG_SIDE_B].name = 0;
+        else
+            run.end_ms = 1000;
+        if (rows[i].why)
+            snprintf(due, sizeof(due), "3 digests are not compared: %s", rows[i].why);
+        assert_true(rg_gate_hold_fixed(&run));
+        assert_int_equal(gate.report.case_count, 1);
+        assert_case(0, "fixed.gl", rows[i].ending, !rows[i].why, due);
+        end();
+    }
+}
+
+// --- two drivers ---
+
+// A linear filter may differ by 6 codes between two drivers; other draws by none.
+static void two_drivers_may_differ_as_the_apis_allow(void **state)
+{
+    (void)state;
+    static const struct {
+        uint8_t a, b;
+        bool strict;
+        enum rg_ending ending;
+        const char *said, *all;
+    } rows[] = {
+        {100, 106, false, RG_ENDING_PASS, "differs by 6 of the 6 codes that the APIs allow",
+         "2 digests are old's, 1 differ as the APIs allow"},
+        {106, 100, false, RG_ENDING_PASS, "differs by 6 of the 6 codes that the APIs allow",
+         "2 digests are old's, 1 differ as the APIs allow"},
+        {100, 102, true, RG_ENDING_DIFFERS, "differs by 2 of the 6 codes that the APIs allow",
+         "2 digests are old's, 1 differ as the APIs allow"},
+        {100, 107, false, RG_ENDING_DIFFERS, "0000 and not 1111, which is old's",
+         "2 digests are old's, and 1 are not"},
+    };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        begin(false, left("1111", "3333"), left("0000", "3333"));
+        code[RG_SIDE_A] = rows[i].a;
+        code[RG_SIDE_B] = rows[i].b;
+        request.strict = rows[i].strict;
+        assert_true(rg_gate_hold_fixed(&run));
+        assert_int_equal(gate.report.case_count, 2);
+        assert_case(0, "fixed/linear.gl", rows[i].ending, true, rows[i].said);
+        assert_case(1, "fixed.gl", RG_ENDING_PASS, true, rows[i].all);
+        assert_equals(gate.report.cases[1].seconds, 1.5);
+        end();
+    }
+    begin(false, left("1111", "3333"), left("1111", "4444")); // no bound is known of this one
+    assert_true(rg_gate_hold_fixed(&run));
+    assert_case(0, "fixed/stencil.gl", RG_ENDING_DIFFERS, true,
+                "4444 and not 3333, which is old's");
+    end();
+}
+
+static void two_drivers_that_leave_nothing_to_compare_say_so(void **state)
+{
+    (void)state;
+    char due[200];
+    for (int i = 0; i < 6; i++) {
+        begin(false, left("1111", NULL), left("1111", NULL));
+        enum rg_ending ending = RG_ENDING_CRASH;
+        const char *why = NULL, *message = i ? "gl fell" : "old fell";
+        if (i < 2) {
+            falls = i ? "gl" : "old";
+        } else if (i == 2) {
+            failed[RG_SIDE_A] = 1;
+            ending = RG_ENDING_ERROR;
+            why = "A's driver fails while it draws them";
+        } else if (i == 3) {
+            json_object_clear(digests[RG_SIDE_A]);
+            ending = RG_ENDING_UNSUPPORTED;
+            why = "A draws none of them";
+        } else if (i == 4) {
+            *run.infos[RG_SIDE_A].name = 0;
+            ending = RG_ENDING_UNSUPPORTED;
+            why = "the device did not open";
+        } else {
+            snprintf(run.infos[RG_SIDE_A].device, sizeof(run.infos[0].device), "llvmpipe");
+            ending = RG_ENDING_SKIPPED;
+            why = "device llvmpipe (LLVM , 256 bits) and not llvmpipe";
+        }
+        snprintf(due, sizeof(due), "%d digests are not compared: %s", rg_fixed_count(),
+                 why ? why : "");
+        assert_true(rg_gate_hold_fixed(&run));
+        assert_int_equal(gate.report.case_count, 1);
+        assert_case(0, "fixed.gl", ending, false, why ? due : message);
+        end();
+    }
+}
+
+static void what_the_shard_does_not_have_is_not_drawn(void **state)
+{
+    (void)state;
+    begin(true, left("1111", NULL), left("0000", NULL));
+    run.has_fixed[RG_SIDE_B] = false;
+    assert_true(rg_gate_hold_fixed(&run));
+    assert_true(gate.is_told && !gate.report.case_count);
+    end();
+}
+
+static void a_pair_has_a_case_of_them_if_the_baseline_has_digests(void **state)
+{
+    (void)state;
+    begin(true, left("1111", NULL), left("1111", NULL));
+    assert_true(rg_gate_has_fixed(&baseline, &pairs.all[0]));
+    const struct rg_gate_pair other = {{"", "old"}};
+    assert_false(rg_gate_has_fixed(&baseline, &other));
+    static const struct {
+        struct rg_gate_pair pair;
+        bool has;
+    } rows[] = {
+        {{{"vulkan", "vulkan@VK_DRIVER_FILES=new.json"}}, true},
+        {{{"vulkan", "vulkan@NOTE=1"}}, false},
+        {{{"cpu", "cpu@LD_LIBRARY_PATH=/new"}}, false},
+        {{{"gl", "vulkan@VK_DRIVER_FILES=new.json"}}, false},
+    };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        const bool is_built = rg_backend_of(rows[i].pair.names[RG_SIDE_B]);
+        assert_int_equal(rg_gate_has_fixed(NULL, &rows[i].pair), rows[i].has && is_built);
+    }
+    end();
+}
+
+int main(void)
+{
+    rg_log_listen(silent, NULL);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(digests_of_the_baseline_are_counted),
+        cmocka_unit_test(expectations_name_them),
+        cmocka_unit_test(what_cannot_be_compared_is_skipped_and_says_why),
+        cmocka_unit_test(two_drivers_may_differ_as_the_apis_allow),
+        cmocka_unit_test(two_drivers_that_leave_nothing_to_compare_say_so),
+        cmocka_unit_test(what_the_shard_does_not_have_is_not_drawn),
+        cmocka_unit_test(a_pair_has_a_case_of_them_if_the_baseline_has_digests),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
