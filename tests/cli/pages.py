@@ -212,6 +212,27 @@ def check_version(runner):
     return [] if re.fullmatch(wanted, printed) else [printed]
 
 
+# Whom each command is for, in the order of the help.
+READERS = {"Drivers: correct, and as fast as before": ("doctor", "diff", "shrink", "verify", "gate", "baseline", "bisect", "trace"),
+           "Papers: their tables, claims and figures": ("table", "claims", "sweep", "plan", "merge", "figures", "atlas"),
+           "Pictures, names and pages": ("list", "render", "report")}
+
+
+def check_usage(runner):
+    """--help, help and -h print each command once, under its readers, with what its own help begins with"""
+    printed = runner.run(["--help"]).stdout
+    sections = re.findall(r"(?m)^([A-Z][^\n]*)\n((?:  \w+ .*\n)+)", printed)
+    problems = [] if printed.startswith("raingauge COMMAND [OPTION]...\n") and printed.endswith(" prints a command's options.\n") else [printed]
+    found = {title: sorted(line.split()[0] for line in lines.splitlines()) for title, lines in sections}
+    if found != {title: sorted(names) for title, names in READERS.items()} or [title for title, _ in sections] != list(READERS):
+        problems.append("groups: %s" % found)
+    for line in "".join(lines for _, lines in sections).splitlines():
+        name, about = line.split(None, 1)
+        if runner.run([name, "--help"]).stdout.splitlines()[1] != about:
+            problems.append(line)
+    return problems + [word for word in ("help", "-h") if runner.run([word]).stdout != printed]
+
+
 PLACEHOLDER = r"[A-Z]+(-[A-Z]+)*|.*(\.\.\.|[\[\]{}<>$*]).*|\S*=[A-Z]+"
 
 
@@ -247,7 +268,7 @@ def check_documented_commands(runner):
     return problems if tried > 100 else ["only %d commands" % tried]
 
 
-CHECKS = [check_version, check_documented_commands, check_manual_is_roff, check_manual_says_what_help_says, check_manual_lists_statuses, check_completed_words,
+CHECKS = [check_version, check_usage, check_documented_commands, check_manual_is_roff, check_manual_says_what_help_says, check_manual_lists_statuses, check_completed_words,
           check_typed_lines]
 if shutil.which("man"):
     CHECKS.append(check_manual_renders)

@@ -244,6 +244,30 @@ static void what_a_number_of_arguments_leaves_unused_is_refused(void **state)
                                   "given; leave it out, or write that");
 }
 
+// Programs that start tests give flags a value; after "--" nothing is one.
+static void flags_can_have_values(void **state)
+{
+    (void)state;
+    static const char *const yes[] = {"1", "true", "yes", "on"}, *const no[] = {"0", "false", "no",
+                                                                                "off"};
+    static const char *const wrong[] = {"2", "", "y", "onn"};
+    for (int i = 0; i < 4; i++) {
+        char line[64];
+        snprintf(line, sizeof(line), "--quick=%s a", yes[i]);
+        expect_run(line, "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 10 'a'");
+        snprintf(line, sizeof(line), "--full --quick=%s", no[i]);
+        expect_run(line, "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 01");
+        snprintf(line, sizeof(line), "--quick=%s", wrong[i]);
+        assert_int_equal(run(line), RG_EXIT_USAGE);
+        assert_int_equal(log_count, 1);
+    }
+    expect_run("-- --quick=1", "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 00 '--quick=1'");
+    expect_run("--rows=1", "512x512 1-1 -1--1 60 1 1 -1 0 1 cpu none 00");
+    expect_run("--output=1", "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu 1 00"); // no flag
+    assert_int_equal(run("--quic=1"), RG_EXIT_USAGE);
+    assert_int_equal(run("--quick=1 --full"), RG_EXIT_USAGE);
+}
+
 static void there_is_room_for_so_many_words(void **state)
 {
     (void)state;
@@ -264,6 +288,7 @@ int main(void)
         cmocka_unit_test(asking_for_help_is_no_error),
         cmocka_unit_test(what_is_wrong_is_refused_in_one_line),
         cmocka_unit_test(what_a_number_of_arguments_leaves_unused_is_refused),
+        cmocka_unit_test(flags_can_have_values),
         cmocka_unit_test(there_is_room_for_so_many_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

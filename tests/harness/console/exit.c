@@ -97,6 +97,31 @@ static void the_worse_of_two_is_kept(void **state)
     }
 }
 
+// A record may tell any number; only those that commands end with are taken.
+static void a_records_status_is_one_of_ours(void **state)
+{
+    (void)state;
+    static const struct {
+        int told, taken;
+    } rows[] = {{0, 0}, {1, 1},  {2, 2},  {3, 3},   {4, 4},   {71, 71}, {77, 77},
+                {5, 1}, {-1, 1}, {70, 1}, {127, 1}, {128, 1}, {130, 1}, {1 << 30, 1}};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        json_t *json = json_integer(rows[i].told);
+        assert_int_equal(rg_exit_of_record(json), rows[i].taken);
+        json_decref(json);
+    }
+    assert_int_equal(rg_exit_with(RG_EXIT_PASS, -1), RG_EXIT_NOTHING);
+}
+
+static void output_that_is_lost_is_no_users_fault(void **state)
+{
+    (void)state;
+    rg_log_listen(ignore, NULL);
+    assert_false(rg_stdout_error());
+    rg_log_listen(NULL, NULL);
+    assert_int_equal(rg_exit_of_error(), RG_EXIT_HARNESS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -105,6 +130,8 @@ int main(void)
         cmocka_unit_test(what_proves_nothing_is_no_pass),
         cmocka_unit_test(only_users_make_bad_usage),
         cmocka_unit_test(the_worse_of_two_is_kept),
+        cmocka_unit_test(a_records_status_is_one_of_ours),
+        cmocka_unit_test(output_that_is_lost_is_no_users_fault),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,6 +37,62 @@ static void durations_have_two_digits(void **state)
     assert_string_equal(rg_duration_text(170, text), "2.8 min");
     assert_string_equal(rg_duration_text(9720, text), "2.7 h");
     assert_string_equal(rg_duration_text(720000, text), "200 h");
+    assert_string_equal(rg_duration_text(99.4, text), "99 s");
+    assert_string_equal(rg_duration_text(99.6, text), "1.7 min");
+    assert_string_equal(rg_duration_text(5964, text), "99 min");
+    assert_string_equal(rg_duration_text(5976, text), "1.7 h");
+    assert_string_equal(rg_duration_text(357840, text), "99 h");
+    assert_string_equal(rg_duration_text(360000, text), "100 h");
+}
+
+static char refused[256];
+
+static void hear_refusal(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    assert_int_equal(level, RG_LOG_ERROR);
+    snprintf(refused, sizeof(refused), "%s", line);
+}
+
+static void durations_are_read_with_their_unit(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double s; // 0: it is refused
+    } rows[] = {{"90s", 90}, {"4m", 240},     {"1h", 3600}, {"1.5h", 5400}, {"0.25s", 0.25},
+                {"90", 0},   {"90 s", 0},     {"s", 0},     {"-1s", 0},     {"0s", 0},
+                {"1d", 0},   {"4min", 0},     {"nans", 0},  {"infs", 0},    {"", 0},
+                {"278h", 0}, {"277h", 997200}};
+    rg_log_listen(hear_refusal, NULL);
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        double s = -1;
+        char due[256] = "";
+        *refused = 0;
+        assert_int_equal(rg_duration_read(rows[i].text, "--budget", &s), rows[i].s > 0);
+        if (rows[i].s > 0)
+            assert_equals(s, rows[i].s);
+        else
+            snprintf(due, sizeof(due), "--budget '%s': is no time; write it as 90s, 4m or 1h",
+                     rows[i].text);
+        assert_string_equal(refused, due);
+    }
+    rg_log_listen(NULL, NULL);
+}
+
+static void what_is_long_can_be_said(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double s;
+    } rows[] = {{"5", 5}, {"0.5", 0.5}, {"0", 30}, {"-1", 30}, {"x", 30}, {"", 30}};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        setenv("RG_LONG_S", rows[i].text, 1);
+        assert_equals(rg_long_s(), rows[i].s);
+    }
+    unsetenv("RG_LONG_S");
+    assert_equals(rg_long_s(), 30);
 }
 
 #define assert_about(ms, due) assert_true((ms) > (due)-1e-6 && (ms) < (due) + 1e-6)
@@ -66,6 +122,9 @@ static void what_is_left_follows_from_what_was_done(void **state)
     p.total = 800;
     p.marks[0] = (struct rg_progress_mark){40, 500 + 5500};
     assert_about(rg_progress_left_ms(&p, now_ms), 700 * 75);
+    p = after(6000);
+    rg_progress_due(&p, -1); // not even the units tell
+    assert_equals(rg_progress_left_ms(&p, now_ms), 0);
     p = after(6000);
     p.marks[0].done = 0; // no mark yet: the last units cannot be told from all
     assert_equals(rg_progress_left_ms(&p, now_ms), 0);
@@ -134,6 +193,8 @@ int main(void)
         return 1;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(durations_have_two_digits),
+        cmocka_unit_test(durations_are_read_with_their_unit),
+        cmocka_unit_test(what_is_long_can_be_said),
         cmocka_unit_test(what_is_left_follows_from_what_was_done),
         cmocka_unit_test(units_that_are_not_alike_tell_nothing),
         cmocka_unit_test(what_is_long_is_told),

@@ -25,14 +25,18 @@ static void test_texts(void **state)
                  {"abcd\xe2\x82\xac", "abcd\xe2\x82\xac"},
                  {"ab\xffz", "ab?z"},
                  {"", ""},
+                 {"a\x1b[\tb", "a?[ b"},
                  {"abcdef\xc3\xa9\xc3\xa9", "abcdef"}};
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         char kept[8];
         rg_text_copy(kept, sizeof(kept), cases[i].text);
         assert_string_equal(kept, cases[i].kept);
     }
-    json_t *json = rg_json_text("a\xff");
-    assert_string_equal(json_string_value(json), "a?");
+    json_t *json = rg_json_text("a\xff\xc3\xa9");
+    assert_string_equal(json_string_value(json), "a???");
+    json_decref(json);
+    json = rg_json_text("\xc3\xa9 as it is");
+    assert_string_equal(json_string_value(json), "\xc3\xa9 as it is");
     json_decref(json);
 }
 
@@ -83,12 +87,72 @@ static void test_named(void **state)
     json_decref(json);
 }
 
+// Facts are texts or numbers, and all are taken, in their order.
+static void test_copies(void **state)
+{
+    (void)state;
+    const struct rg_fact facts[] = {{.name = "faces", .number = 12345678901},
+                                    {.name = "model", .text = "bunny", .number = 7},
+                                    {.name = "share", .number = 2.0 / 3}};
+    const struct rg_counter counters[] = {{"drops", 5}, {"splashes", INT64_MAX}};
+    struct rg_named named[3];
+    struct rg_count counts[2];
+    char text[64];
+    rg_facts_copy(named, facts, 3);
+    rg_named_text(named, 3, NULL, text, sizeof(text));
+    assert_string_equal(text, "faces 12345678901, model bunny, share 0.666666667");
+    static const char *const first[] = {"share", "faces", NULL};
+    rg_named_text(named, 3, first, text, sizeof(text));
+    assert_string_equal(text, "model bunny");
+    rg_named_text(named, 0, NULL, text, sizeof(text));
+    assert_string_equal(text, "");
+    rg_counters_copy(counts, counters, 2);
+    json_t *json = rg_counts_json(counts, 2);
+    assert_int_equal(json_object_size(json), 2);
+    assert_int_equal(json_integer_value(json_object_get(json, "drops")), 5);
+    assert_int_equal(json_integer_value(json_object_get(json, "splashes")), INT64_MAX);
+    json_decref(json);
+}
+
+// Older readers know the words of the first outcomes alone; of the last two a fault tells which.
+static void test_outcomes(void **state)
+{
+    (void)state;
+    static const struct {
+        enum rg_outcome outcome;
+        const char *status, *fault;
+    } rows[] = {{RG_OK, "ok", NULL},           {RG_FAIL, "fail", NULL},
+                {RG_ERROR, "error", NULL},     {RG_CRASH, "crash", NULL},
+                {RG_TIMEOUT, "timeout", NULL}, {RG_UNSUPPORTED, "unsupported", NULL},
+                {RG_NOTHING, "nothing", NULL}, {RG_LACKING, "error", "harness"},
+                {RG_SETUP, "error", "set-up"}};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        json_t *json = json_object();
+        rg_outcome_set(json, rows[i].outcome);
+        assert_string_equal(json_string_value(json_object_get(json, "status")), rows[i].status);
+        const char *fault = json_string_value(json_object_get(json, "fault"));
+        assert_string_equal(fault ? fault : "", rows[i].fault ? rows[i].fault : "");
+        json_decref(json);
+    }
+}
+
+// Nine digits are kept, of numbers of any size.
+static void test_digits(void **state)
+{
+    (void)state;
+    assert_equals(rg_number_kept(1.0 / 3), 0.333333333);
+    assert_equals(rg_number_kept(-200000.0 / 3), -66666.6667);
+    assert_equals(rg_number_kept(2e-20 / 3), 6.66666667e-21);
+    assert_equals(rg_number_kept(12345678901234.0), 12345678901234.0); // a whole one keeps all
+    assert_true(isnan(rg_number_kept(NAN)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_texts),
-        cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_named),
+        cmocka_unit_test(test_texts),    cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_named),    cmocka_unit_test(test_copies),
+        cmocka_unit_test(test_outcomes), cmocka_unit_test(test_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

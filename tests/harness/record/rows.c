@@ -8,6 +8,7 @@
 #include "harness/record/output.h"
 #include "harness/tables/print.h"
 #include "tests/harness/record/made.h"
+#include "tests/tools/expect.h"
 
 // Rows 1 to 3, counted from 0; row 2 is missing. Their settings are "a=ROW b=2".
 static void test_kept_rows(void **state)
@@ -87,6 +88,152 @@ static void test_samples(void **state)
     rg_result_samples(&result, &least, &most);
     assert_int_equal(least, 3);
     assert_int_equal(most, 9);
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);)
+        rg_result_at(&result, at)->sample_count = 0;
+    rg_result_samples(&result, &least, &most);
+    assert_true(!least && !most);
+    rg_result_free(&result);
+}
+
+// --- cells that are counted, chosen and copied ---
+
+// Where a cell of the made result lies: a number of its own.
+static int number_of(struct rg_place at)
+{
+    return 1000 * at.row + 100 * at.work + 10 * at.variant + at.device;
+}
+
+static struct rg_result make_numbered(void)
+{
+    struct rg_result result = make_result();
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);)
+        rg_result_at(&result, at)->frames_a_sample = number_of(at);
+    return result;
+}
+
+// The numbers of its cells, in the order of visiting them.
+static const char *numbers_in(const struct rg_result *result)
+{
+    static char text[256];
+    size_t used = 0;
+    *text = 0;
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
+        used += (size_t)snprintf(text + used, sizeof(text) - used, " %d",
+                                 rg_result_at(result, at)->frames_a_sample);
+    return text;
+}
+
+// Of rows 1 and 3, two works and two variants on two devices.
+static void test_chosen(void **state)
+{
+    (void)state;
+    struct rg_result result = make_numbered();
+    assert_string_equal(numbers_in(&result), " 1000 1001 1010 1011 1100 1101 1110 1111 3000 3001 "
+                                             "3010 3011 3100 3101 3110 3111");
+    assert_int_equal(rg_result_row_cells(&result), 8);
+    assert_false(rg_result_keep_work(&result, "queries"));
+    assert_true(rg_result_keep_variant(&result, "bare"));
+    assert_string_equal(numbers_in(&result), " 1010 1011 1110 1111 3010 3011 3110 3111");
+    assert_true(rg_result_keep_work(&result, "ours"));
+    assert_string_equal(numbers_in(&result), " 1110 1111 3110 3111");
+    assert_string_equal(result.works[0].name, "ours");
+    assert_string_equal(result.works[0].saves, "less");
+    rg_result_free(&result);
+}
+
+// The second result has variants and devices in another order, and one of the works.
+static void test_taken(void **state)
+{
+    (void)state;
+    struct rg_result from = make_numbered(), into = make_result();
+    memcpy(into.works[0].name, "ours", 5);
+    into.work_count = 1;
+    memcpy(into.variants[0], "bare", 5);
+    memcpy(into.variants[1], "full", 5);
+    memcpy(into.devices[0].name, from.devices[1].name, sizeof(into.devices[0].name));
+    memcpy(into.devices[1].name, from.devices[0].name, sizeof(into.devices[0].name));
+    rg_result_drop_row(&into, 1);
+    assert_true(rg_result_add_row(&into, 2)); // which `from` lacks
+    rg_result_take(&into, &from);
+    assert_string_equal(numbers_in(&into), " 0 0 0 0 3111 3110 3101 3100");
+    rg_result_free(&from);
+    rg_result_free(&into);
+}
+
+// A row with a cell that lacks samples goes; one that ended in another way is whole.
+static void test_begun(void **state)
+{
+    (void)state;
+    struct rg_result result = make_result();
+    const struct rg_place last = {.row = 3, .work = 1, .variant = 1, .device = 0};
+    assert_true(rg_result_is_whole(&result, 1) && rg_result_is_whole(&result, 3));
+    rg_result_at(&result, last)->wanted_samples = 8; // of which it has 7
+    assert_false(rg_result_is_whole(&result, 3));
+    rg_result_drop_begun(&result);
+    assert_true(rg_result_has(&result, 1) && !rg_result_has(&result, 3));
+    assert_false(rg_result_has(&result, 0) || rg_result_has(&result, 4));
+    rg_result_free(&result);
+}
+
+// The first row that is neither there nor left out.
+static void test_missing(void **state)
+{
+    (void)state;
+    struct rg_result result = make_result();
+    assert_int_equal(rg_result_first_missing(&result), 2);
+    assert_true(rg_result_wants(&result, 2));
+    result.left_out[1] = true;
+    assert_false(rg_result_wants(&result, 2));
+    assert_true(rg_result_wants(&result, 1) && rg_result_wants(&result, 3));
+    assert_int_equal(rg_result_first_missing(&result), 4);
+    result.last_row = 2;
+    assert_false(rg_result_has(&result, 3));
+    result.last_row = 3;
+    rg_result_drop_row(&result, 1);
+    assert_int_equal(rg_result_first_missing(&result), 1);
+    rg_result_free(&result);
+}
+
+static void test_work_of_print(void **state)
+{
+    (void)state;
+    struct rg_result result = make_result();
+    assert_true(rg_result_is_of_print(&result, 0));
+    assert_false(rg_result_is_of_print(&result, 1)); // it saves work
+    result.size_divisor = 1;
+    assert_true(rg_result_is_of_print(&result, 0));
+    result.size_divisor = 2;
+    assert_false(rg_result_is_of_print(&result, 0));
+    result.size_divisor = 0;
+    memcpy(result.changed, "drops=1", 8);
+    assert_false(rg_result_is_of_print(&result, 0));
+    *result.changed = *result.hardware = 0;
+    assert_false(rg_result_is_of_print(&result, 0));
+    assert_int_equal(rg_result_printed_work(&result), 0);
+    memcpy(result.works[0].name, "queries", 8);
+    assert_int_equal(rg_result_printed_work(&result), -1);
+    memcpy(result.works[1].name, "paper", 6);
+    assert_int_equal(rg_result_printed_work(&result), 1);
+    result.work_count = 0;
+    assert_int_equal(rg_result_printed_work(&result), 0);
+    rg_result_free(&result);
+}
+
+// The fastest and the slowest time of the load, at either end of any cell that knows both.
+static void test_drift(void **state)
+{
+    (void)state;
+    struct rg_result result = make_result();
+    int cell = 0;
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at); cell++) {
+        struct rg_record *record = rg_result_at(&result, at);
+        record->calibration_begin_ms = cell == 5 ? 4 : cell == 9 ? 3 : cell == 2 ? 0 : 3.5;
+        record->calibration_end_ms = cell == 5 ? 3.5 : cell == 9 ? 2 : cell == 2 ? 1 : 3.5;
+    }
+    assert_equals(rg_result_drift(&result), 1); // 4 ms are once more than 2
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);)
+        rg_result_at(&result, at)->calibration_begin_ms = 0;
+    assert_equals(rg_result_drift(&result), 0);
     rg_result_free(&result);
 }
 
@@ -125,8 +272,11 @@ static void test_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kept_rows), cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_cells),     cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_kept_rows),     cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_cells),         cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_chosen),        cmocka_unit_test(test_taken),
+        cmocka_unit_test(test_begun),         cmocka_unit_test(test_missing),
+        cmocka_unit_test(test_work_of_print), cmocka_unit_test(test_drift),
         cmocka_unit_test(test_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -123,8 +123,6 @@ static void test_coverage(void **state)
 }
 
 // A machine that got slower along the axis, to the power 0.1, may have made the slope steeper by
-// that, and one that got faster may have hidden as much. A row without a load says nothing about
-// A machine that got slower along the axis, to the power 0.1, may have made the slope steeper by
 // that. One that got faster may have hidden as much. A row without a load says nothing about the
 // others.
 static void test_drift(void **state)
@@ -163,12 +161,61 @@ static void test_no_interval(void **state)
     assert_near(s.high, 0.7, 1e-12);
 }
 
+// Along the other direction all is reversed, ends of the interval too. What is slower throughout
+// has the same slope, and so has what was sampled in another order.
+static void test_symmetry(void **state)
+{
+    (void)state;
+    double samples[ROWS][MOST], slower[ROWS][MOST];
+    struct rg_slope_point points[ROWS], reversed[ROWS], others[ROWS];
+    scatter(samples, MOST, 0.1, 2);
+    for (int r = 0; r < ROWS; r++) {
+        for (int i = 0; i < MOST; i++)
+            slower[r][(i * 4 + r) % MOST] = 8 * samples[r][i];
+        points[r] = (struct rg_slope_point){.x = log(r + 1), .samples = samples[r], .count = MOST};
+        reversed[r] = others[r] = points[r];
+        reversed[r].x = -points[r].x;
+        others[r].samples = slower[r];
+    }
+    const struct rg_interval s = rg_slope_resampled(points, ROWS);
+    const struct rg_interval back = rg_slope_resampled(reversed, ROWS);
+    assert_near(back.median, -s.median, 1e-12);
+    assert_near(back.low, -s.high, 1e-12);
+    assert_near(back.high, -s.low, 1e-12);
+    const struct rg_interval same = rg_slope_resampled(others, ROWS);
+    assert_near(same.median, s.median, 1e-12);
+    assert_near(same.low, s.low, 1e-12);
+    assert_near(same.high, s.high, 1e-12);
+    assert_above(s.high - s.low, 1e-3);
+}
+
+// Two points: the slope is that of the medians, of even numbers of samples too, and each group has
+// a line of its own.
+static void test_slope_of_medians(void **state)
+{
+    (void)state;
+    const double low[] = {1, 1, 1, 3, 3, 3}, high[] = {16, 4, 16, 4, 4, 16};
+    const double flat[] = {5, 5, 5, 5, 5, 5, 5};
+    struct rg_slope_point points[] = {{.x = 0, .samples = low, .count = 6},
+                                      {.x = 2, .samples = high, .count = 6},
+                                      {.x = 1, .group = 1, .samples = flat, .count = 7},
+                                      {.x = 3, .group = 1, .samples = flat, .count = 7}};
+    assert_near(rg_slope_resampled(points, 2).median, log(10.0 / 2) / 2, 1e-12);
+    assert_near(rg_slope_resampled(points, 4).median, log(10.0 / 2) / 4, 1e-12);
+    const struct rg_interval level = rg_slope_resampled(points + 2, 2);
+    assert_true(level.median == 0 && level.low == 0 && level.high == 0);
+    points[3].count = 5; // of one point alone
+    const struct rg_interval few = rg_slope_resampled(points, 4);
+    assert_true(isfinite(few.median) && isnan(few.low) && isnan(few.high));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ranks),   cmocka_unit_test(test_few),
-        cmocka_unit_test(test_weights), cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_drift),   cmocka_unit_test(test_no_interval),
+        cmocka_unit_test(test_ranks),    cmocka_unit_test(test_few),
+        cmocka_unit_test(test_weights),  cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_drift),    cmocka_unit_test(test_no_interval),
+        cmocka_unit_test(test_symmetry), cmocka_unit_test(test_slope_of_medians),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

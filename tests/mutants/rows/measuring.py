@@ -11,6 +11,7 @@ PROGRESS = "harness/console/progress.c"
 SAMPLING = "harness/measure/sampling.c"
 OTHERS, RECORD = "harness/measure/others.c", "harness/record/record.c"
 PROLOGUE = "harness/doctor/prologue.c"
+DURATION = "harness/console/duration.c"
 
 ROWS = [
     Fault(OTHERS, "now->idle_ms += («ticks[IDLE] + ticks[IOWAIT]») * tick_ms;", "ticks[IDLE]", "a processor that waits for a disk is busy"),
@@ -111,4 +112,22 @@ ROWS = [
     Fault(CEILINGS, "if (!«rg_device_sync(device)»)\n            return false;", "true", "a ceiling's runs are not waited for"),
     Fault(CEILINGS, "*gb_s = ok ? «2.0» * bytes", "1.0", "a ceiling counts what is read and not what is written"),
     Fault(CEILINGS, "measure_copy(device, SMALL, «16», &ceilings->cache_gb_s)", "1", "small copies are timed one at a time"),
+    Fault(PROGRESS, "const int filled = «(int)(part * BAR_COLUMNS)»;", "(int)(part * 20)", "a bar ends before its end", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "left_s / 60, «left_s % 60»);", "left_s", "the time left has its minutes twice", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "p->drawn_ms = rg_now_ms();\n    wipe();", "wipe();", "a bar is drawn without end", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "«now_ms - p->drawn_ms > DRAW_EVERY_MS»)", "now_ms - p->drawn_ms < DRAW_EVERY_MS", "a bar is drawn at most at once", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "if (!rg_log_is_news(level, line))\n        «return;»", "", "messages over a bar come again and again", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "«level == RG_LOG_WARNING» ? \"warning: \" : \"\", line);\n    draw", "level == RG_LOG_ERROR", "errors over a bar are warnings", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "p->told_ms > 0 ? \"left\" : «\"in all\"»,", "\"left\"", "all of the time is told as what is left", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "(p->told_ms > 0 ? «left_ms» : all_ms) / 1e3", "all_ms", "the time left never shrinks", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "rg_log_listen(NULL, NULL);\n    p->shown = false;", "p->shown = false;", "a bar that is over is drawn again", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "p->due_ms = left_ms < 0 ? «-1» : rg_now_ms() + left_ms;", "0", "a time that is not known is told", tests=("progress",)),
+    Fault(DURATION, "!strcmp(end, \"m\") ? «60»", "3600", "minutes are hours", tests=("progress",)),
+    Fault(DURATION, "number > 0 && «*s < 1e6») ||", "true", "a budget may take years", tests=("progress",)),
+    Fault(DURATION, "else if («s < 99.5 * 60»)", "s < 120 * 60", "an hour and a half is told in hours", tests=("progress",)),
+    Fault(DURATION, "return given && «strtod(given, NULL) > 0» ?", "true", "a wrong RG_LONG_S has all times told", tests=("progress",)),
+    Fault(PROGRESS, "return p->done > 0 ? (now_ms - p->start_ms) / «(double)p->done» : 0;", "(double)p->total", "units take as long as if all were done", tests=("progress",)),
+    Fault(PROGRESS, "p->total += units;", "p->total = units;", "what is added is all there is", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "10 * (now_ms - p->start_ms) >= «now_ms - p->start_ms + left_ms»;", "left_ms", "a time is told before a tenth has passed", tests=("progress on a terminal",)),
+    Fault(PROGRESS, "p->first = (struct rg_progress_mark){«p->done», now_ms};", "0", "drivers' compiling counts as work", tests=("progress on a terminal",)),
 ]

@@ -7,6 +7,8 @@ ORDER, CELL, BUDGET = "harness/tables/runs/order.c", "harness/tables/measuring/c
 FARM, PLANS, MERGES = "harness/tables/farm/", ("plans of a farm",), ("merges of a farm",)
 TIMES, RECORDS, SHARDS, VISITS = ("times of a farm",), ("records of a farm",), ("shards of a farm",), ("visits to rows",)
 COMPILE, PROGRESS, MEASURE = "harness/tables/runs/compile.c", "harness/console/progress.c", "harness/tables/measuring/measure.c"
+PLAN, MERGE, PLANNED = "harness/commands/tables/plan.c", "harness/commands/tables/merge.c", "harness/commands/tables/shard.c"
+CHOSEN = "harness/commands/tables/chosen.c"
 
 ROWS = [
     Fault(FARM + "found.c", "cells += «group->cell_count»;", "groups < MOST_LINES ? group->cell_count : 0", "cells of groups that get no line are not missing", tests=("merges of a farm",)),
@@ -113,4 +115,24 @@ ROWS = [
     Fault(FARM + "shard.c", "const int exit = «rg_result_exit(&there)»;", "RG_EXIT_PASS", "a shard that goes on forgets what failed", tests=SHARDS),
     Fault(FARM + "shard.c", "«rg_closing_add(&m->closing, &result);»", ";", "a shard does not tell what it measured", tests=SHARDS),
     Fault(FARM + "shard.c", "if («!m->groups») {", "false", "a shard without groups passes", tests=SHARDS),
+    Fault(PLAN, "found = plan->groups[g].seconds > plan->groups[found].seconds ? «g» : found;", "g - 1", "a plan names the group before its largest", tests=("what a farm asks for",)),
+    Fault(PLAN, "rg_duration_text(«longest_s», longest)", "all_s", "a plan's longest shard is all of it", tests=("what a farm asks for",)),
+    Fault(PLAN, "rg_duration_text(«all_s / plan->shards», mean)", "all_s / plan->group_count", "a plan's mean is that of its groups", tests=("what a farm asks for",)),
+    Fault(PLAN, "(long long)(plan->cell_count - known), «(long long)plan->cell_count»,", "(long long)known", "a plan tells other cells than it has", tests=("what a farm asks for",)),
+    Fault(PLAN, "return «begin_ms»;\n}", "end_ms", "a plan takes the load's time at the end", tests=("what a farm asks for",)),
+    Fault(PLAN, "{.full = «o->length.full», .shards", "o->length.quick", "a full plan is a quick one", tests=("what a farm asks for",)),
+    Fault(PLAN, "if («found->first_of[g] < 0»)", "found->first_of[g] == 0", "shards that are there are missing", tests=("what a farm asks for",)),
+    Fault(PLAN, "lacks[«shard_of[g] - 1»] = true;", "shard_of[g] - (shard_of[g] > 1)", "missing shards are counted from 0", tests=("what a farm asks for",)),
+    Fault(PLAN, "const int shards = plan.shards ? «plan.shards» : o->shards;", "o->shards", "a plan's shards need to be said again", tests=("what a farm asks for",)),
+    Fault(PLAN, "if (ok && plan.shards && «o->shards && plan.shards != o->shards»)", "false", "a plan is asked for other shards than it has", tests=("what a farm asks for",)),
+    Fault(PLAN, "«known» ? \"by those of other cells; --from names records\"", "true", "guesses are told as those of other cells", tests=("what a farm asks for",)),
+    Fault(MERGE, "rg_farm_records_find(&found, &plan, words->items + 1, «words->count - 1»)", "1", "the first of several folders alone is merged", tests=("what a farm asks for",)),
+    Fault(MERGE, "if (!cells || «o->partial»)", "true", "what is missing is merged unasked", tests=("what a farm asks for",)),
+    Fault(MERGE, "for (int i = «1»; ok && i < words->count; i++)", "2", "the first folder of records is replaced by its tables", tests=("what a farm asks for",)),
+    Fault(MERGE, "if («!found->count») {", "false", "a merge of nothing is a merge", tests=("what a farm asks for",)),
+    Fault(MERGE, "return «RG_EXIT_INCONCLUSIVE»;", "RG_EXIT_PASS", "a merge that lacks cells passes", tests=("what a farm asks for",)),
+    Fault(PLANNED, "\"%s%s\", d ? «\",\"» : \"\",", "\" \"", "a plan's devices are one name", tests=("what a farm asks for",)),
+    Fault(PLANNED, "if (ok && «strcmp(plan.commit, rg_build_commit) != 0»)", "false", "a plan of another commit is measured", tests=("what a farm asks for",)),
+    Fault(PLANNED, ".timeout_s = «asked->timeout_s»};", "120", "a shard's --timeout means nothing", tests=("what a farm asks for",)),
+    Fault(CHOSEN, "if («rg_words_name(ids, rg_tables[i]->id)»)", "true", "all tables are planned", tests=("what a farm asks for",)),
 ]

@@ -14,6 +14,7 @@ TOTALS, COMPARE, CLAIMS, DOCUMENT = ("harness/tables/claims/totals.c", "harness/
 LAUNCH, PRINT, DRAW, TEXTURES = ("harness/tables/launching/launch.c", "harness/tables/print.c", "harness/tables/figures/draw.c",
                                  "harness/tables/measuring/textures.c")
 PAGES, REASONS, LAUNCHES, TAKEN = ("pages of claims",), ("reasons of verdicts",), ("launches",), ("launches, taken",)
+SHEET, TERMINAL = "harness/console/sheet.c", "harness/console/terminal.c"
 
 ROWS = [
     Fault("harness/atlas/compare.c", "«flat += comparison->rows[i].flat;»", "flat = comparison->rows[i].flat;", "of even pictures only the last is counted", tests=("command line, atlas",)),
@@ -225,4 +226,18 @@ ROWS = [
     Fault(TEXTURES, "if («own_level >= desc.levels»)", "own_level > desc.levels", "a texture has a level behind its last", tests=("regenerate",)),
     Fault(TEXTURES, "«rg_level_size(desc.width, own_level)»);", "desc.width", "each level is as wide as the first", tests=("regenerate",)),
     Fault(TEXTURES, "first_level + desc.levels «- 1»);", "- 0", "a texture is told to end with a level that it has not", tests=("regenerate",)),
+    Fault(SHEET, "return ((int)widest «+ step - 1») / step * step;", "+ step", "columns of eight letters are sixteen wide", tests=("sheets as text",)),
+    Fault(SHEET, "width += width_of(sheet, c) «+ 3»;", "+ 2", "a sheet is taken for narrower than it is", tests=("sheets as text",)),
+    Fault(SHEET, "const bool is_painted = «row >= 0» && sheet->paint;", "true", "headings are painted", tests=("sheets as text",)),
+    Fault(SHEET, "\"%*s%s%s\\033[0m |\", «width - length + 1»,", "width - length", "painted cells are a column to the left", tests=("sheets as text",)),
+    Fault(SHEET, "if (!text[strcspn(text, «\",\\\"\\n\"»)]) {", "\",\\n\"", "quotes in a cell end it", tests=("sheets as text",)),
+    Fault(SHEET, "fprintf(out, *text == '\"' ? «\"\\\"\\\"\"» : \"%c\", *text);", "\"\\\"\"", "a cell's quotes are not doubled", tests=("sheets as text",)),
+    Fault(SHEET, "strchr(«\"_%&#${}\"», *text)", "\"_%&#{}\"", "a dollar in a title begins a formula", tests=("sheets as text",)),
+    Fault(SHEET, "fprintf(out, «sheet->note_count > sheet->lead_count || !sheet->level» ?", "sheet->note_count > sheet->lead_count", "a table's end touches what follows", tests=("sheets as text",)),
+    Fault(TERMINAL, "return size.ws_col > LEAST_WIDTH ? size.ws_col : «LEAST_WIDTH»;", "size.ws_col", "a narrow terminal gets a word a line", tests=("terminals",)),
+    Fault(TERMINAL, "return is_terminal(out) && !(no && «*no») &&", "true", "an empty NO_COLOR takes the colours", tests=("terminals",)),
+    Fault(TERMINAL, "room = rg_page_width(out) «- indent»;", "- 0", "lines are longer than their page", tests=("terminals",)),
+    Fault(TERMINAL, "return is_terminal(out) && !(no && *no) && «!(term && !strcmp(term, \"dumb\"))»;", "true", "a dumb terminal has colours", tests=("terminals",)),
+    Fault(TERMINAL, "line == text ? «lead» : \"\", length", "\"\"", "a text's first line has no lead", tests=("terminals",)),
+    Fault(SHEET, "line == note ? \"- \" : «\"  \"»,", "\"- \"", "a note's lines are notes", tests=("sheets as text",)),
 ]

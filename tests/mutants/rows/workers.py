@@ -19,6 +19,7 @@ NUMBER = "return «number >= (double)field->least && number <= (double)field->mo
 FOUND, DAMAGED, IN_WORKERS, LIES = ("damaged findings",), ("damaged replies",), ("sessions in workers",), ("workers that lie, 20000",)
 
 END = "harness/devices/workers/end.c"
+INTERRUPT, EXIT, STARTED = "harness/console/interrupt.c", "harness/console/exit.c", "harness/console/started.c"
 
 ROWS = [
     Fault(END, "return WIFEXITED(status) && «WEXITSTATUS(status)» == RG_EXIT_HARNESS;", "status", "a worker without memory is taken for a driver that ended it", tests=("workers that end",)),
@@ -138,4 +139,15 @@ ROWS = [
     Fault(CACHES, "|| «!strncmp(setting, \"RG_PROGRAM=\", 11)»;", "false", "a script that sets more shares a driver's code"),
     Fault(CACHES, "use(root, f->settings_path, «RG_SIDES_KEPT»)", "1000", "folders of old settings stay"),
     Fault("harness/devices/kept.c", "rg_session_close(place->session);\n    «free_subject(&place->of);»", ";", "a kept session is taken for one of an earlier subject", tests=("kept sessions",)),
+    Fault(INTERRUPT, "if (is_watched && !noted && «number != SIGALRM») {", "true", "another's timer counts as a request to end", tests=("signals",)),
+    Fault(INTERRUPT, "patience_s = seconds;", "", "a worker is ended by its own patience", tests=("signals",)),
+    Fault(INTERRUPT, "«noted = 0;»\n    is_watched", "", "an interruption of one command ends the next", tests=("signals",)),
+    Fault(INTERRUPT, "rg_program_end_by(«noted ? noted : number»);", "number", "what ends after its patience ends by the alarm", tests=("signals",)),
+    Fault(INTERRUPT, "mask(SIG_UNBLOCK);", "", "signals that were held back never come", tests=("signals",)),
+    Fault(EXIT, "return !exit || «rg_exit_worse(exit, RG_EXIT_PASS)» ? exit : RG_EXIT_FAIL;", "true", "a record's status is any number", tests=("exit",)),
+    Fault(EXIT, "return exit == RG_EXIT_PASS && «count <= 0» ?", "count == 0", "a count that was lost passes", tests=("exit",)),
+    Fault(STARTED, "ticks / (double)sysconf(_SC_CLK_TCK)) * «1e3» +", "1e6", "a process is older than the machine", tests=("start of a process",)),
+    Fault(STARTED, "return rg_now_ms() «- (ticks > 0 && age_ms > 0 ? age_ms : 0)»;", "+ 0", "a budget begins late", tests=("start of a process",)),
+    Fault(INTERRUPT, "is_watched = 1;", "", "no signal is noted", tests=("signals",)),
+    Fault(EXIT, "case RG_LACKING:\n        return «RG_EXIT_HARNESS»;", "RG_EXIT_FAIL", "a lack of memory is a failure", tests=("exit",)),
 ]

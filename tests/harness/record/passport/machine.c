@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/utsname.h>
 
 #include "harness/record/passport/machine.h"
 #include "tests/core/root.h"
@@ -91,6 +92,8 @@ static void version_1_quotas_are_found(void **state)
     assert_equals(read_machine().quota_cpus, 0);
     put("/sys/fs/cgroup/cpu/docker/abc/cpu.cfs_quota_us", "250000\n");
     assert_equals(read_machine().quota_cpus, 2.5);
+    put("/sys/fs/cgroup/cpu/docker/abc/cpu.cfs_period_us", "none\n");
+    assert_equals(read_machine().quota_cpus, 0);
 }
 
 // In a container the path is the host's, but the group is mounted at the top.
@@ -119,6 +122,59 @@ static void clocks_are_told(void **state)
     assert_string_equal(read_machine().clocks, "performance, at most 3.6 GHz, boost on");
 }
 
+// A file of the boost outweighs that of the turbo, whose sense is the other one.
+static void boost_has_two_files(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *boost, *no_turbo, *clocks;
+    } rows[] = {{"0\n", "0\n", "boost off"},
+                {"1\n", "1\n", "boost on"},
+                {"", "0\n", "boost on"},
+                {"", "1\n", "boost off"}};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        put("/sys/devices/system/cpu/cpufreq/boost", rows[i].boost);
+        put("/sys/devices/system/cpu/intel_pstate/no_turbo", rows[i].no_turbo);
+        assert_string_equal(read_machine().clocks, rows[i].clocks);
+    }
+    put("/sys/devices/system/cpu/cpu0/cpufreq/scaling_max_freq", "2100000\n");
+    assert_string_equal(read_machine().clocks, "at most 2.1 GHz, boost off");
+}
+
+// Render nodes and NVIDIA's numbered devices count, and nothing else beside them.
+static void nodes_of_gpus_are_counted(void **state)
+{
+    (void)state;
+    static const char *const nodes[] = {
+        "/dev/dri/renderD128", "/dev/dri/renderD129", "/dev/dri/card0",  "/dev/nvidia0",
+        "/dev/nvidia12",       "/dev/nvidiactl",      "/dev/nvidia-uvm", "/dev/null"};
+    for (size_t i = 0; i < sizeof(nodes) / sizeof(nodes[0]); i++)
+        put(nodes[i], "");
+    assert_int_equal(read_machine().gpu_nodes, 4);
+}
+
+// Values stand behind any blanks, colons and equals signs; the first line that fits counts.
+static void values_are_read(void **state)
+{
+    (void)state;
+    put("/proc/cpuinfo", "flags\t\t: avx512vl avx f16c sse4_2 bmi2 avx512bw avx512cd avx512dq "
+                         "avx512f avx2 fma\nflags\t\t: sve\n");
+    put("/proc/meminfo", "MemTotal:16777216 kB\nMemTotal: 1 kB\n");
+    put("/etc/os-release", "PRETTY_NAME=Toy\nNAME=\"Other\"\n");
+    put("/sys/devices/system/cpu/online", "0-2,5-5,7");
+    const struct rg_machine machine = read_machine();
+    assert_string_equal(machine.features, "sse4_2 avx f16c fma avx2 bmi2 avx512f avx512bw avx512cd "
+                                          "avx512dq avx512vl");
+    assert_true(machine.memory_bytes == (int64_t)16 << 30);
+    assert_string_equal(machine.distribution, "Toy");
+    assert_int_equal(machine.cores_online, 5);
+    struct utsname name;
+    char kernel[sizeof(machine.kernel)];
+    assert_int_equal(uname(&name), 0);
+    snprintf(kernel, sizeof(kernel), "%.40s %.80s %.30s", name.sysname, name.release, name.machine);
+    assert_string_equal(machine.kernel, kernel);
+}
+
 static void lists_are_counted(void **state)
 {
     (void)state;
@@ -128,6 +184,11 @@ static void lists_are_counted(void **state)
     assert_int_equal(rg_cpu_list_count("x"), 0);
     assert_int_equal(rg_cpu_list_count("3-1"), 0);
     assert_int_equal(rg_cpu_list_count("1;2"), 0);
+    assert_int_equal(rg_cpu_list_count("2-2"), 1);
+    assert_int_equal(rg_cpu_list_count("0-127,130,132-133"), 131);
+    assert_int_equal(rg_cpu_list_count("1-"), 0);
+    assert_int_equal(rg_cpu_list_count("1-x"), 0);
+    assert_int_equal(rg_cpu_list_count("1,,2"), 0);
 }
 
 #define IN_A_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_root, remove_root)
@@ -142,6 +203,9 @@ int main(void)
         IN_A_FOLDER(version_1_quotas_are_found),
         IN_A_FOLDER(a_containers_quota_is_found),
         IN_A_FOLDER(clocks_are_told),
+        IN_A_FOLDER(boost_has_two_files),
+        IN_A_FOLDER(nodes_of_gpus_are_counted),
+        IN_A_FOLDER(values_are_read),
         cmocka_unit_test(lists_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

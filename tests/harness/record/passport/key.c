@@ -141,9 +141,20 @@ static void parts_are_told(void **state)
     rg_key_difference(now, now, text);
     assert_string_equal(text, "");
     rg_key_text(now, text);
-    assert_non_null(strstr(text, "cores 4; quota none; clocks performance; kernel Linux 6.1.0"));
-    assert_non_null(
-        strstr(text, "variables LP_NUM_THREADS=2; api OpenGL 4.5 core; device llvmpipe"));
+    assert_string_equal(text,
+                        "cpu Toy CPU @ 1.00GHz; features avx2 fma; cores 4; quota none; "
+                        "clocks performance; kernel Linux 6.1.0-18-amd64 x86_64; compiler gcc "
+                        "12.2.0, release; variables LP_NUM_THREADS=2; api OpenGL 4.5 core; "
+                        "device llvmpipe (LLVM 15.0.6, 256 bits); driver Mesa 22.3.6");
+    rg_key_text(then, text);
+    assert_non_null(strstr(text, "; clocks unknown; "));
+    json_decref(then);
+    json_object_set_new(json_object_get(passport, "machine"), "quota_cpus", json_real(2.5));
+    json_object_set_new(json_object_get(passport, "environment"), "OMP_PLACES", json_string("{0}"));
+    then = rg_key_parts(passport, device);
+    assert_string_equal(json_string_value(json_object_get(then, "quota")), "2.5 CPUs");
+    assert_string_equal(json_string_value(json_object_get(then, "variables")),
+                        "LP_NUM_THREADS=2 OMP_PLACES={0}");
     json_decref(then);
     json_decref(now);
     json_decref(device);
@@ -209,6 +220,70 @@ static void records_have_origins(void **state)
     rg_origins_free(&origins);
 }
 
+// The key of several devices is of all of them; without any, the machine's.
+static void keys_are_of_all_devices(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *cpu, *first, *second, *driver;
+    } rows[] = {{"Toy", NULL, NULL, ""},           {"Toy", "cpu", NULL, ""},
+                {"Toy", "cpu", "gl", "Mesa 22"},   {"Toy", "cpu", "gl", "Mesa 25"},
+                {"Other", "cpu", "gl", "Mesa 22"}, {"Other", NULL, NULL, ""}};
+    enum { COUNT = sizeof(rows) / sizeof(rows[0]) };
+    char keys[COUNT][RG_KEY_SIZE], key[RG_KEY_SIZE];
+    for (int i = 0; i < COUNT; i++) {
+        json_t *passport = passport_of(rows[i].cpu, rows[i].first, rows[i].second, rows[i].driver);
+        rg_origin_key(passport, keys[i]);
+        assert_true(rg_key_is(keys[i]));
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(keys[i], keys[k]);
+        struct rg_origins origins = {0};
+        assert_int_equal(rg_origins_find(&origins, passport), 0);
+        assert_string_equal(origins.all[0].key, keys[i]);
+        rg_origins_free(&origins);
+        json_decref(passport);
+    }
+    json_t *passport = make_passport(), *host = rg_key_parts(passport, NULL);
+    rg_key_hash(host, key);
+    rg_origin_key(passport, keys[0]); // a record that lacks its devices
+    assert_string_equal(keys[0], key);
+    json_decref(host);
+    json_decref(passport);
+}
+
+// A machine's key grows with the devices that its records bring; a part that differs on several
+// devices is told once.
+static void origins_gather_devices(void **state)
+{
+    (void)state;
+    char text[RG_KEY_TEXT], key[RG_KEY_SIZE];
+    struct rg_origins origins = {0}, others = {0};
+    json_t *first = passport_of("Toy", "cpu", NULL, ""),
+           *second = passport_of("", "gl", "cpu", "M");
+    json_t *both = passport_of("Toy", "cpu", "gl", "Mesa 22.3.6");
+    json_t *one = passport_of("Toy", "gl", NULL, "Mesa 22.3.6");
+    rg_origin_key(both, key);
+    assert_int_equal(rg_origins_find(&origins, first), 0);
+    assert_int_equal(rg_origins_find(&origins, one), 0);
+    assert_string_equal(origins.all[0].key, key);
+    json_t *device = json_array_get(json_object_get(second, "devices"), 1);
+    json_object_set_new(device, "driver", json_string("M"));
+    json_object_set_new(device, "api", json_string("C11"));
+    assert_int_equal(rg_origins_find(&others, second), 0);
+    assert_string_equal(others.all[0].text, "unknown processor, 4 cores");
+    rg_origin_difference(&origins.all[0], &others.all[0], text);
+    assert_string_equal(text, "cpu Toy and not unknown; api OpenGL 4.5 core and not C11; driver "
+                              "Mesa 22.3.6 and not M");
+    rg_origin_difference(&origins.all[0], &origins.all[0], text);
+    assert_string_equal(text, "");
+    json_decref(first);
+    json_decref(second);
+    json_decref(both);
+    json_decref(one);
+    rg_origins_free(&origins);
+    rg_origins_free(&others);
+}
+
 static void origins_have_names(void **state)
 {
     (void)state;
@@ -232,6 +307,8 @@ int main(void)
         cmocka_unit_test(parts_are_told),
         cmocka_unit_test(libraries_that_differ_are_named),
         cmocka_unit_test(records_have_origins),
+        cmocka_unit_test(keys_are_of_all_devices),
+        cmocka_unit_test(origins_gather_devices),
         cmocka_unit_test(origins_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

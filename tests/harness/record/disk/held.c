@@ -186,15 +186,73 @@ static void test_folder(void **state)
     rg_result_free(&made);
 }
 
+// Writes a result of a table of this name into a folder of the test's.
+static void write_table(const char *inner, const char *table)
+{
+    char name[48], path[128];
+    struct rg_result made = make_result();
+    snprintf(made.table, sizeof(made.table), "%s", table);
+    json_t *document = rg_result_json(&made);
+    char *text = json_dumps(document, 0);
+    snprintf(path, sizeof(path), "%s/%s", folder, inner);
+    mkdir(path, 0777);
+    snprintf(name, sizeof(name), "%s/%s.json", inner, table);
+    write_result(name, text);
+    free(text);
+    json_decref(document);
+    rg_result_free(&made);
+}
+
+// The files of a folder come by name, and then those of the folders that a comparison key names.
+static void test_machines(void **state)
+{
+    (void)state;
+    static const char *const inner[] = {
+        ".",    "0123456789abcdef", "aaaaaaaaaaaaaaaa", "0123456789abcdeF", "0123456789abcde",
+        "other"};
+    static const char *const order[] = {"t0", "u0", "t1", "u1", "t2", "u2"};
+    struct rg_stored stored = {0};
+    for (int i = 0; i < 6; i++) {
+        char table[16];
+        snprintf(table, sizeof(table), "u%d", i);
+        write_table(inner[i], table);
+        *table = 't';
+        write_table(inner[i], table);
+    }
+    write_result("bbbbbbbbbbbbbbbb", "a file of such a name");
+    assert_true(rg_stored_read(&stored, folder));
+    assert_int_equal(stored.count, 6);
+    for (int i = 0; i < 6; i++)
+        assert_string_equal(stored.results[i].table, order[i]);
+    rg_stored_free(&stored);
+    assert_true(!stored.count && !stored.results);
+    assert_int_equal(lines, 0);
+}
+
+// A folder without results, and one that is not there, are errors.
+static void test_no_results(void **state)
+{
+    (void)state;
+    char path[128];
+    struct rg_stored stored = {0};
+    write_result("a.txt", "no result");
+    write_result(".json", "no name");
+    assert_false(rg_stored_read(&stored, folder));
+    assert_non_null(strstr(rg_last_error(), ": holds no .json and no .journal; name a folder"));
+    snprintf(path, sizeof(path), "%s/none", folder);
+    assert_false(rg_stored_read(&stored, path));
+    assert_non_null(strstr(rg_last_error(), "/none: cannot be read: No such file or directory; "));
+    assert_int_equal(lines, 2);
+    rg_stored_free(&stored);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_rows),
-        TEST(test_errors),
-        TEST(test_places),
-        TEST(test_folder),
+        TEST(test_rows),   TEST(test_errors),   TEST(test_places),
+        TEST(test_folder), TEST(test_machines), TEST(test_no_results),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
