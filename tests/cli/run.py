@@ -36,7 +36,7 @@
            named    a driver that is named wrongly is refused
            sides    a second driver in a folder runs, and keeps its code apart
            doctor   the report about this machine, and a timeline of frames
-           fixed    fixed functions of drivers, and what turns parts of them off
+           fixed    fixed functions of drivers, what turns parts of them off, and faults planted into them
            native   devices that draw through the driver's own pipeline
            pages    the manual page and bash's completion
            kept     the tables that the repository keeps
@@ -49,7 +49,7 @@ import signal
 import sys
 
 sys.dont_write_bytecode = True  # the sources' folder stays unchanged
-for room in ("devices", "drivers", "printed", "tables"):
+for room in ("devices", "drivers", "drivers/fixed", "printed", "tables"):
     sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), room))
 
 import acts
@@ -78,6 +78,7 @@ import native
 import own
 import pages
 import pictures
+import planted
 import reports
 import resuming
 import shards
@@ -124,7 +125,7 @@ SUITES = {
     "compiling": lambda runner: runner.check_all(compiling.CHECKS),
     "wrong": lambda runner: runner.check_all(wrong.CHECKS),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS + traces.CHECKS),
-    "fixed": lambda runner: runner.check_all(fixed.CHECKS),
+    "fixed": lambda runner: runner.check_all(fixed.CHECKS + planted.CHECKS),
     "native": lambda runner: runner.check_all(native.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),
     "kept": lambda runner: runner.check_all(kept.CHECKS),
