@@ -221,8 +221,8 @@ struct rg_backend {
     // device blends by kernels/dialect/draw/blend.h as it is.
     bool (*can_blend)(const struct rg_device *device, const char **word);
     // Finds addresses of functions in the driver's code that serve this device: up to `max`, at
-    // least one in each file, the API's driver first. Returns their number. NULL: the program
-    // itself draws.
+    // least one in each file, the API's driver first. Returns their number, or -1, with an error
+    // logged, if the driver lacks one that every driver has. NULL: the program itself draws.
     int (*functions)(struct rg_device *device, const void **functions, int max);
     // False, and one logged line, if the driver failed while closing.
     bool (*destroy)(struct rg_device *device);

@@ -61,18 +61,22 @@ static bool choose_physical(struct vk_device *device, int index)
     return true;
 }
 
-// Whether a pixel's fragments may run in the order of items and read what it holds.
-static bool find_order(VkPhysicalDevice physical,
+// Finds out whether a pixel's fragments may run in the order of items and read what it holds.
+static bool find_order(struct vk_device *device,
                        VkPhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT *order)
 {
     VkPhysicalDeviceFeatures2 able = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                                       .pNext = order};
-    if (!vk_has_extension(physical, VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME))
+    if (!vk_find_extension(device, VK_EXT_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_EXTENSION_NAME,
+                           &device->ordered))
         return false;
-    vkGetPhysicalDeviceFeatures2(physical, &able);
+    if (!device->ordered)
+        return true;
+    vkGetPhysicalDeviceFeatures2(device->physical, &able);
     order->rasterizationOrderDepthAttachmentAccess = VK_FALSE;
     order->rasterizationOrderStencilAttachmentAccess = VK_FALSE;
-    return order->rasterizationOrderColorAttachmentAccess;
+    device->ordered = order->rasterizationOrderColorAttachmentAccess;
+    return true;
 }
 
 static void find_names(struct vk_device *device)
@@ -107,7 +111,8 @@ static bool create_logical(struct vk_device *device)
     VkPhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT order = {
         .sType =
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_FEATURES_EXT};
-    device->ordered = find_order(device->physical, &order);
+    if (!find_order(device, &order))
+        return false;
     const VkDeviceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
         .pNext = device->ordered ? &order : NULL,
@@ -146,7 +151,7 @@ static bool vk_destroy(struct rg_device *device)
     bool is_idle = true;
     if (vk->handle) {
         is_idle =
-            vk_check(vkDeviceWaitIdle(vk->handle), "vkDeviceWaitIdle", "device", device->info.name);
+            vk_close_check(vkDeviceWaitIdle(vk->handle), "vkDeviceWaitIdle", device->info.name);
         vk_fixed_close(vk);
         vk_draw_close(vk);
         vk_batches_destroy(vk);

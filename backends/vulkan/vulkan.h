@@ -177,12 +177,15 @@ bool vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info
 struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
                            const VkPhysicalDeviceLimits *limits, uint64_t max_allocation_bytes,
                            VkResult *result);
-bool vk_has_extension(VkPhysicalDevice physical, const char *name);
+// Whether the driver offers an extension. False, with an error logged, if it cannot tell.
+bool vk_find_extension(const struct vk_device *device, const char *name, bool *is_there);
 
 // api/error.c
 const char *vk_result_name(VkResult result);
 // Whether `result` is a success; if not, logs "noun 'name': call failed with ...".
 bool vk_check(VkResult result, const char *call, const char *noun, const char *name);
+// The same for the last call before a device closes. The loss of a device is logged once.
+bool vk_close_check(VkResult result, const char *call, const char *name);
 // vk_try(noun, name, vkDoIt, arguments...) calls a Vulkan function and checks its result.
 #define vk_try(noun, name, function, ...) vk_check(function(__VA_ARGS__), #function, noun, name)
 // False if the validation layer has complained since the last call.

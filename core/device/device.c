@@ -92,7 +92,7 @@ static int choose(const struct rg_device_info *infos, int count, const char *nam
 }
 
 // Lists each file that holds some of the driver's functions, once.
-static void find_libraries(struct rg_device *device)
+static bool find_libraries(struct rg_device *device)
 {
     enum { MOST_FUNCTIONS = 16 };
     const void *functions[MOST_FUNCTIONS] = {(const void *)rg_rounding_settle};
@@ -109,6 +109,7 @@ static void find_libraries(struct rg_device *device)
     }
     if (found < RG_DRIVER_LIBRARIES)
         all[found] = (struct rg_library){.path = ""};
+    return count >= 0;
 }
 
 // The length of a name without ":native" at its end.
@@ -190,8 +191,8 @@ struct rg_device *rg_device_open(const char *name)
     }
     device->backend = backend;
     device->work = work;
-    find_libraries(device);
-    if (!rg_rounding_settle(device) || (!native && !rg_blending_settle(device))) {
+    if (!find_libraries(device) || !rg_rounding_settle(device) ||
+        (!native && !rg_blending_settle(device))) {
         rg_device_close(device);
         return NULL;
     }

@@ -54,12 +54,23 @@ static const char *mend(VkResult result)
     }
 }
 
+static bool loss_is_told;
+
 bool vk_check(VkResult result, const char *call, const char *noun, const char *name)
 {
     if (result >= 0)
         return true;
+    loss_is_told = loss_is_told || result == VK_ERROR_DEVICE_LOST;
     return rg_driver_error("%s '%s': %s failed with %s%s", noun, name, call, vk_result_name(result),
                            mend(result));
+}
+
+bool vk_close_check(VkResult result, const char *call, const char *name)
+{
+    const bool is_told = loss_is_told && result == VK_ERROR_DEVICE_LOST;
+    const bool ok = !is_told && vk_check(result, call, "device", name);
+    loss_is_told = false;
+    return ok;
 }
 
 bool vk_healthy(struct vk_device *device)

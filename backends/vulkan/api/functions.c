@@ -31,7 +31,12 @@ int vk_functions(struct rg_device *device, const void **functions, int max)
     for (size_t i = 0; i < sizeof(names) / sizeof(*names) && count < max; i++) {
         const PFN_vkVoidFunction function = vkGetDeviceProcAddr(handle, names[i]);
         const void *code = *(const void *const *)&function;
-        if (code && !is_between(code))
+        if (!code) {
+            rg_driver_error("device '%s': vkGetDeviceProcAddr finds no %s", device->info.name,
+                            names[i]);
+            return -1;
+        }
+        if (!is_between(code))
             functions[count++] = code;
     }
     const void *drivers[2];

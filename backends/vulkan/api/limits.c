@@ -94,18 +94,21 @@ static bool counts_exactly(VkPhysicalDevice device)
     return able.occlusionQueryPrecise;
 }
 
-bool vk_has_extension(VkPhysicalDevice physical, const char *name)
+bool vk_find_extension(const struct vk_device *device, const char *name, bool *is_there)
 {
     uint32_t count = 0;
-    bool is_there = false;
-    vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL);
+    const char *own = device->pub.info.name;
+    *is_there = false;
+    if (!vk_try("device", own, vkEnumerateDeviceExtensionProperties, device->physical, NULL, &count,
+                NULL))
+        return false;
     VkExtensionProperties *all = rg_alloc(count + 1, sizeof(*all), "extensions");
-    if (!all || vkEnumerateDeviceExtensionProperties(physical, NULL, &count, all) < VK_SUCCESS)
-        count = 0;
-    for (uint32_t i = 0; i < count; i++)
-        is_there = is_there || !strcmp(all[i].extensionName, name);
+    const bool ok = all && vk_try("device", own, vkEnumerateDeviceExtensionProperties,
+                                  device->physical, NULL, &count, all);
+    for (uint32_t i = 0; ok && i < count; i++)
+        *is_there = *is_there || !strcmp(all[i].extensionName, name);
     free(all);
-    return is_there;
+    return ok;
 }
 
 // Says why no native device can be opened: its geometry stage draws items, which are not packed.

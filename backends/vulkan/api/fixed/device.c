@@ -14,24 +14,29 @@ struct extras {
 
 // Asks for the extensions that are there, with their features, and for all features but the one
 // that checks every access.
-static void choose(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2 *wanted,
+static bool choose(const struct vk_device *device, VkPhysicalDeviceFeatures2 *wanted,
                    struct extras *extras)
 {
+    bool has_feedback, has_provoking;
     *extras = (struct extras){
         .feedback = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT},
         .provoking = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT}};
     *wanted = (VkPhysicalDeviceFeatures2){.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    if (vk_has_extension(physical, VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME)) {
+    if (!vk_find_extension(device, VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME, &has_feedback) ||
+        !vk_find_extension(device, VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME, &has_provoking))
+        return false;
+    if (has_feedback) {
         extras->names[extras->count++] = VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME;
         wanted->pNext = &extras->feedback;
     }
-    if (vk_has_extension(physical, VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) {
+    if (has_provoking) {
         extras->names[extras->count++] = VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME;
         extras->provoking.pNext = wanted->pNext;
         wanted->pNext = &extras->provoking;
     }
-    vkGetPhysicalDeviceFeatures2(physical, wanted);
+    vkGetPhysicalDeviceFeatures2(device->physical, wanted);
     wanted->features.robustBufferAccess = VK_FALSE;
+    return true;
 }
 
 static bool create_device(struct vk_fixed *fixed)
@@ -40,7 +45,8 @@ static bool create_device(struct vk_fixed *fixed)
     struct vk_device *own = &fixed->own;
     VkPhysicalDeviceFeatures2 wanted;
     struct extras extras;
-    choose(own->physical, &wanted, &extras);
+    if (!choose(own, &wanted, &extras))
+        return false;
     const VkDeviceQueueCreateInfo queue = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
         .queueFamilyIndex = own->family.index,
@@ -67,15 +73,19 @@ static bool create_device(struct vk_fixed *fixed)
     return true;
 }
 
-static void find_functions(struct vk_fixed *fixed)
+static bool find_functions(struct vk_fixed *fixed)
 {
 #define FIND(name) (PFN_##name) vkGetDeviceProcAddr(fixed->own.handle, #name)
     if (!fixed->catches)
-        return;
+        return true;
     fixed->bind_feedback = FIND(vkCmdBindTransformFeedbackBuffersEXT);
     fixed->begin_feedback = FIND(vkCmdBeginTransformFeedbackEXT);
     fixed->end_feedback = FIND(vkCmdEndTransformFeedbackEXT);
 #undef FIND
+    return (fixed->bind_feedback && fixed->begin_feedback && fixed->end_feedback) ||
+           rg_driver_error("device '%s': vkGetDeviceProcAddr finds no functions of "
+                           "VK_EXT_transform_feedback, which the driver offers",
+                           fixed->own.pub.info.name);
 }
 
 static bool create_commands(struct vk_fixed *fixed)
@@ -124,10 +134,8 @@ struct vk_fixed *vk_fixed_open(struct vk_device *device)
     fixed->own.max_allocation_bytes = device->max_allocation_bytes;
     fixed->own.direct = device->direct;
     fixed->own.family = device->family;
-    if (create_device(fixed) && create_commands(fixed)) {
-        find_functions(fixed);
+    if (create_device(fixed) && create_commands(fixed) && find_functions(fixed))
         return device->fixed = fixed;
-    }
     destroy(fixed);
     return NULL;
 }
