@@ -273,12 +273,23 @@ static bool set_folder(const struct rg_prefix *prefix, const char *name, const c
     return !*path || rg_variables_set(variables, variable, path);
 }
 
+// The prefix's folders come before those that the worker has already.
+static bool set_libraries(const struct rg_prefix *prefix, char list[], size_t size,
+                          struct rg_worker_variables *variables)
+{
+    const char *before = rg_variables_find(variables, "LD_LIBRARY_PATH");
+    *list = 0;
+    for (int i = 0; i < prefix->folder_count; i++)
+        append(list, size, prefix->folders[i]);
+    append(list, size, before ? before : "");
+    return !*list || rg_variables_set(variables, "LD_LIBRARY_PATH", list);
+}
+
 bool rg_prefix_set(const struct rg_prefix *prefix, const char *folder,
                    struct rg_worker_variables *variables)
 {
     enum { SIZE = RG_PREFIX_DRIVERS * PATH_MAX };
     char *list = malloc(SIZE);
-    const char *before = rg_variables_find(variables, "LD_LIBRARY_PATH");
     bool ok = list && list_manifests(prefix, "vulkan", folder, list, SIZE) &&
               (!*list || (rg_variables_set(variables, "VK_DRIVER_FILES", list) &&
                           rg_variables_set(variables, "VK_ICD_FILENAMES", list)));
@@ -287,13 +298,7 @@ bool rg_prefix_set(const struct rg_prefix *prefix, const char *folder,
     ok = ok && list_manifests(prefix, "opencl", folder, list, SIZE) &&
          (!*list || (rg_variables_set(variables, "OCL_ICD_VENDORS", folder) &&
                      rg_variables_set(variables, "OCL_ICD_FILENAMES", "")));
-    if (ok)
-        *list = 0;
-    for (int i = 0; ok && i < prefix->folder_count; i++)
-        append(list, SIZE, prefix->folders[i]);
-    if (ok && before)
-        append(list, SIZE, before);
-    ok = ok && (!*list || rg_variables_set(variables, "LD_LIBRARY_PATH", list)) &&
+    ok = ok && set_libraries(prefix, list, SIZE, variables) &&
          set_folder(prefix, "dri", "LIBGL_DRIVERS_PATH", variables) &&
          set_folder(prefix, "gbm", "GBM_BACKENDS_PATH", variables);
     free(list);

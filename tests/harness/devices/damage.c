@@ -7,11 +7,13 @@
 
 #include <cmocka.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "harness/console/exit.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/workers/device.h"
 #include "harness/devices/workers/serve.h"
@@ -38,7 +40,9 @@ enum damage {
     WIDE,
     BYTES,
     HALF_A_ROW,
-    LONG_TEXT
+    LONG_TEXT,
+    ABSENT, // no damage: there is no driver
+    TWO     // nor here: there are two devices
 };
 
 static enum damage damage(void)
@@ -63,8 +67,12 @@ static bool list(struct rg_message *request, struct rg_message *reply)
     const int64_t many = INT_MAX;
     (void)request;
     const int no_outcome = RG_OUTCOME_COUNT;
-    told.infos[0] = info();
-    told.count = damage() != NO_REASON;
+    told.infos[0] = told.infos[1] = info();
+    strcpy(told.infos[1].name, "toy:1");
+    told.count = damage() == TWO ? 2 : damage() != NO_REASON && damage() != ABSENT;
+    if (damage() == ABSENT)
+        told.outcome = RG_UNSUPPORTED;
+    strcpy(told.why, damage() == ABSENT ? "toy: no driver" : "");
     if (damage() == NO_OUTCOME)
         memcpy(&told.outcome, &no_outcome, sizeof(told.outcome));
     rg_put_fields(reply, rg_told_list_fields, &told);
@@ -78,6 +86,8 @@ static bool open(struct rg_message *request, struct rg_message *reply)
 {
     const struct rg_told_device told = {info(), 0};
     (void)request;
+    if (damage() == ABSENT)
+        return rg_unsupported("device 'toy': no driver");
     rg_put_fields(reply, rg_told_device_fields, &told);
     reply->size -= damage() == NO_END;
     if (damage() == LONGER)
@@ -285,6 +295,110 @@ static void a_damaged_list_is_a_failure_of_its_backend(void **state)
     }
 }
 
+static void a_list_has_each_backend_s_devices_in_order(void **state)
+{
+    static struct rg_device_list list;
+    (void)state;
+    set_damage(TWO);
+    rg_devices_list(&list);
+    assert_int_equal(list.count, 2 * backend_count());
+    assert_int_equal(list.missing_count, 0);
+    for (int i = 0; i < list.count; i++) {
+        assert_ptr_equal(list.backends[i], rg_backends[i / 2]);
+        assert_int_equal(list.backend_index[i], i % 2);
+        assert_string_equal(list.infos[i].name, i % 2 ? "toy:1" : "toy");
+    }
+    set_damage(ABSENT);
+    rg_devices_list(&list);
+    assert_int_equal(list.count, 0);
+    assert_int_equal(list.missing_count, backend_count());
+    for (int i = 0; i < list.missing_count; i++) {
+        assert_ptr_equal(list.missing[i].backend, rg_backends[i]);
+        assert_int_equal(list.missing[i].outcome, RG_UNSUPPORTED);
+        assert_string_equal(list.missing[i].why, "toy: no driver");
+    }
+    assert_int_equal(lines, 0);
+    set_damage(NO_END);
+    rg_devices_list(&list);
+    char due[100];
+    snprintf(due, sizeof(due), "%s: device '%s': a message", rg_backends[1]->name,
+             rg_backends[1]->name);
+    assert_memory_equal(list.missing[1].why, due, strlen(due));
+}
+
+// All devices are opened, each in its backend's worker if it is the first, and those that fail are
+// left out.
+static void all_devices_are_opened_but_those_that_fail(void **state)
+{
+    static struct rg_devices devices;
+    (void)state;
+    set_damage(TWO);
+    assert_int_equal(rg_devices_open("all", &devices), 0);
+    assert_int_equal(devices.count, 2 * backend_count());
+    assert_int_equal(devices.absent_count, 0);
+    for (int i = 0; i < devices.count; i++)
+        for (int k = 0; k < i; k++)
+            assert_int_not_equal(rg_worker_process(rg_remote_worker(devices.devices[i])),
+                                 rg_worker_process(rg_remote_worker(devices.devices[k])));
+    assert_true(rg_devices_close(&devices));
+    assert_int_equal(lines, 0);
+    set_damage(ABSENT);
+    assert_int_equal(rg_devices_open("all", &devices), RG_EXIT_UNSUPPORTED);
+    assert_int_equal(devices.absent_count, backend_count());
+    assert_string_equal(devices.absent[1].name, rg_backends[1]->name);
+    assert_string_equal(devices.absent[1].why, "toy: no driver");
+    assert_int_equal(devices.absent[1].outcome, RG_UNSUPPORTED);
+    assert_int_equal(lines, backend_count()); // a warning for each
+    set_damage(LONGER);                       // only of the reply to opening
+    assert_int_equal(rg_devices_open("all", &devices), RG_EXIT_FAIL);
+    assert_int_equal(devices.count, 0);
+    assert_int_equal(devices.absent_count, backend_count());
+    assert_string_equal(devices.absent[0].name, "toy");
+    assert_int_equal(devices.absent[0].outcome, RG_ERROR);
+    assert_non_null(strstr(devices.absent[0].why, "is damaged"));
+}
+
+// Of named devices one that fails ends the opening. Where a driver is absent, the others are tried
+// all the same.
+static void named_devices_are_opened_one_by_one(void **state)
+{
+    static struct rg_devices devices;
+    (void)state;
+    set_damage(NOTHING);
+    assert_int_equal(rg_devices_open("new=toy,toy@A=1", &devices), 0);
+    assert_int_equal(devices.count, 2);
+    assert_string_equal(devices.devices[0]->info.name, "new");
+    assert_string_equal(devices.devices[0]->info.full, "toy");
+    assert_string_equal(devices.devices[1]->info.name, "toy@A=1");
+    assert_string_equal(devices.devices[1]->info.full, "toy@A=1");
+    assert_string_equal(devices.devices[1]->backend->name, rg_backends[0]->name);
+    assert_true(rg_devices_close(&devices));
+    assert_int_equal(rg_devices_open("new=toy,new=toy", &devices), RG_EXIT_USAGE);
+    assert_int_equal(devices.count, 0);
+    assert_string_equal(rg_last_error(), "--device: 'new' stands there twice; name it once");
+    assert_int_equal(rg_devices_open("toy,toy", &devices), 0); // is compared with itself
+    assert_true(rg_devices_close(&devices));
+    set_damage(ABSENT);
+    assert_int_equal(rg_devices_open("new=toy,toy", &devices), RG_EXIT_UNSUPPORTED);
+    assert_int_equal(devices.absent_count, 2);
+    assert_string_equal(devices.absent[0].name, "new");
+    assert_string_equal(devices.absent[1].why, "device 'toy': no driver");
+    assert_int_equal(devices.absent[1].outcome, RG_UNSUPPORTED);
+    // A required device that is absent or fails is a failure, in one line of its own.
+    char toy[] = "toy";
+    const struct rg_devices_asked asked = {.names = toy, .require = toy, .timeout_s = 100};
+    lines = 0;
+    assert_int_equal(rg_devices_open_asked(&asked, &devices), RG_EXIT_FAIL);
+    assert_string_equal(rg_last_error(), "--require toy: device 'toy': no driver");
+    set_damage(LONGER);
+    assert_int_equal(rg_devices_open_asked(&asked, &devices), RG_EXIT_FAIL);
+    assert_int_equal(lines, 1);
+    assert_int_equal(rg_devices_open("toy,new=toy", &devices), RG_EXIT_FAIL);
+    assert_int_equal(devices.absent_count, 1);
+    assert_string_equal(devices.absent[0].name, "toy");
+    assert_int_equal(devices.count, 0);
+}
+
 static void a_device_that_cannot_be_is_not_opened(void **state)
 {
     static const enum damage all[] = {ENDLESS_TEXT, NO_TIER, NO_END, LONGER};
@@ -365,6 +479,10 @@ static void what_closed_badly_has_not_closed(void **state)
         struct rg_device *device = rg_devices_open_one("toy");
         assert_non_null(device);
         assert_int_equal(rg_device_close(device), !unclean);
+        static struct rg_devices devices;
+        assert_int_equal(rg_devices_open("toy,toy@A=1", &devices), 0);
+        assert_int_equal(rg_devices_end(&devices, RG_EXIT_PASS),
+                         unclean ? RG_EXIT_FAIL : RG_EXIT_PASS);
         unsetenv("RG_TEST_UNCLEAN");
     }
     assert_int_equal(lines, 0); // the cause was logged before
@@ -432,6 +550,9 @@ int main(int argc, char **argv)
         return rg_serve(argv[2], services);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_damaged_list_is_a_failure_of_its_backend),
+        cmocka_unit_test(a_list_has_each_backend_s_devices_in_order),
+        cmocka_unit_test(all_devices_are_opened_but_those_that_fail),
+        cmocka_unit_test(named_devices_are_opened_one_by_one),
         cmocka_unit_test(a_device_that_cannot_be_is_not_opened),
         cmocka_unit_test(contents_are_what_is_said_of_them),
         cmocka_unit_test(digests_are_whole_rows),

@@ -20,6 +20,7 @@
 #include "core/base/doing.h"
 #include "core/base/log.h"
 #include "harness/console/exit.h"
+#include "harness/console/interrupt.h"
 #include "harness/devices/workers/serve.h"
 #include "harness/devices/workers/worker.h"
 
@@ -128,6 +129,23 @@ static bool tell_process(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+// Waits for the interruption that the harness passes on.
+static bool wait_for_signal(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    for (int i = 0; i < 20000 && !rg_interrupted(); i++)
+        usleep(1000);
+    rg_put_int(reply, rg_interrupt_signal());
+    return true;
+}
+
+static bool shut(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    rg_put_fields(reply, rg_closed_fields, &(bool){true});
+    return true;
+}
+
 static bool greet(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
@@ -136,10 +154,19 @@ static bool greet(struct rg_message *request, struct rg_message *reply)
 }
 
 static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
-    [RG_CALL_STEP] = double_it,     [RG_CALL_READ] = send_many,     [RG_CALL_DRAW] = refuse,
-    [RG_CALL_SYNC] = end,           [RG_CALL_TIME] = hang,          [RG_CALL_COUNT] = swell,
-    [RG_CALL_OPEN] = leave_a_child, [RG_CALL_TELL] = tell_variable, [RG_CALL_LIST] = tell_process,
-    [RG_CALL_PROBE] = print_much,   [RG_CALL_HELLO] = greet,
+    [RG_CALL_STEP] = double_it,
+    [RG_CALL_READ] = send_many,
+    [RG_CALL_DRAW] = refuse,
+    [RG_CALL_SYNC] = end,
+    [RG_CALL_TIME] = hang,
+    [RG_CALL_COUNT] = swell,
+    [RG_CALL_OPEN] = leave_a_child,
+    [RG_CALL_TELL] = tell_variable,
+    [RG_CALL_LIST] = tell_process,
+    [RG_CALL_PROBE] = print_much,
+    [RG_CALL_HELLO] = greet,
+    [RG_CALL_CLOSE] = shut,
+    [RG_CALL_FRAMES] = wait_for_signal,
 };
 
 // --- in the harness ---
@@ -295,6 +322,85 @@ static void it_lives_three_times(void **state)
     assert_string_equal(logged, "device 'toy': left out, for its process has ended 3 times\n");
 }
 
+// Whoever crashes a driver on purpose starts it anew, as often as needed.
+static void it_lives_again_when_it_is_renewed(void **state)
+{
+    int64_t result;
+    assert_string_equal(rg_worker_end_doing(*state), "");
+    for (int i = 0; i < RG_WORKER_LIVES; i++)
+        assert_int_equal(ask(*state, RG_CALL_SYNC, SIGKILL, NULL), RG_CRASH);
+    assert_string_equal(rg_worker_end_doing(*state), " while running kernel 'flow_blur'");
+    assert_int_equal(ask(*state, RG_CALL_STEP, 1, &result), RG_CRASH);
+    rg_worker_renew(*state);
+    for (int i = 0; i < RG_WORKER_LIVES; i++)
+        assert_int_equal(ask(*state, RG_CALL_SYNC, SIGKILL, NULL), RG_CRASH);
+    rg_worker_renew(*state);
+    assert_int_equal(ask(*state, RG_CALL_STEP, 1, &result), RG_OK);
+    const int life = rg_worker_life(*state);
+    assert_int_equal(life, 2 * RG_WORKER_LIVES + 1);
+    rg_worker_renew(*state); // ends one that runs, too
+    assert_int_equal(rg_worker_process(*state), 0);
+    assert_false(rg_worker_has(*state, life));
+    assert_int_equal(ask(*state, RG_CALL_STEP, 1, &result), RG_OK);
+    assert_int_equal(rg_worker_life(*state), life + 1);
+}
+
+// What was open in a life that is over is told as lost, as that life ended.
+static void what_was_open_is_lost_with_its_process(void **state)
+{
+    int64_t result;
+    assert_int_equal(ask(*state, RG_CALL_STEP, 1, &result), RG_OK);
+    assert_true(rg_worker_still_has(*state, 1));
+    rg_workers.timeout_s = 0;
+    assert_int_equal(ask(*state, RG_CALL_TIME, 0, NULL), RG_TIMEOUT);
+    *logged = 0;
+    assert_false(rg_worker_still_has(*state, 1));
+    assert_int_equal(rg_failure_take().outcome, RG_TIMEOUT);
+    assert_string_equal(logged, "device 'toy': what was open on it has gone with its process\n");
+}
+
+// A process that ends badly when all is done is told, and only then.
+static void the_end_after_closing_counts(void **state)
+{
+    (void)state;
+    int64_t result;
+    for (int badly = 0; badly < 2; badly++) {
+        struct rg_worker *worker = rg_worker_create("toy", badly ? "RG_TEST_END=9\0" : NULL);
+        assert_true(rg_worker_retire(worker)); // never ran
+        assert_int_equal(ask(worker, RG_CALL_STEP, 1, &result), RG_OK);
+        assert_true(rg_worker_retire(worker));
+        assert_string_equal(logged, "");
+        assert_int_equal(rg_worker_destroy(worker), !badly);
+    }
+    assert_string_equal(logged,
+                        "device 'toy': its process ended with status 9 when all was done\n");
+    struct rg_worker *worker = rg_worker_create("toy", "RG_TEST_END=9\0");
+    assert_int_equal(ask(worker, RG_CALL_STEP, 1, &result), RG_OK);
+    rg_worker_closes_badly(worker);
+    assert_true(rg_worker_destroy(worker)); // was not asked to close its device
+    worker = rg_worker_create("toy", NULL);
+    assert_int_equal(ask(worker, RG_CALL_STEP, 1, &result), RG_OK);
+    rg_driver_error("a session cannot be closed");
+    rg_worker_closes_badly(worker);
+    assert_false(rg_worker_retire(worker));
+    assert_true(rg_worker_destroy(worker));
+    assert_true(rg_worker_destroy(NULL));
+}
+
+// An interruption reaches a worker, which is in a group of processes of its own.
+static void an_interruption_is_passed_on(void **state)
+{
+    int64_t number = 0, result = 0;
+    assert_int_equal(ask(*state, RG_CALL_STEP, 1, &result), RG_OK);
+    rg_interrupt_watch();
+    raise(SIGTERM);
+    assert_int_equal(ask(*state, RG_CALL_FRAMES, 0, &number), RG_OK);
+    rg_interrupt_watch();
+    assert_int_equal(number, SIGINT);
+    assert_int_equal(ask(*state, RG_CALL_STEP, 4, &result), RG_OK);
+    assert_int_equal(result, 8);
+}
+
 static void a_worker_that_is_killed_while_it_waits_crashed(void **state)
 {
     int64_t process = 0, result;
@@ -428,8 +534,10 @@ static void no_worker_outlives_the_harness(void **state)
 
 int main(int argc, char **argv)
 {
-    if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
-        return rg_serve(argv[2], services);
+    if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT)) {
+        const int status = rg_serve(argv[2], services);
+        return getenv("RG_TEST_END") ? atoi(getenv("RG_TEST_END")) : status;
+    }
     const struct CMUnitTest tests[] = {
 #define WITH_WORKER(test) cmocka_unit_test_setup_teardown(test, begin, finish)
         WITH_WORKER(results_come_back),
@@ -443,6 +551,10 @@ int main(int argc, char **argv)
         WITH_WORKER(what_is_printed_without_end_is_dropped),
         WITH_WORKER(the_end_is_seen_though_its_child_holds_the_channel),
         WITH_WORKER(it_lives_three_times),
+        WITH_WORKER(it_lives_again_when_it_is_renewed),
+        WITH_WORKER(what_was_open_is_lost_with_its_process),
+        WITH_WORKER(the_end_after_closing_counts),
+        WITH_WORKER(an_interruption_is_passed_on),
         WITH_WORKER(a_worker_that_is_killed_while_it_waits_crashed),
         WITH_WORKER(a_crash_leaves_no_core_file),
         WITH_WORKER(an_end_is_seen_where_sigchld_is_ignored),

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -126,9 +127,11 @@ static bool probe(struct rg_message *request, struct rg_message *reply)
     rg_probe_name(results);
     for (int i = 0; i < RG_PROBE_COUNT; i++)
         results[i].compared = RG_PROBE_INPUTS;
-    results[1].different = 2; // zeros of unlike signs, which are 0 ulps apart
-    results[2].different = RG_PROBE_INPUTS;
-    results[2].largest_ulps = UINT32_MAX;
+    if (!getenv("RG_TEST_WELL")) {
+        results[1].different = 2; // zeros of unlike signs, which are 0 ulps apart
+        results[2].different = RG_PROBE_INPUTS;
+        results[2].largest_ulps = UINT32_MAX;
+    }
     hurt(results, RG_CALL_PROBE);
     rg_put_fields(reply, rg_probe_fields, results);
     return true;
@@ -138,6 +141,9 @@ static bool drawing(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_drawing drawing = {.count = 1, .formats = {{RG_RGBA16F, RG_DRAWING_PIXELS}}, .ms = 2};
     (void)request;
+    if (getenv("RG_TEST_WELL"))
+        drawing = (struct rg_drawing){
+            .count = 2, .formats = {{RG_RGBA8, 12}, {RG_RGBA16F, atoi(getenv("RG_TEST_WELL"))}}};
     hurt(&drawing, RG_CALL_DRAWING);
     rg_put_fields(reply, rg_drawing_fields, &drawing);
     return true;
@@ -284,6 +290,11 @@ static void what_is_sound_is_taken(void **state)
     const struct rg_examination e = examined(NO_DAMAGE);
     assert_true(e.measured);
     assert_int_equal(e.status, RG_FAIL); // two operations differ
+    char due[100];
+    snprintf(due, sizeof(due), "2 of %d operations that kernels use give other bits than C",
+             RG_PROBE_OP_COUNT);
+    assert_string_equal(e.why, due);
+    assert_string_equal(e.info.device, "Toy");
     assert_string_equal(e.probe[2].name, "multiply");
     assert_int_equal(e.probe[1].different, 2);
     assert_int_equal(e.probe[1].largest_ulps, 0);
@@ -299,6 +310,36 @@ static void what_is_sound_is_taken(void **state)
     assert_equals(e.ceilings.memory_gb_s, 1);
     assert_equals(e.ceilings.arithmetic_gop_s, 3);
     assert_int_equal(lines, 0);
+}
+
+// Drawings are judged where all operations give the same bits, by the device's tier.
+static void a_device_that_draws_wrongly_is_not_well(void **state)
+{
+    (void)state;
+    setenv("RG_TEST_WELL", "12", 1);
+    const struct rg_examination well = examined(NO_DAMAGE);
+    assert_int_equal(well.status, RG_OK);
+    assert_string_equal(well.why, "");
+    setenv("RG_TEST_WELL", "13", 1);
+    const struct rg_examination wrong = examined(NO_DAMAGE);
+    assert_int_equal(wrong.status, RG_FAIL);
+    assert_string_equal(wrong.why,
+                        "13 of 12288 pixels drawn into RGBA16F, with depth and blending, "
+                        "are not what cpu:reference draws");
+    unsetenv("RG_TEST_WELL");
+    assert_int_equal(lines, 0);
+}
+
+// Only a name that no device can have is the user's error.
+static void a_name_that_cannot_be_is_unknown(void **state)
+{
+    (void)state;
+    struct rg_examination e = {.info.name = "toy@"};
+    rg_doctor_examine(&e);
+    assert_true(e.is_unknown && !e.opened);
+    assert_non_null(strstr(e.why, "no KEY=value follows its '@'"));
+    const struct rg_examination damaged = examined(0); // while it is opened
+    assert_false(damaged.is_unknown || damaged.opened);
 }
 
 static void what_cannot_be_ends_an_examination(void **state)
@@ -364,6 +405,8 @@ int main(int argc, char **argv)
         return rg_serve(argv[2], services);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_sound_is_taken),
+        cmocka_unit_test(a_device_that_draws_wrongly_is_not_well),
+        cmocka_unit_test(a_name_that_cannot_be_is_unknown),
         cmocka_unit_test(what_cannot_be_ends_an_examination),
         cmocka_unit_test(what_a_session_cannot_say_is_refused),
     };

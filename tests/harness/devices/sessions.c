@@ -17,59 +17,10 @@
 #include "harness/devices/frames/session.h"
 #include "harness/measure/serving/serving.h"
 #include "harness/devices/workers/device.h"
+#include "tests/harness/devices/workers/pair.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/instance.h"
 
-enum { LOCAL, REMOTE, FRAMES = 5 };
-
-static char logged[2048];
-
-static void keep(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    const size_t used = strlen(logged);
-    snprintf(logged + used, sizeof(logged) - used, "%s\n", line);
-}
-
-// A device here and the same one in a worker, and a subject.
-struct pair {
-    struct rg_device *devices[2];
-    struct rg_session *sessions[2];
-    void *settings;
-    struct rg_subject subject;
-};
-
-static struct pair open_pair(const char *technique, const char *set, int frames)
-{
-    struct pair pair = {.subject = {rg_technique_find(technique), NULL, 48, 32}};
-    pair.subject.settings = pair.settings = settings_of(technique, "", set);
-    rg_workers.program = "/proc/self/exe";
-    pair.devices[REMOTE] = rg_devices_open_one("cpu");
-    pair.devices[LOCAL] = rg_device_open("cpu");
-    for (int i = 0; i < 2; i++) {
-        assert_non_null(pair.devices[i]);
-        pair.sessions[i] = rg_session_run(pair.devices[i], &pair.subject, frames);
-        assert_non_null(pair.sessions[i]);
-    }
-    assert_null(rg_remote_worker(pair.devices[LOCAL]));
-    assert_non_null(rg_remote_worker(pair.devices[REMOTE]));
-    return pair;
-}
-
-static void close_pair(struct pair *pair)
-{
-    for (int i = 0; i < 2; i++) {
-        rg_session_close(pair->sessions[i]);
-        assert_true(rg_device_close(pair->devices[i]));
-    }
-    free(pair->settings);
-}
-
-static struct pair open_flow(int frames)
-{
-    return open_pair("flow", "environment_px=64 resolution_px=96", frames);
-}
+enum { FRAMES = 5 };
 
 static void devices_tell_the_same_of_themselves(void **state)
 {
@@ -169,19 +120,6 @@ static void accounts_and_counts_are_the_same(void **state)
         assert_equals(accounts[LOCAL].facts[i].number, accounts[REMOTE].facts[i].number);
     }
     close_pair(&pair);
-}
-
-struct stages {
-    int count;
-    const char *kernels[64];
-    double ms;
-};
-
-static void note_stage(const char *kernel, double ms, void *user)
-{
-    struct stages *stages = user;
-    stages->kernels[stages->count++] = kernel;
-    stages->ms += ms;
 }
 
 static void stages_are_told_in_the_same_order(void **state)

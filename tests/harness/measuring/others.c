@@ -1,3 +1,4 @@
+#define _GNU_SOURCE // sched_setaffinity
 // Other processes' load: how it is read, which samples it has retaken, and when it is reported. It
 // comes from a scripted /proc/stat, and from a clock that only the script moves.
 #include <setjmp.h>
@@ -6,10 +7,13 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
@@ -67,6 +71,97 @@ static void test_reading(void **state)
     assert_int_equal(system(path), 0);
 }
 
+// Writes processors whose ticks of idle time and steal differ, and a line of all that is rounded
+// otherwise, as Linux does.
+static void write_uneven(const char *root, int processors)
+{
+    char path[256];
+    snprintf(path, sizeof(path), "%s/proc/stat", root);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "cpu  0 0 0 5000 50 0 0 500 0 0\n");
+    for (int i = 0; i < processors; i++)
+        fprintf(file, "cpu%d 0 0 0 %d 0 0 0 %d 0 0\n", i, 100 + i, 10 + i);
+    assert_int_equal(fclose(file), 0);
+}
+
+// A process that may use one processor reads that one alone; one that may use all, their sum.
+static void test_processors_of_this_process(void **state)
+{
+    (void)state;
+    char root[] = "/tmp/raingauge-stat-XXXXXX", path[256];
+    const double tick_ms = 1e3 / (double)sysconf(_SC_CLK_TCK);
+    cpu_set_t before, one;
+    assert_int_equal(sched_getaffinity(0, sizeof(before), &before), 0);
+    int last = CPU_SETSIZE - 1;
+    while (!CPU_ISSET(last, &before))
+        last--;
+    assert_non_null(mkdtemp(root));
+    snprintf(path, sizeof(path), "%s/proc", root);
+    assert_int_equal(mkdir(path, 0700), 0);
+    CPU_ZERO(&one);
+    CPU_SET(last, &one);
+    assert_int_equal(sched_setaffinity(0, sizeof(one), &one), 0);
+    write_uneven(root, last + 2);
+    struct rg_processors now = rg_processors_read(root, NULL, 0);
+    assert_int_equal(now.count, 1);
+    assert_ms(now.idle_ms, (100 + last) * tick_ms);
+    assert_ms(now.stolen_ms, (10 + last) * tick_ms);
+    assert_ms(now.grain_ms, tick_ms);
+    assert_int_equal(sched_setaffinity(0, sizeof(before), &before), 0);
+    if (CPU_COUNT(&before) == last + 1) {
+        write_uneven(root, last + 1);
+        now = rg_processors_read(root, NULL, 0);
+        assert_int_equal(now.count, last + 1);
+        assert_ms(now.idle_ms, 5050 * tick_ms);
+        assert_ms(now.stolen_ms, 500 * tick_ms);
+        assert_ms(now.grain_ms, tick_ms); // that line is rounded once
+    }
+    snprintf(path, sizeof(path), "rm -r %s", root);
+    assert_int_equal(system(path), 0);
+}
+
+enum { BURNT_MS = 40 };
+
+// Computes for so long on a processor.
+static void burn(void)
+{
+    volatile double kept = 0;
+    struct timespec since, now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &since);
+    do {
+        for (int i = 0; i < 100000; i++)
+            kept += sqrt(i);
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    } while ((double)(now.tv_sec - since.tv_sec) * 1e3 +
+                 (double)(now.tv_nsec - since.tv_nsec) * 1e-6 <
+             BURNT_MS + 10);
+}
+
+// Our own time is that of this process, of its children that have ended, and of those that are
+// named.
+static void test_own_time(void **state)
+{
+    (void)state;
+    const pid_t self = getpid();
+    struct rg_processors before = rg_processors_now(NULL, 0);
+    burn();
+    struct rg_processors after = rg_processors_now(NULL, 0);
+    assert_at_least(after.own_ms - before.own_ms, BURNT_MS);
+    assert_at_most(after.own_ms - before.own_ms, 1000 * BURNT_MS); // in milliseconds
+    assert_at_least(rg_processors_now(&self, 1).own_ms - after.own_ms, BURNT_MS);
+    before = rg_processors_now(NULL, 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        burn();
+        _exit(0);
+    }
+    assert_int_equal(waitpid(child, NULL, 0), child);
+    after = rg_processors_now(NULL, 0);
+    assert_at_least(after.own_ms - before.own_ms, BURNT_MS);
+    assert_at_most(after.own_ms - before.own_ms, 1000 * BURNT_MS);
+}
+
 static void test_taken(void **state)
 {
     (void)state;
@@ -86,6 +181,12 @@ static void test_taken(void **state)
     assert_equals(rg_taken_between(&before, &after).others, 0);
     after.count = 0; // nothing is known
     assert_equals(rg_taken_between(&before, &after).stolen, 0);
+    after.count = 3; // another processor came
+    assert_equals(rg_taken_between(&before, &after).stolen, 0);
+    after.count = 2;
+    assert_above(rg_taken_between(&before, &after).stolen, 0);
+    const struct rg_processors unknown = {.grain_ms = 10};
+    assert_equals(rg_taken_between(&unknown, &after).stolen, 0);
 }
 
 // Ten seconds of two processors. Our process ran and waited on one of them. `busy_ms` counts all
@@ -157,7 +258,8 @@ static void begin_machine(double from_ms, double to_ms, double share)
 enum { SAMPLES = 12, JOBS = 2 };
 static struct rg_record records[JOBS];
 
-// Two jobs with samples of 50 ms, and a frame of 50 ms before each: five samples make a batch.
+// Two jobs with samples of 50 ms, and a frame of 50 ms before each: three samples make a batch,
+// which takes 500 ms of two processors.
 static void measure_until(double end_ms)
 {
     static const struct fake_script scripts[JOBS] = {{.letter = 'A', .draw_ms = 50},
@@ -237,7 +339,7 @@ static void test_disturbed_once(void **state)
         for (int k = 0; k < SAMPLES; k++)
             assert_ms(records[i].samples_ms[k], 50);
     }
-    assert_in_range(retaken_of_all(), 2, 6);
+    assert_int_equal(retaken_of_all(), 3);
 }
 
 // Others stay: samples are retaken twice, and then kept, whatever their times.
@@ -247,7 +349,7 @@ static void test_disturbed_always(void **state)
     char mark[RG_MARK_SIZE];
     begin_machine(0, 1e9, 0.5);
     measure();
-    assert_in_range(retaken_of_all(), 3 * 2 * 2, 3 * 2 * 6); // three batches, twice
+    assert_int_equal(retaken_of_all(), 3 * 2 * 3); // three batches of three samples, twice
     for (int i = 0; i < JOBS; i++) {
         assert_int_equal(rg_record_disturbed(&records[i]), SAMPLES);
         rg_record_mark(&records[i], mark);
@@ -340,6 +442,9 @@ static void test_prologue(void **state)
     write_heat(root, 1, 10);
     assert_false(rg_prologue_end(&prologue));
     assert_non_null(strstr(heard, "takes no cells now: its processors were slowed 3 times"));
+    write_heat(root, 0, 9);
+    assert_false(rg_prologue_end(&prologue));
+    assert_non_null(strstr(heard, "takes no cells now: its processors were slowed 7 times"));
     rg_log_listen(NULL, NULL);
     snprintf(command, sizeof(command), "rm -r %s", root);
     assert_int_equal(system(command), 0);
@@ -372,6 +477,8 @@ int main(void)
     unsetenv("RG_PROBE_S");
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reading),
+        cmocka_unit_test(test_processors_of_this_process),
+        cmocka_unit_test(test_own_time),
         cmocka_unit_test(test_taken),
         cmocka_unit_test(test_waiting),
         cmocka_unit_test(test_quiet),

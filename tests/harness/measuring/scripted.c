@@ -25,7 +25,9 @@ static void test_open(void **state)
     struct bench bench;
     begin(&bench);
     struct rg_job *job = add(&bench, &script, 4), *alone = add(&bench, &script, 1);
+    job->record->outcome = RG_CRASH; // of an earlier try
     assert_true(rg_job_open(job));
+    assert_int_equal(job->record->outcome, RG_OK);
     assert_string_equal(fake_events(), "(|A.|AA|A.|");
     assert_ms(job->record->create_ms, 30);
     assert_ms(job->record->first_frame_ms, 42);
@@ -146,6 +148,26 @@ static void test_window_is_not_timed(void **state)
     for (int i = 0; i < bench.records[0].sample_count; i++)
         assert_ms(bench.records[0].samples_ms[i], 4);
     assert_non_null(strstr(fake_events(), "(AAA.|A.|A.A.A.A.|"));
+    end(&bench);
+}
+
+// A session is opened anew only where the next frames do not fit into its window: two samples of
+// six frames do, and twelve frames in which passes are timed.
+static void test_windows_are_used_up(void **state)
+{
+    (void)state;
+    const struct fake_script script = {.letter = 'A', .draw_ms = 4};
+    struct bench bench;
+    begin(&bench);
+    add(&bench, &script, 3)->window_frames = 12;
+    measure(&bench, &plain);
+    assert_int_equal(bench.records[0].frames_a_sample, 5);
+    assert_int_equal(bench.records[0].sample_count, 8);
+    assert_int_equal(bench.records[0].pass_frames, 40);
+    int opened = 0;
+    for (const char *event = fake_events(); *event; event++)
+        opened += *event == '(';
+    assert_in_range(opened, 4 + 3, 5 + 4); // the first ones may be left from before
     end(&bench);
 }
 
@@ -275,6 +297,7 @@ int main(void)
         cmocka_unit_test(test_samples),
         cmocka_unit_test(test_bounds_of_samples),
         cmocka_unit_test(test_window_is_not_timed),
+        cmocka_unit_test(test_windows_are_used_up),
         cmocka_unit_test(test_calibration),
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_spread),
