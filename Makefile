@@ -144,13 +144,22 @@ claims: committed build
 # One test more than there are cores, since some wait: for drivers that hang, and for locks.
 AT_ONCE = --num-processes $$(($$(nproc) + 1))
 
-test: whole $(ASAN)/build.ninja $(TSAN)/build.ninja
+# Tests of host code run under sanitizers alone, and only what each build tests is built in it.
+DRIVEN = --no-suite host
+SANITIZED = --suite sanitized --suite host
+NEEDED = python3 tests/tools/needed.py
+
+test: $(BUILD)/build.ninja $(ASAN)/build.ninja $(TSAN)/build.ninja
+	@$(MAKE) --no-print-directory setup FOR=tests
+	@$(ALL_LEVELS)
+	@echo "== building the program and its tests in $(BUILD)"
+	@$(STEPS) $(BUILD)/build.log ninja -C $(BUILD) program $$($(NEEDED) $(BUILD) $(DRIVEN))
 	@echo "== building in $(ASAN)"
-	@$(STEPS) $(ASAN)/build.log ninja -C $(ASAN)
+	@$(STEPS) $(ASAN)/build.log ninja -C $(ASAN) $$($(NEEDED) $(ASAN) $(SANITIZED))
 	@echo "== testing, all devices"
-	@meson test -C $(BUILD) --no-rebuild --print-errorlogs $(AT_ONCE) --no-suite host || true
+	@meson test -C $(BUILD) --no-rebuild --print-errorlogs $(AT_ONCE) $(DRIVEN) || true
 	@echo "== testing under sanitizers, the CPU devices and the harness"
-	@meson test -C $(ASAN) --no-rebuild --print-errorlogs $(AT_ONCE) --suite sanitized --suite host || true
+	@meson test -C $(ASAN) --no-rebuild --print-errorlogs $(AT_ONCE) $(SANITIZED) || true
 	@echo "== testing in $(TSAN): whether threads race"
 	@meson test -C $(TSAN) --print-errorlogs --suite watched || true
 	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json \
