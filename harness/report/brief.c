@@ -427,8 +427,8 @@ char *rg_page_badge(const struct rg_page *page)
         snprintf(said, sizeof(said), "%d of %d claims hold", stands[RG_STAND_HOLDS], all);
     json_decref(document);
     char *text = draw(title, said,
-                      failures                                ? "#b3261e"
-                      : stands[RG_STAND_HOLDS] || found.cases ? "#17733a"
-                                                              : "#666");
+                      failures                                               ? "#b3261e"
+                      : stands[RG_STAND_HOLDS] || found.cases + found.checks ? "#17733a"
+                                                                             : "#666");
     return text ? text : rg_harness_error_null("report: no memory for a badge; name fewer records");
 }

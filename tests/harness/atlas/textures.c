@@ -9,16 +9,16 @@
 #include <string.h>
 
 #include <cmocka.h>
-#include <dirent.h>
 #include <math.h>
-#include <unistd.h>
 
+#include "core/base/log.h"
 #include "core/image/files/io.h"
 #include "harness/atlas/textures.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/instance.h"
 
-static char folder[] = "/tmp/raingauge-textures-XXXXXX";
+static char folder[] = "/tmp/raingauge-textures-XXXXXX",
+            dots_folder[] = "/tmp/raingauge-dots-XXXXXX";
 static struct rg_texture_rows rows;
 static struct rg_device *device;
 
@@ -101,6 +101,21 @@ static void files_have_what_the_rain_samples(void **state)
 }
 
 // Six tones lie in the channels of two layers, which share the fourth.
+static int channel_of(int tone)
+{
+    return tone > 3 ? tone - 3 : tone;
+}
+
+// A picture of grey shows its codes as they are.
+static void expect_grey(const char *name, const uint32_t *words, int channel)
+{
+    struct rg_picture p = picture_of(name, ".png");
+    assert_int_equal(p.channels, 1);
+    for (int64_t i = 0; i < rg_picture_values(&p); i++)
+        assert_int_equal(lround(255 * display((double)p.texels[i])), byte_of(words[i], channel));
+    rg_picture_destroy(&p);
+}
+
 static void files_have_what_hatching_samples(void **state)
 {
     (void)state;
@@ -114,7 +129,9 @@ static void files_have_what_hatching_samples(void **state)
             assert_int_equal(p.channels, 1);
             for (int64_t i = 0; i < rg_picture_values(&p); i++)
                 assert_int_equal(lround((double)p.texels[i] * 255),
-                                 byte_of(words[i], tone > 3 ? tone - 3 : tone));
+                                 byte_of(words[i], channel_of(tone)));
+            if (!level)
+                expect_grey(rows.items[21 + tone].name, words, channel_of(tone));
             rg_picture_destroy(&p);
             free(words);
         }
@@ -144,24 +161,124 @@ static void the_sheet_shows_each_texture(void **state)
     rg_picture_destroy(&sheet);
 }
 
+// A texture's cell of the sheet: paint over the colour of a wet wall, or grey; each texel as often
+// as 256 pixels have it.
+static void expect_cell(const struct rg_picture *sheet, int number, const uint32_t *words,
+                        int channel)
+{
+    static const double ground[] = {0.13, 0.17, 0.22};
+    const bool is_paint = channel < 0;
+    const int side = rows.items[number].side_px;
+    const int row = number < 3 ? 0 : 1 + (number - 3) / 6,
+              column = (number < 3 ? number : (number - 3) % 6);
+    for (int i = 0; i < 256 * 256; i++) {
+        const int x = i % 256, y = i / 256;
+        const uint32_t word = words[y * side / 256 * side + x * side / 256];
+        const int at = (row * 268 + 12 + y) * sheet->width + column * 268 + 12 + x;
+        for (int c = 0; c < 3; c++) {
+            const double paint =
+                byte_of(word, c) / 255.0 + ground[c] * (1 - byte_of(word, 3) / 255.0);
+            const double due = is_paint ? 255 * display(paint) : byte_of(word, channel);
+            assert_below(fabs(255 * display((double)sheet->texels[sheet->channels * at + c]) - due),
+                         0.51);
+        }
+    }
+}
+
+static void the_sheet_shows_textures_as_they_are(void **state)
+{
+    (void)state;
+    struct rg_picture sheet = picture_of("sheet", ".png");
+    struct rg_instance *cartoon = open_cartoon("style=hatching drops_s=0");
+    for (int number = 0; number < 27; number++) {
+        const int tone = number - 21;
+        uint32_t *words = number < 21 ? sampled(cartoon, "rain_textures", number, 0)
+                                      : sampled(cartoon, "strokes", tone > 3, 0);
+        expect_cell(&sheet, number, words, number < 21 ? -1 : channel_of(tone));
+        free(words);
+    }
+    rg_instance_close(cartoon);
+    rg_picture_destroy(&sheet);
+}
+
+// --- other techniques ---
+
+// As many textures of one texel as `made` says, the last of which is at this place.
+static struct {
+    int count, row, column, side_px;
+} made;
+
+static bool make_dots(rg_take_texture *take, void *user)
+{
+    static const uint32_t words[512 * 512];
+    for (int i = 0; i < made.count; i++) {
+        struct rg_made_texture t = {.name = "dot", .side_px = 1, .words = words};
+        if (i == made.count - 1)
+            t.row = made.row, t.column = made.column, t.side_px = made.side_px;
+        if (!take(user, &t))
+            return false;
+    }
+    return true;
+}
+
+static char last_line[256];
+
+static void keep_line(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)user;
+    snprintf(last_line, sizeof(last_line), "%s", line);
+}
+
+// Lists hold 64 textures, and sheets have 8 rows of 6 cells of 256 pixels.
+static void what_does_not_fit_is_refused(void **state)
+{
+    (void)state;
+    static const struct rg_technique dots = {.name = "dots", .make_textures = make_dots},
+                                     none = {.name = "none"};
+    static const char beyond[] = "dot: its place is beyond the sheet of 6 x 8 cells of 256 px";
+    static const struct {
+        int count, row, column, side_px;
+        bool is_written;
+        const char *says; // NULL: it fits
+    } cases[] = {
+        {RG_MAX_TEXTURE_ROWS, 0, 0, 1, false, NULL},
+        {RG_MAX_TEXTURE_ROWS + 1, 0, 0, 1, false, "dot: one texture too many; 64 is the most"},
+        {1, 7, 5, 256, true, NULL},
+        {1, 8, 0, 1, true, beyond},
+        {1, 0, 6, 1, true, beyond},
+        {1, 0, 0, 257, true, beyond}};
+    struct rg_texture_rows of;
+    rg_log_listen(keep_line, NULL);
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        made.count = cases[i].count, made.row = cases[i].row;
+        made.column = cases[i].column, made.side_px = cases[i].side_px;
+        *last_line = 0;
+        assert_int_equal(rg_textures_make(&dots, cases[i].is_written ? dots_folder : NULL, &of),
+                         !cases[i].says);
+        assert_string_equal(last_line, cases[i].says ? cases[i].says : "");
+        assert_true(cases[i].says || of.count == cases[i].count);
+    }
+    assert_false(rg_textures_make(&none, NULL, &of));
+    assert_string_equal(last_line,
+                        "technique 'none': it generates no textures; `raingauge atlas --help`");
+    rg_log_listen(NULL, NULL);
+}
+
 static int make_files(void **state)
 {
     (void)state;
     device = rg_device_open("cpu");
-    return !device || !mkdtemp(folder) ||
+    return !device || !mkdtemp(folder) || !mkdtemp(dots_folder) ||
            !rg_textures_make(rg_technique_find("cartoon"), folder, &rows);
 }
 
 static int remove_files(void **state)
 {
     (void)state;
-    DIR *opened = opendir(folder);
-    for (struct dirent *entry; opened && (entry = readdir(opened));) {
-        char path[512];
-        snprintf(path, sizeof(path), "%s/%s", folder, entry->d_name);
-        unlink(path);
-    }
-    return !opened || closedir(opened) || rmdir(folder) || !rg_device_close(device);
+    char command[128];
+    snprintf(command, sizeof(command), "rm -r %s %s", folder, dots_folder);
+    return system(command) || !rg_device_close(device);
 }
 
 int main(void)
@@ -170,6 +287,8 @@ int main(void)
         cmocka_unit_test(files_have_what_the_rain_samples),
         cmocka_unit_test(files_have_what_hatching_samples),
         cmocka_unit_test(the_sheet_shows_each_texture),
+        cmocka_unit_test(the_sheet_shows_textures_as_they_are),
+        cmocka_unit_test(what_does_not_fit_is_refused),
     };
     return cmocka_run_group_tests(tests, make_files, remove_files);
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <webp/decode.h>
+#include <webp/encode.h>
 
 #include "harness/report/pictures/codes.h"
 #include "tests/tools/expect.h"
@@ -100,12 +101,36 @@ static void test_others_are_left(void **state)
     free(png);
 }
 
+// WebP holds 16383 pixels along a side.
+static void test_sizes(void **state)
+{
+    (void)state;
+    static uint8_t line[4 * (WEBP_MAX_DIMENSION + 1)];
+    for (int turned = 0; turned < 2; turned++)
+        for (int more = 0; more < 2; more++) {
+            const int side = WEBP_MAX_DIMENSION + more;
+            png_image image = {.version = PNG_IMAGE_VERSION,
+                               .width = turned ? 1 : (png_uint_32)side,
+                               .height = turned ? (png_uint_32)side : 1,
+                               .format = PNG_FORMAT_RGBA};
+            png_alloc_size_t size = 0;
+            struct rg_codes codes;
+            assert_true(png_image_write_to_memory(&image, NULL, &size, 0, line, 0, NULL));
+            void *png = malloc(size);
+            assert_true(png_image_write_to_memory(&image, png, &size, 0, line, 0, NULL));
+            assert_int_equal(rg_codes_of_png(png, size, &codes), !more);
+            rg_codes_free(&codes);
+            free(png);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nothing_is_lost),
         cmocka_unit_test(test_digests),
         cmocka_unit_test(test_others_are_left),
+        cmocka_unit_test(test_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

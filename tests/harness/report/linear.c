@@ -86,11 +86,46 @@ static void test_several(void **state)
     rg_linear_free(&linear);
 }
 
+// A picture that is smaller than the surroundings is shown whole, and each text ends with its last
+// value.
+static void test_small(void **state)
+{
+    (void)state;
+    struct rg_linear linear = {.names = {"left", "right"}, .count = 2};
+    const char *texts[2];
+    for (int i = 0; i < 2; i++) {
+        assert_true(rg_picture_create(&linear.pictures[i], 3, 2, 1, "picture"));
+        for (int k = 0; k < 6; k++)
+            linear.pictures[i].texels[k] = (float)k;
+    }
+    linear.pictures[1].texels[4] = 4.5f;
+    linear.pictures[1].texels[5] = -5;
+    json_t *json = rg_linear_json(&linear);
+    assert_int_equal(json_array_size(json_object_get(json, "worst")), 1);
+    static const char *const fields[] = {"x", "y", "left", "top", "width", "height"};
+    static const int due[] = {2, 1, 0, 0, 3, 2};
+    for (int i = 0; i < 6; i++)
+        assert_int_equal(at(json, 0, fields[i]), due[i]);
+    const json_t *pictures = json_object_get(json, "pictures");
+    for (int i = 0; i < 2; i++) {
+        const json_t *picture = json_array_get(pictures, (size_t)i);
+        assert_string_equal(json_string_value(json_object_get(picture, "name")), linear.names[i]);
+        texts[i] = json_string_value(json_array_get(json_object_get(picture, "values"), 0));
+    }
+    assert_string_equal(texts[0], "0 1 2 3 4 5");
+    assert_string_equal(texts[1], "= = = = 4.5 -5");
+    assert_int_equal(json_integer_value(json_object_get(json, "channels")), 1);
+    assert_int_equal(json_integer_value(json_object_get(json, "differing")), 2);
+    json_decref(json);
+    rg_linear_free(&linear);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_worst),
         cmocka_unit_test(test_several),
+        cmocka_unit_test(test_small),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,7 +43,8 @@ def check_tables(raingauge, folder):
     printed = tables["creus-5.4"]["printed"]
     if printed["columns"][0] != "culling_radius_m" or printed["rows"][0]["values"][:2] != [5, 70303] or printed["paper"] != "creus":
         problems.append(printed)
-    if any("samples_ms" in cell.get("measured", {}) for record in tables.values() for cell in record["document"]["cells"]):
+    cells = [cell for record in tables.values() for cell in record["document"]["cells"]]
+    if any("checksum" in cell or {"samples_ms", "taken", "passes_share"} & set(cell.get("measured", {})) for cell in cells):
         problems.append("samples are in the page, which shows medians and intervals alone")
     if len(data["gallery"]) != 3 or any(shown["file"] not in data["files"] or not shown["caption"].endswith(".") for shown in data["gallery"]):
         problems.append(data["gallery"])

@@ -316,6 +316,8 @@ static void numbers_have_two_or_three_digits(void **state)
         double number;
         const char *rate, *ratio;
     } cases[] = {{0.0123, "0.012", "0.01"},  {0.0994, "0.099", "0.10"}, {0.4567, "0.46", "0.46"},
+                 {0.0996, "0.10", "0.10"},   {0.994, "0.99", "0.99"},   {9.94, "9.94", "9.9"},
+                 {99.94, "99.9", "100"},     {9.96, "9.96", "10"},      {0.00049, "0.000", "0.00"},
                  {0.996, "1.00", "1.0"},     {1.27, "1.27", "1.3"},     {9.994, "9.99", "10"},
                  {9.996, "10.0", "10"},      {27.44, "27.4", "27"},     {99.96, "100", "100"},
                  {12345.6, "12346", "12346"}};
@@ -350,6 +352,12 @@ static void headings_have_units(void **state)
         char text[64];
         rg_digits_heading(cases[i][0], cases[i][1], text, sizeof(text));
         assert_string_equal(text, cases[i][2]);
+        for (size_t size = 1; size < sizeof(text); size += 7) { // less room cuts it
+            char cut[64];
+            snprintf(cut, size, "%s", cases[i][2]);
+            rg_digits_heading(cases[i][0], cases[i][1], text, size);
+            assert_string_equal(text, cut);
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -229,14 +230,102 @@ static void test_work_of_print(void **state)
     }
 }
 
+// --- what a table tells of itself ---
+
+static const struct rg_table told = {
+    .id = "told",
+    .technique = "drops",
+    .hardware = "paper",
+    .columns = {"columns", "merge", "faces", "fps", "fps_few"},
+    .key_count = 2,
+    .has_choices = true,
+    .variants = {{"full", "", "fps"}, {"few", "", "fps_few"}, {"bare", "", NULL}},
+    .quick = "a=1",
+    .smaller = {"s=16", "s=4"},
+    .row_count = 2,
+    .rows = (const struct rg_table_row[]){{"", {1234567, 1, 7, 30, 40}, NULL},
+                                          {"", {0.25, 0, 8, 31, 41}, NULL}},
+};
+
+static void expect_said(const struct rg_table *table, int row, int column, const char *due)
+{
+    char text[32];
+    rg_table_value_text(table, row, column, text, sizeof(text));
+    assert_string_equal(text, due);
+}
+
+// Choices have names and numbers all their digits; a rate belongs to its variant.
+static void test_values(void **state)
+{
+    (void)state;
+    static const bool is_extra[] = {false, false, true, false, false};
+    struct rg_table plain = told;
+    plain.has_choices = false;
+    plain.hardware = NULL;
+    expect_said(&told, 0, 0, "1234567");
+    expect_said(&told, 1, 0, "0.25");
+    expect_said(&told, 0, 1, "on");
+    expect_said(&told, 1, 1, "off");
+    expect_said(&plain, 0, 1, "1");
+    for (int c = 0; c < 5; c++) {
+        assert_equals(rg_table_value(&told, 1, told.columns[c]), told.rows[1].values[c]);
+        assert_int_equal(rg_table_is_choice(&told, c), c == 1);
+        assert_false(rg_table_is_choice(&plain, c));
+        assert_int_equal(rg_table_is_extra(&told, c), is_extra[c]);
+    }
+    assert_true(isnan(rg_table_value(&told, 1, "fps_bare")));
+    assert_equals(rg_table_published_fps(&told, 1, 0), 31);
+    assert_equals(rg_table_published_fps(&told, 0, 1), 40);
+    assert_true(isnan(rg_table_published_fps(&told, 0, 2)));
+    assert_true(isnan(rg_table_published_fps(&plain, 0, 0)));
+    assert_true(rg_table_is_published(&told) && !rg_table_is_published(&plain));
+}
+
+// Settings of quick mode, and behind them those of pictures of a fourth and of half the size.
+static void test_quick_settings(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *quick, *fourth, *half;
+        const char *due[3]; // for the divisors 1, 2 and 4
+    } cases[] = {{"a=1", "s=16", "s=4", {"a=1", "a=1 s=4", "a=1 s=16"}},
+                 {NULL, "s=16", "s=4", {"", "s=4", "s=16"}},
+                 {"a=1", NULL, NULL, {"a=1", "a=1", "a=1"}},
+                 {NULL, NULL, NULL, {"", "", ""}}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++)
+        for (int k = 0; k < 3; k++) {
+            const struct rg_table table = {
+                .id = "t", .quick = cases[i].quick, .smaller = {cases[i].fourth, cases[i].half}};
+            char *text = rg_table_quick(&table, 1 << k);
+            assert_string_equal(text, cases[i].due[k]);
+            free(text);
+        }
+}
+
+static void test_names(void **state)
+{
+    (void)state;
+    struct rg_table own = told;
+    assert_string_equal(rg_table_paper(&told), "chin");
+    own.is_own = true;
+    assert_string_equal(rg_table_paper(&own), "");
+    own.is_own = false;
+    own.technique = "nonsense";
+    assert_string_equal(rg_table_paper(&own), "");
+    for (int i = 0; rg_tables[i]; i++)
+        assert_ptr_equal(rg_table_find(rg_tables[i]->id), rg_tables[i]);
+    assert_null(rg_table_find("creus-5"));
+    assert_null(rg_table_find("creus-5.44"));
+}
+
 int main(int argc, char **argv)
 {
     folder = argc > 1 ? argv[1] : "results/published";
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_published),
-        cmocka_unit_test(test_settings),
-        cmocka_unit_test(test_works),
-        cmocka_unit_test(test_work_of_print),
+        cmocka_unit_test(test_published), cmocka_unit_test(test_settings),
+        cmocka_unit_test(test_works),     cmocka_unit_test(test_work_of_print),
+        cmocka_unit_test(test_values),    cmocka_unit_test(test_quick_settings),
+        cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

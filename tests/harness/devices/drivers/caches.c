@@ -116,7 +116,7 @@ static void make_old(const char *parent, int count)
         const char *path = text_of("%s/%02d", parent, i);
         struct timespec used[2] = {{.tv_sec = 1000000 + i}, {.tv_sec = 1000000 + i}};
         assert_int_equal(mkdir(path, 0700), 0);
-        assert_int_equal(mkdir(text_of("%s/mesa", path), 0700), 0);
+        assert_int_equal(mkdir(text_of("%s/%02d/mesa", parent, i), 0700), 0);
         assert_int_equal(utimensat(AT_FDCWD, path, used, 0), 0);
     }
 }

@@ -211,12 +211,120 @@ static void test_range(void **state)
     rg_result_free(&rig.result);
 }
 
+// What a cell tells of its times and its work, beside cpu:reference of its row.
+static void test_times(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    static const struct {
+        int row;
+        const char *column, *text;
+    } due[] = {{0, "fps", "50.0"},
+               {0, "ms", "20.000"},
+               {0, "ms, 95 %", "19.992 to 20.008"},
+               {0, "first frame ms", "12.3"},
+               {0, "API / wall clock", "0.99"},
+               {0, "x cpu:reference", "5.0"},
+               {1, "x cpu:reference", "1.0"},
+               {2, "x cpu:reference", ""}, // the row's reference failed
+               {4, "x cpu:reference", "0.5"},
+               {4, "API / wall clock", "1.06 untrusted"},
+               {6, "API / wall clock", "0.79 untrusted"},
+               {0, "items a frame", "123"},
+               {0, "records a frame", "45"},
+               {0, "fragments a frame", ""}, // the device cannot count them
+               {1, "items a frame", ""}};
+    sheet_measure_on(&rig, &sheet_names_table, (double[]){50, 10, 10, 0, 11, 22, 20, 20}, 2);
+    struct rg_record *first = sheet_record_at(&rig, 0, 0);
+    first->first_frame_ms = 12.34;
+    first->api_over_wall = 0.987;
+    first->has_tally = true;
+    first->tally = (struct rg_tally){.items = 123, .records = 45, .fragments = -1};
+    sheet_record_at(&rig, 2, 0)->api_over_wall = 1.06;
+    sheet_record_at(&rig, 3, 0)->api_over_wall = 0.79;
+    rg_result_sheet(&rig.result, &sheet);
+    for (size_t i = 0; i < sizeof(due) / sizeof(due[0]); i++)
+        sheet_expect_text(&sheet, due[i].row, due[i].column, due[i].text);
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+}
+
+// Printed rates stand behind what else is printed, and a measured value for each of the others. An
+// error that is unknown is told by its outcome.
+static void test_columns(void **state)
+{
+    (void)state;
+    static const char *const due[] = {"radius_m",
+                                      "camera",
+                                      "published particles",
+                                      "published fps",
+                                      "variant",
+                                      "device",
+                                      "fps",
+                                      "noise",
+                                      "ms",
+                                      "ms, 95 %",
+                                      "fps / published",
+                                      "x cpu:reference",
+                                      "first frame ms",
+                                      "API / wall clock",
+                                      "particles",
+                                      "error, FLIP",
+                                      "passes, synced"};
+    struct rig rig;
+    struct rg_sheet sheet;
+    sheet_measure(&rig, &sheet_axis_table, (double[]){40, 80, 20, 40, 10, 10});
+    sheet_tell(sheet_record_at(&rig, 2, 1), "particles", 784812.5);
+    sheet_record_at(&rig, 0, 0)->truth_error.flip_mask_mean = 0.12345;
+    sheet_record_at(&rig, 0, 1)->truth_error.outcome = RG_UNSUPPORTED;
+    rg_result_sheet(&rig.result, &sheet);
+    assert_int_equal(sheet.column_count, sizeof(due) / sizeof(due[0]));
+    for (int c = 0; c < sheet.column_count; c++)
+        assert_string_equal(sheet.columns[c], due[c]);
+    sheet_expect_text(&sheet, 0, "error, FLIP", "0.1235");
+    sheet_expect_text(&sheet, 1, "error, FLIP", "unsupported");
+    sheet_expect_text(&sheet, 0, "particles", "");
+    sheet_expect_text(&sheet, 5, "particles", "784812.5");
+    sheet_expect_text(&sheet, 5, "device", "cpu");
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+}
+
+static void expect_marks(const struct rig *rig, const char *due)
+{
+    char text[RG_TITLE_SIZE];
+    rg_result_marks(&rig->result, text, sizeof(text));
+    assert_string_equal(text, due);
+}
+
+// The widest interval and the largest share of all cells are told, and cells that failed are not
+// counted.
+static void test_marks(void **state)
+{
+    (void)state;
+    struct rig rig;
+    sheet_measure(&rig, &sheet_names_table, (double[]){50, 0, 11, 20});
+    expect_marks(&rig, "");
+    sheet_record_at(&rig, 0, 0)->taken[3] = 0.07;
+    sheet_record_at(&rig, 3, 0)->taken[10] = 0.04;
+    expect_marks(&rig, "In 1 of 3 others took over 5 % of the processors (busy, !; up to 7 %).");
+    sheet_record_at(&rig, 2, 0)->frame_ms.high *= 1.44;
+    sheet_record_at(&rig, 3, 0)->frame_ms.high *= 1.21;
+    expect_marks(&rig, "2 of 3 cells have intervals wider than 1.1 times (+-, ~; up to 20 %). In 1 "
+                       "of 3 others took over 5 % of the processors (busy, !; up to 7 %).");
+    sheet_record_at(&rig, 0, 0)->taken[3] = 0;
+    expect_marks(&rig, "2 of 3 cells have intervals wider than 1.1 times (+-, ~; up to 20 %).");
+    rg_result_free(&rig.result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sheet),  cmocka_unit_test(test_sheet_of_names),
         cmocka_unit_test(test_passes), cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_range),
+        cmocka_unit_test(test_range),  cmocka_unit_test(test_times),
+        cmocka_unit_test(test_marks),  cmocka_unit_test(test_columns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

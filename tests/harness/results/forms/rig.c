@@ -62,11 +62,13 @@ const struct rg_table sheet_axis_table = {
 
 struct rg_device sheet_device = {.info = {.name = "cpu", .software = true}};
 
-void sheet_measure_few(struct rig *rig, const struct rg_table *table, const double *fps,
-                       int samples)
+static struct rg_device other_devices[] = {{.info = {.name = "cpu:reference", .software = true}},
+                                           {.info = {.name = "gl"}},
+                                           {.info = {.name = "vulkan"}}};
+
+static void measure(struct rig *rig, const struct rg_table *table, const double *fps, int samples)
 {
     const struct rg_table_part part = {.last_row = table->row_count - 1};
-    rig->devices = (struct rg_devices){.count = 1, .devices = {&sheet_device}};
     rig->result = (struct rg_result){0};
     rg_table_begin(&rig->result, table, &part, &rig->devices);
     for (int row = 0; row < table->row_count; row++)
@@ -84,9 +86,24 @@ void sheet_measure_few(struct rig *rig, const struct rg_table *table, const doub
     }
 }
 
+void sheet_measure_few(struct rig *rig, const struct rg_table *table, const double *fps,
+                       int samples)
+{
+    rig->devices = (struct rg_devices){.count = 1, .devices = {&sheet_device}};
+    measure(rig, table, fps, samples);
+}
+
 void sheet_measure(struct rig *rig, const struct rg_table *table, const double *fps)
 {
     sheet_measure_few(rig, table, fps, 11);
+}
+
+void sheet_measure_on(struct rig *rig, const struct rg_table *table, const double *fps, int devices)
+{
+    rig->devices = (struct rg_devices){
+        .count = devices,
+        .devices = {&sheet_device, &other_devices[0], &other_devices[1], &other_devices[2]}};
+    measure(rig, table, fps, 11);
 }
 
 // The record of a row and variant.

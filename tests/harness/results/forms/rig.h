@@ -27,6 +27,10 @@ void sheet_measure_few(struct rig *rig, const struct rg_table *table, const doub
                        int samples);
 // The same with eleven samples.
 void sheet_measure(struct rig *rig, const struct rg_table *table, const double *fps);
+// The same on so many of cpu, cpu:reference, gl and vulkan, whose rates follow each other in a
+// cell.
+void sheet_measure_on(struct rig *rig, const struct rg_table *table, const double *fps,
+                      int devices);
 // The trend of one variant of a table measured at these frame rates.
 struct rg_trend sheet_trend_of(const struct rg_table *table, int variant, const double *fps);
 

@@ -190,6 +190,130 @@ static void test_first_row_left_out(void **state)
     rg_result_free(&rig.result);
 }
 
+// Each verdict has its words.
+static void test_words(void **state)
+{
+    (void)state;
+    static const char *const due[] = {
+        [RG_TREND_REPRODUCED] = "reproduced",  [RG_TREND_ONLY] = "trend only",
+        [RG_TREND_ORDER] = "same order",       [RG_TREND_NOT] = "not reproduced",
+        [RG_TREND_UNDECIDED] = "undecided",    [RG_TREND_GROWTH] = "growth",
+        [RG_TREND_UNKNOWN] = "not comparable", [RG_TREND_OTHER_WORK] = "other work"};
+    for (int i = 0; i <= RG_TREND_OTHER_WORK; i++)
+        assert_string_equal(rg_trend_text((enum rg_trend_verdict)i), due[i]);
+}
+
+static void expect_shape(const json_t *shape, const char *variant, const char *verdict,
+                         bool same_ranking, int pairs, int in_order, int undecided)
+{
+    const char *device, *of, *told;
+    int same, numbers[3];
+    assert_int_equal(0, json_unpack((json_t *)shape, "{ss, ss, ss, sb, si, si, si}", "device",
+                                    &device, "variant", &of, "verdict", &told, "same_ranking",
+                                    &same, "pairs", &numbers[0], "pairs_in_order", &numbers[1],
+                                    "pairs_undecided", &numbers[2]));
+    assert_string_equal(device, "cpu");
+    assert_string_equal(of, variant);
+    assert_string_equal(told, verdict);
+    assert_int_equal(same, same_ranking);
+    assert_int_equal(numbers[0], pairs);
+    assert_int_equal(numbers[1], in_order);
+    assert_int_equal(numbers[2], undecided);
+}
+
+// In documents and in notes: a variant whose order is open, and one that has another order.
+static void test_shapes(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    sheet_measure(&rig, &sheet_axis_table, (double[]){40, 10, 20, 39, 19.999, 41});
+    json_t *shapes = rg_trends_json(&rig.result);
+    assert_int_equal(json_array_size(shapes), 2);
+    const json_t *open = json_array_get(shapes, 0);
+    expect_shape(open, "full", "undecided", true, 3, 3, 1);
+    expect_shape(json_array_get(shapes, 1), "no_geometry", "not reproduced", false, 2, 0, 0);
+    double slope, printed;
+    assert_int_equal(
+        0, json_unpack((json_t *)open, "{sF, sF}", "slope", &slope, "published_slope", &printed));
+    assert_below(fabs(slope + 0.5), 1e-3);
+    assert_below(fabs(printed + 1), 1e-9);
+    assert_null(json_object_get(open, "work"));
+    assert_true(json_is_real(json_object_get(open, "slope_low")));
+    assert_true(json_is_number(json_object_get(open, "published_margin")));
+    json_decref(shapes);
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(sheet_has_note(&sheet,
+                               "Shape on cpu, full: undecided. fps keeps the published order (3 of "
+                               "3 pairs of rows; the samples do not settle 1); it goes with "
+                               "radius_m to the power -0.50 (95 %: -0.50 to -0.50), published "
+                               "-1.00 ("));
+    assert_true(sheet_has_note(&sheet,
+                               "Shape on cpu, no_geometry: not reproduced. fps does not keep the "
+                               "published order (0 of 2 pairs of rows)"));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+}
+
+// Rows without an axis have no slope, and their works have names.
+static void test_shapes_without_an_axis(void **state)
+{
+    (void)state;
+    struct rig rig;
+    sheet_measure(&rig, &sheet_styles_table, (double[]){50, 100, 60, 110, 45, 50, 60, 110});
+    json_t *shapes = rg_trends_json(&rig.result);
+    assert_int_equal(json_array_size(shapes), 4);
+    for (int i = 0; i < 4; i++) {
+        const json_t *shape = json_array_get(shapes, (size_t)i);
+        assert_string_equal(json_string_value(json_object_get(shape, "work")),
+                            i < 2 ? "paper" : "ours");
+        assert_null(json_object_get(shape, "slope_low"));
+        assert_true(i > 1 || json_is_null(json_object_get(shape, "slope")));
+    }
+    expect_shape(json_array_get(shapes, 0), "full", "same order", true, 1, 1, 0);
+    expect_shape(json_array_get(shapes, 3), "no_geometry", "other work", true, 0, 0, 0);
+    json_decref(shapes);
+    rg_result_free(&rig.result);
+}
+
+// The three numbers behind some words of a note: a power, and its interval's ends.
+static void expect_interval(const struct rg_sheet *sheet, const char *words, double power)
+{
+    double middle, low, high;
+    const char *found = NULL;
+    for (int n = 0; n < sheet->note_count && !found; n++)
+        found = strstr(sheet->notes[n], words);
+    assert_non_null(found);
+    assert_int_equal(
+        sscanf(found + strlen(words), " %lf (95 %%: %lf to %lf)", &middle, &low, &high), 3);
+    assert_below(fabs(middle - power), 0.05);
+    assert_below(low, middle);
+    assert_below(middle, high);
+}
+
+// Scattered samples have wide intervals, which are told from the lower end to the upper one.
+static void test_intervals(void **state)
+{
+    (void)state;
+    for (int is_printed = 0; is_printed < 2; is_printed++) {
+        struct rig rig;
+        struct rg_sheet sheet;
+        struct rg_table table = sheet_axis_table;
+        table.hardware = is_printed ? "paper" : NULL;
+        sheet_measure(&rig, &table, (double[]){40, 40, 20, 20, 10, 10});
+        for (struct rg_place at = rg_result_start(&rig.result); rg_result_next(&rig.result, &at);) {
+            struct rg_record *record = rg_result_at(&rig.result, at);
+            for (int i = 0; i < record->sample_count; i++)
+                record->samples_ms[i] *= 1 + 0.03 * ((i * 4 + at.row) % 11 - 5);
+            rg_record_settle(record);
+        }
+        rg_result_sheet(&rig.result, &sheet);
+        expect_interval(&sheet, "goes with radius_m to the power", is_printed ? -1 : 1);
+        rg_sheet_free(&sheet);
+        rg_result_free(&rig.result);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -201,6 +325,10 @@ int main(void)
         cmocka_unit_test(test_other_work),
         cmocka_unit_test(test_few_samples),
         cmocka_unit_test(test_drift),
+        cmocka_unit_test(test_intervals),
+        cmocka_unit_test(test_words),
+        cmocka_unit_test(test_shapes),
+        cmocka_unit_test(test_shapes_without_an_axis),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

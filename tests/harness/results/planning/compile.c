@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/worker.h"
@@ -136,8 +137,38 @@ static void what_fails_is_told(void **state)
                      RG_EXIT_FAIL);
     assert_string_equal(heard, "4 openings for drivers to compile, 1 at a time\n"
                                "opencl: what slow needs is not compiled beforehand: it fell\n");
+    assert_int_equal(compile(1, "case \"$*\" in\n"
+                                "  *slow-1*opencl*) echo 'out of memory' >&2; exit 71;;\n"
+                                "esac"),
+                     RG_EXIT_HARNESS);
+    assert_string_equal(heard,
+                        "4 openings for drivers to compile, 1 at a time\n"
+                        "opencl: what slow needs is not compiled beforehand: out of memory\n");
     assert_non_null(
         strstr(read_told(), "begin table slow-1 --compile --device gl --timeout 7\nend\n"));
+}
+
+static void a_process_that_cannot_start_is_told(void **state)
+{
+    (void)state;
+    assert_int_equal(compile(1, ""), RG_EXIT_PASS);
+    *heard = 0;
+    rg_workers.program = "/nonexistent/raingauge";
+    rg_log_listen(hear, NULL);
+    const struct rg_table *const alone[] = {&first, &other};
+    const struct rg_devices gl = {.count = 1, .devices = {&named[1]}};
+    assert_int_equal(rg_tables_compile(alone, 2, &gl), RG_EXIT_HARNESS);
+    rg_log_listen(NULL, NULL);
+    rg_workers.program = NULL;
+    static const char *const techniques[] = {"slow", "fast"};
+    for (int i = 0; i < 2; i++) {
+        char due[256];
+        snprintf(due, sizeof(due),
+                 "\ngl: what %s needs is not compiled beforehand: no process could be started for "
+                 "it: No such file or directory; ",
+                 techniques[i]);
+        assert_non_null(strstr(heard, due));
+    }
 }
 
 // Ctrl-C reaches this process alone, which ends the processes that it started.
@@ -152,20 +183,29 @@ static void an_interruption_ends_it(void **state)
 
 // --- in this process ---
 
+static const struct rg_table_row own_rows[] = {{"fixed_ms=2", {1}, "a"},
+                                               {"fixed_ms=4", {2}, "b"},
+                                               {"fixed_ms=7", {3}, "c"},
+                                               {"fixed_ms=9", {4}, "d"}};
+static const struct rg_table own = {.id = "slow-3",
+                                    .technique = "slow",
+                                    .columns = {"fixed_ms"},
+                                    .key_count = 1,
+                                    .quick_rows = 2,
+                                    .quick = "step_ms=2",
+                                    .smaller = {"open_ms=10", "open_ms=20"},
+                                    .variants = {{"full", "", NULL}},
+                                    .width = 1024,
+                                    .height = 512,
+                                    .row_count = 4,
+                                    .rows = own_rows,
+                                    .note = "a note"};
+
+// The last of the rows that quick mode needs, as small as a budget draws it: two frames of 256 x
+// 128 pixels, with quick settings and those of small pictures.
 static void one_cell_is_opened_here(void **state)
 {
     (void)state;
-    static const struct rg_table_row rows[] = {{"fixed_ms=2", {1}, "a"}, {"fixed_ms=4", {2}, "b"}};
-    static const struct rg_table own = {.id = "slow-3",
-                                        .technique = "slow",
-                                        .columns = {"fixed_ms"},
-                                        .key_count = 1,
-                                        .variants = {{"full", "", NULL}},
-                                        .width = 64,
-                                        .height = 64,
-                                        .row_count = 2,
-                                        .rows = rows,
-                                        .note = "a note"};
     const struct rg_table *const one[] = {&own};
     struct slow_rig rig;
     slow_begin(&rig);
@@ -179,8 +219,12 @@ static void one_cell_is_opened_here(void **state)
     assert_non_null(strstr(heard, "nothing is compiled"));
     backend.package = "a-driver";
     gl->backend = &backend;
+    *heard = 0;
+    const double start_ms = rg_now_ms(), frame_ms = 2 + 4 + 1.25e-4 * 256 * 128;
     assert_int_equal(rg_tables_compile(one, 1, &alone), RG_EXIT_PASS);
     assert_int_equal(slow_opened, 1);
+    assert_near(rg_now_ms() - start_ms, 3 * (10 + 2 * frame_ms), 1e-6);
+    assert_string_equal(heard, "what 1 technique draws with is compiled on 1 device, in 0.091 s\n");
     rig.fakes[2]->waits_left = 0;
     assert_int_not_equal(rg_tables_compile(one, 1, &alone), RG_EXIT_PASS);
     rig.fakes[2]->waits_left = -1;
@@ -212,6 +256,7 @@ int main(void)
         cmocka_unit_test(a_technique_is_opened_once_on_each_driver),
         cmocka_unit_test(two_cores_compile_side_by_side),
         cmocka_unit_test(what_fails_is_told),
+        cmocka_unit_test(a_process_that_cannot_start_is_told),
         cmocka_unit_test(an_interruption_ends_it),
         cmocka_unit_test(one_cell_is_opened_here),
     };

@@ -7,6 +7,8 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
@@ -67,6 +69,129 @@ static void a_sweep_is_of_rain_that_has_built_up(void **state)
         }
         assert_ms(plan.device_s[d] * 1e3, ms);
     }
+    slow_end(&rig);
+}
+
+// A row's frames on a device: 65.536 ms are those of its pixels.
+static struct rg_cell_frames frames_of(double step_ms, double frame_ms, int device)
+{
+    const double slow = slowness[device];
+    return (struct rg_cell_frames){40 * slow, step_ms * slow, frame_ms * slow};
+}
+
+// Only the ends are opened. What both have of a time grows by equal factors, and what one of them
+// lacks by equal steps.
+static void rows_between_the_ends_are_interpolated(void **state)
+{
+    (void)state;
+    static const struct rg_table_row ends[] = {{"fixed_ms=2 step_ms=0", {1}, "a"},
+                                               {"fixed_ms=400 step_ms=9", {2}, "b"},
+                                               {"fixed_ms=10 step_ms=4", {3}, "c"}};
+    const double first_ms = 2 + 65.536, last_ms = 4 + 10 + 65.536;
+    const double frames_ms[] = {first_ms, sqrt(first_ms * last_ms), last_ms};
+    struct slow_rig rig;
+    struct rg_plan plan;
+    struct rg_table sweep = table;
+    sweep.rows = ends;
+    slow_begin(&rig);
+    assert_true(rg_plan_make(&sweep, NULL, true, &rig.kept, &plan));
+    assert_int_equal(slow_opened, 2 * 3);
+    assert_int_equal(plan.rows, 3);
+    assert_int_equal(plan.devices, 3);
+    assert_int_equal(plan.failed, 0);
+    assert_equals(plan.check_s, 0); // cpu:reference draws the images as one of the devices
+    for (int d = 0; d < 3; d++) {
+        double ms = 0;
+        for (int row = 0; row < 3; row++) {
+            const struct rg_cell_frames f = frames_of(2 * row, frames_ms[row], d);
+            ms += rg_cell_ms(&sweep, &f, rg_table_options(true));
+        }
+        assert_ms(plan.device_s[d] * 1e3, ms);
+    }
+    slow_end(&rig);
+}
+
+// The settings over all rows count, and the reference that is not among the devices draws each
+// row's image.
+static void images_are_foreseen_apart(void **state)
+{
+    (void)state;
+    struct slow_rig rig;
+    struct rg_plan plan;
+    slow_begin(&rig);
+    const struct rg_devices two = {.count = 2, .devices = {&rig.fakes[0]->pub, &rig.fakes[2]->pub}};
+    rig.kept.devices = &two;
+    rig.kept.own[0] = &rig.fakes[1]->pub; // as if it had been opened in addition
+    assert_true(rg_plan_make(&table, "fixed_ms=5 step_ms=3", false, &rig.kept, &plan));
+    rig.kept.own[0] = NULL;
+    const struct rg_cell_frames image = frames_of(3, 3 + 5 + 65.536, 1);
+    assert_int_equal(plan.devices, 2);
+    assert_ms(plan.check_s * 1e3, 3 * rg_cell_image_ms(&table, &image));
+    for (int d = 0; d < 2; d++) {
+        const struct rg_cell_frames f = frames_of(3, 3 + 5 + 65.536, d ? 2 : 0);
+        assert_ms(plan.device_s[d] * 1e3, 3 * rg_cell_ms(&table, &f, rg_table_options(false)));
+    }
+    slow_end(&rig);
+}
+
+// A device that fails is left out, unless none is left, and the user's input ends the plan.
+static void devices_that_fail_are_left_out(void **state)
+{
+    (void)state;
+    struct slow_rig rig;
+    struct rg_plan plan;
+    slow_begin(&rig);
+    rig.fakes[2]->waits_left = 0;
+    assert_true(rg_plan_make(&table, NULL, true, &rig.kept, &plan));
+    assert_int_equal(plan.failed, 1);
+    assert_true(isnan(plan.device_s[2]));
+    assert_above(plan.device_s[0], 0);
+    assert_above(plan.device_s[1], plan.device_s[0]);
+    const struct rg_devices gl = {.count = 1, .devices = {&rig.fakes[2]->pub}};
+    rig.kept.devices = &gl;
+    assert_false(rg_plan_make(&table, NULL, true, &rig.kept, &plan));
+    rig.kept.devices = &rig.devices;
+    rig.fakes[2]->waits_left = -1;
+    assert_false(rg_plan_make(&table, "nonsense=1", true, &rig.kept, &plan));
+    assert_int_equal(plan.failed, 1);
+    slow_end(&rig);
+}
+
+static void expect_printed(const struct rg_plan *plan, const struct rg_devices *devices,
+                           const char *due)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    rg_plan_print(plan, devices, out);
+    assert_int_equal(fclose(out), 0);
+    assert_string_equal(text, due);
+    free(text);
+}
+
+static void a_plan_is_one_line(void **state)
+{
+    (void)state;
+    struct slow_rig rig;
+    struct rg_plan plan = {.rows = 8,
+                           .devices = 3,
+                           .failed = 1,
+                           .device_s = {14, NAN, 20},
+                           .check_s = 6,
+                           .row_bytes = 5.4e6,
+                           .all_bytes = 12.3e6};
+    slow_begin(&rig);
+    expect_printed(&plan, &rig.devices,
+                   "plan: 8 rows on cpu, cpu:reference, gl, 24 cells; about 40 s (cpu 14 s, "
+                   "cpu:reference not known, gl 20 s, images to check by 6 s), about 12 MB with "
+                   "all rows open in turn\n");
+    plan.devices = 1;
+    plan.check_s = 0;
+    plan.all_bytes = 1e18;
+    expect_printed(&plan, &rig.devices,
+                   "plan: 8 rows on cpu, 8 cells; about 14 s (cpu 14 s), about 5 MB a row, of "
+                   "which as many are open as memory holds\n");
     slow_end(&rig);
 }
 
@@ -168,6 +293,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_are_those_of_the_page),
         cmocka_unit_test(a_sweep_is_of_rain_that_has_built_up),
+        cmocka_unit_test(rows_between_the_ends_are_interpolated),
+        cmocka_unit_test(images_are_foreseen_apart),
+        cmocka_unit_test(devices_that_fail_are_left_out),
+        cmocka_unit_test(a_plan_is_one_line),
         cmocka_unit_test(looking_takes_a_moment),
         cmocka_unit_test(a_cell_takes_what_its_frames_take),
         cmocka_unit_test(an_interrupted_look_ends), // last, since it stays interrupted

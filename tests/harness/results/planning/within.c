@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/text/add.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/tables/runs/budget.h"
@@ -58,17 +59,65 @@ static void make_tables(void)
 
 // --- a command ---
 
+static struct rg_devices wanted; // those that the command names
+
 // The printed part of each table, and the exit status.
 static struct {
     struct {
         int rows, devices, variants, works, divisor, cells;
         bool few_samples;
+        char left_out[256]; // what is said to be left out; "": nothing
     } tables[TABLES];
-    int printed, exit;
-    double over_s;   // after the end of the budget
-    double needed_s; // as the line that refuses the budget says; 0: no such line
+    char turns[512], closing[128]; // the turns that were told, each with a bar, and the last line
+    int printed, ended, exit;
+    char left[16];           // what was told to be left at first
+    double budget_s, over_s; // and after its end
+    double needed_s;         // as the line that refuses the budget says; 0: no such line
     char *out;
 } got;
+
+// The rows that a result has not: "3", "2, 4", "2-4".
+static void name_missing(const struct rg_result *result, char *text, size_t size)
+{
+    *text = 0;
+    for (int row = 0; row < ROWS; row++) {
+        int last = row;
+        while (last < ROWS && !rg_result_has(result, last))
+            last++;
+        if (last == row + 1)
+            rg_text_add(text, size, ", ", "%d", last);
+        else if (last > row)
+            rg_text_add(text, size, ", ", "%d-%d", row + 1, last);
+        row = last > row ? last - 1 : row;
+    }
+}
+
+// What a result lacks of its whole table, in words.
+static void name_left_out(const struct rg_result *result, char *text, size_t size)
+{
+    char rows[64], devices[64] = "";
+    name_missing(result, rows, sizeof(rows));
+    *text = 0;
+    if (*rows)
+        rg_text_add(text, size, "; ", "rows %s", rows);
+    if (result->work_count < 2)
+        rg_text_add(text, size, "; ", "works but what was printed");
+    if (result->variant_count < 2)
+        rg_text_add(text, size, "; ", "variants that no claim is about");
+    if (result->size_divisor > 1)
+        rg_text_add(text, size, "; ", "whole pictures");
+    if (result->few_samples)
+        rg_text_add(text, size, "; ", "more than 6 samples");
+    for (int d = 0; d < wanted.count; d++) {
+        bool has = false;
+        for (int i = 0; i < result->device_count; i++)
+            has = has || !strcmp(result->devices[i].name, wanted.devices[d]->info.name);
+        if (!has)
+            rg_text_add(devices, sizeof(devices), ", ", "%s", wanted.devices[d]->info.name);
+    }
+    if (*devices)
+        rg_text_add(text, size, "; ", "%s", devices);
+}
 
 static int print(const struct rg_result *result, const void *user)
 {
@@ -84,11 +133,15 @@ static int print(const struct rg_result *result, const void *user)
         got.tables[i].cells += record->outcome == RG_OK && record->sample_count > 0;
     }
     assert_above(rg_result_first_missing(result), result->last_row);
+    assert_int_equal(result->width, 640 / result->size_divisor);
+    assert_int_equal(result->height, 480 / result->size_divisor);
+    assert_equals(result->budget_s, got.budget_s);
     got.tables[i].devices = result->device_count;
     got.tables[i].variants = result->variant_count;
     got.tables[i].works = result->work_count;
     got.tables[i].divisor = result->size_divisor;
     got.tables[i].few_samples = result->few_samples;
+    name_left_out(result, got.tables[i].left_out, sizeof(got.tables[i].left_out));
     got.printed++;
     return 0;
 }
@@ -97,8 +150,20 @@ static void hear(enum rg_log_level level, const char *line, void *user)
 {
     (void)level;
     (void)user;
+    if (!strncmp(line, "within the budget, of which ", 28))
+        rg_text_add(got.turns, sizeof(got.turns), "|", "%s", strstr(line, " are left: ") + 11);
+    if (!*got.left)
+        sscanf(line, "within the budget, of which %15[^a] are left", got.left);
+    if (strstr(line, " measured on "))
+        snprintf(got.closing, sizeof(got.closing), "%s", line);
     if (strstr(line, "nothing fits into"))
         assert_int_equal(sscanf(strstr(line, "; give "), "; give %lfs or more", &got.needed_s), 1);
+}
+
+static int print_end(const void *user)
+{
+    got.ended++;
+    return *(const int *)user;
 }
 
 // Events of a run.
@@ -106,7 +171,68 @@ struct fate {
     double passed_s; // since the command began
     bool loses_gl;
     int interrupted;
+    unsigned without; // bits of the devices that the command does not name
+    int end;          // the exit status of printing what stands below all tables
 };
+
+static void expect_told(const char *words)
+{
+    if (!strstr(got.out, words))
+        fail_msg("'%s' is not in: %s", words, got.out);
+}
+
+// A reason names what was left out first, a device or the turn of others, and what did not fit.
+static void expect_why(const char *line)
+{
+    static const char *const known[] = {"gl",
+                                        "cpu:reference",
+                                        "the first rows of each table",
+                                        "the other rows that are needed",
+                                        "larger pictures and more samples",
+                                        "all rows",
+                                        "all variants",
+                                        "all works"};
+    char why[256];
+    double needed_s, left_s;
+    bool is_known = false;
+    snprintf(why, sizeof(why), "%.*s", (int)strcspn(line, "\n"), line);
+    const char *would = strstr(why, " would take "), *did = strstr(why, " did not end in time)");
+    const size_t length = (size_t)((would ? would : did ? did : why) - why);
+    for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
+        is_known = is_known || (strlen(known[i]) == length && !strncmp(why, known[i], length));
+    if (!is_known)
+        fail_msg("'%s' is no step", why);
+    if (!would)
+        return;
+    assert_int_equal(sscanf(would, " would take %lf s, and %lf s were left)", &needed_s, &left_s),
+                     2);
+    assert_at_least(needed_s, left_s);
+}
+
+// Each table has one line of what is left out, or none, behind the line of the time that all took.
+static void expect_left_out(int count, double budget_s)
+{
+    char line[512];
+    int lines = 1, found = 0;
+    snprintf(line, sizeof(line), "took %.0f s, of a budget of %.0f s; left out, for time:\n",
+             got.over_s + budget_s, budget_s);
+    assert_ptr_equal(strstr(got.out, line), got.out);
+    for (int i = 0; i < count; i++) {
+        const char *due = got.tables[i].rows ? got.tables[i].left_out : "all of it";
+        lines += *due != 0;
+        snprintf(line, sizeof(line), "\n  %-16s %s", all[i]->id, due);
+        const char *at = strstr(got.out, line);
+        const char *end = at ? at + strlen(line) : "";
+        if (*due && *end != '\n' && strncmp(end, " (", 2) != 0)
+            fail_msg("'%s' is not in: %s", line, got.out);
+        if (*due && *end == ' ')
+            expect_why(end + 2);
+    }
+    for (const char *c = got.out; *c; c++)
+        found += *c == '\n';
+    assert_int_equal(found, lines > 1 ? lines : 2);
+    assert_int_equal(lines == 1, strstr(got.out, "\n  nothing\n") != NULL);
+}
 
 static void run(int count, double budget_s, struct fate fate)
 {
@@ -114,26 +240,32 @@ static void run(int count, double budget_s, struct fate fate)
     size_t size;
     free(got.out);
     memset(&got, 0, sizeof(got));
+    got.budget_s = budget_s;
     FILE *out = open_memstream(&got.out, &size);
     make_tables();
     slow_begin(&rig);
     rig.fakes[2]->waits_left = fate.loses_gl ? 0 : -1;
     slow_interrupted = fate.interrupted;
     const double begin_ms = rg_now_ms() - 1000 * fate.passed_s;
-    const struct rg_regenerate_options options = {
-        .budget_s = budget_s, .begin_ms = begin_ms, .print = print};
+    const struct rg_regenerate_options options = {.budget_s = budget_s,
+                                                  .begin_ms = begin_ms,
+                                                  .print = print,
+                                                  .print_end = print_end,
+                                                  .user = &fate.end};
+    wanted.count = 0;
+    for (int d = 0; d < rig.devices.count; d++)
+        if (!(fate.without >> d & 1))
+            wanted.devices[wanted.count++] = rig.devices.devices[d];
     rg_log_listen(hear, NULL);
-    got.exit = rg_tables_within(all, count, &rig.devices, &options, out);
+    got.exit = rg_tables_within(all, count, &wanted, &options, out);
     rg_log_listen(NULL, NULL);
     got.over_s = (rg_now_ms() - begin_ms) / 1000 - budget_s;
     fclose(out);
+    if (!got.exit) {
+        expect_left_out(count, budget_s);
+        assert_int_equal(got.ended, 1);
+    }
     slow_end(&rig);
-}
-
-static void expect_told(const char *words)
-{
-    if (!strstr(got.out, words))
-        fail_msg("'%s' is not in: %s", words, got.out);
 }
 
 // The longest time of a cell. First its image by cpu:reference, which is ten times as slow, and a
@@ -159,6 +291,26 @@ static void all_is_measured_where_there_is_time(void **state)
         assert_false(got.tables[i].few_samples);
     }
     expect_told("left out, for time:\n  nothing\n");
+    assert_string_equal(got.turns, "the first rows of each table|the other devices|"
+                                   "larger pictures and more samples|all rows|all variants|"
+                                   "all works|cpu:reference");
+    assert_string_equal(got.closing, "192 cells measured on 3 devices");
+}
+
+// Without cpu the first of the others begins, and cpu:reference only where it is alone.
+static void other_devices_begin_without_cpu(void **state)
+{
+    (void)state;
+    for (unsigned without = 1; without <= 5; without += 4) {
+        run(1, 1e5, (struct fate){.without = without});
+        assert_int_equal(got.exit, 0);
+        assert_int_equal(got.tables[0].cells, ROWS * (without == 1 ? 2 : 1) * 2 * 2);
+        assert_string_equal(got.turns,
+                            without == 1 ? "the first rows of each table|larger pictures and more "
+                                           "samples|all rows|all variants|all works|cpu:reference"
+                                         : "the first rows of each table|larger pictures and more "
+                                           "samples|all rows|all variants|all works");
+    }
 }
 
 // In the smallest budget each table gets a row, though not all get what they need. Once all do,
@@ -203,6 +355,7 @@ static void a_budget_begins_with_the_command(void **state)
     (void)state;
     run(TABLES, 100, (struct fate){.passed_s = 50});
     const int late_rows = got.tables[0].rows + got.tables[1].rows;
+    assert_string_equal(got.left, "50 s ");
     assert_at_most(got.over_s, most_cell_s);
     run(TABLES, 50, (struct fate){0});
     assert_int_equal(got.tables[0].rows + got.tables[1].rows, late_rows);
@@ -247,6 +400,14 @@ static void a_device_that_fails_takes_no_other_with_it(void **state)
     assert_int_equal(got.tables[0].cells, ROWS * 2 * 2 * 2);
 }
 
+static void what_cannot_be_printed_fails(void **state)
+{
+    (void)state;
+    run(1, 60, (struct fate){.end = RG_EXIT_HARNESS});
+    assert_int_equal(got.exit, RG_EXIT_HARNESS);
+    assert_int_equal(got.printed, 1);
+}
+
 // Results from before the interruption are printed.
 static void what_is_interrupted_prints_what_there_is(void **state)
 {
@@ -263,9 +424,11 @@ int main(void)
         cmocka_unit_test(a_budget_begins_with_the_command),
         cmocka_unit_test(what_would_not_end_in_time_is_skipped),
         cmocka_unit_test(all_is_measured_where_there_is_time),
+        cmocka_unit_test(other_devices_begin_without_cpu),
         cmocka_unit_test(a_device_that_fails_takes_no_other_with_it),
         cmocka_unit_test(each_table_gets_a_row_before_one_gets_more),
         cmocka_unit_test(a_budget_is_kept_but_for_one_cell),
+        cmocka_unit_test(what_cannot_be_printed_fails),
         cmocka_unit_test(what_is_interrupted_prints_what_there_is), // last: it stays interrupted
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

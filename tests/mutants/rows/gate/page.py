@@ -6,7 +6,7 @@ VALUES = ("values of the page",)
 
 RECORDS, PICTURES, PAGE = "harness/report/records.c", "harness/report/pictures/pictures.c", "harness/report/page.c"
 CODES, LINEAR = "harness/report/pictures/codes.c", "harness/report/pictures/linear.c"
-BRIEF, STANDS = "harness/report/brief.c", "harness/report/stands.c"
+BRIEF, STANDS, PRINTED = "harness/report/brief.c", "harness/report/stands.c", "harness/report/printed.c"
 
 ROWS = [
     Fault(RECORDS, "if («json_integer_value(format) != RG_FORMAT_VERSION»)", "false", "a record of a newer format is shown as one of this"),
@@ -31,4 +31,36 @@ ROWS = [
     Fault(BRIEF, "for (int i = 0; i < «4»; i++) {\n        f.wanted = statuses[i];", "3", "a merge request is not told which checks fail"),
     Fault(STANDS, "if («holds || fails»)", "holds && fails", "figures of one launch go before verdicts"),
     Fault("harness/report/brief.c", "(«i && strcmp(title, paper) != 0»)", "i > 1 && strcmp(title, paper) != 0", "a badge of two papers has the name of one", tests=("the page",)),
+    Fault(STANDS, "if («!any && machine»)", "false", "claims are open on machines that have none of them", tests=("the page in short",)),
+    Fault(STANDS, "if («!is_on(verdict, machine)»)", "false", "each machine has the standing of all", tests=("the page in short",)),
+    Fault(STANDS, "if («!rg_page_is(verdict, \"device\", device)» ||", "false", "verdicts of two devices differ between machines", tests=("the page in short",)),
+    Fault(STANDS, "|| «!is_seen(verdict)»)", "false", "what was not seen differs from a verdict", tests=("the page in short",)),
+    Fault(STANDS, "«first = first ? first : verdict;»", "first = verdict;", "no verdict differs from another", tests=("the page in short",)),
+    Fault(BRIEF, "if («!all»)\n            continue;", "false", "machines without claims are told", tests=("the page in short",)),
+    Fault(BRIEF, "is_first && («k >= i» ||", "true", "verdicts that differ are told once a machine", tests=("the page in short",)),
+    Fault(BRIEF, "if («on && !rg_page_is(verdict, \"device\", on)»)", "false", "verdicts of all devices are said to differ", tests=("the page in short",)),
+    Fault(BRIEF, "of_several ? «machine» : \"\",", "\"\"", "verdicts do not say of which machine they are", tests=("the page in short",)),
+    Fault(BRIEF, "*part ? \", \" : \"\", «part», line);", "\"\"", "the part of a claim that was tested is not told", tests=("the page in short",)),
+    Fault(BRIEF, "(i < MOST_TEXT || «(from[i] & 0xC0) == 0x80»)", "false", "a text is cut within a character", tests=("the page in short",)),
+    Fault(BRIEF, "left, «a + b / 2», right);", "b / 2", "the words of a badge cover each other", tests=("the page in short",)),
+    Fault(BRIEF, "stands[RG_STAND_HOLDS] || «found.cases + found.checks»", "found.cases", "a badge of checks that all pass is grey", tests=("the page in short",)),
+    Fault(BRIEF, "failures, «found.cases + found.checks»);", "found.cases", "a badge counts no checks", tests=("the page in short",)),
+    Fault(BRIEF, "«!rg_page_is(element, \"status\", \"unsupported\")» &&", "true", "what a device does not support fails", tests=("the page in short",)),
+    Fault(PRINTED, "rg_number_json(table->rows[«row»].values[i])", "0", "all rows have the first one's print", tests=("the page in short",)),
+    Fault(PRINTED, "\"keys\", «table->key_count»,", "0", "the page knows no axis", tests=("the page in short",)),
+    Fault(PRINTED, "\"column\", «v->fps»", "v->name", "the page looks up printed rates by the variant's name", tests=("the page in short",)),
+    Fault(RECORDS, "if («json_object_get(document, \"shard\")»)", "NULL", "a shard's record is taken for the whole one", tests=("the page in short",)),
+    Fault(PICTURES, "*text++ = «i + 2 < size ? digits[word & 63] : '='»;", "digits[word & 63]", "a picture has a byte too many", tests=("pictures that the page takes",)),
+    Fault(PICTURES, "first + (steps ? «i * span / steps» : 0);", "i", "a strip shows the beginning of a clip alone", tests=("pictures that the page takes",)),
+    Fault(PICTURES, "span < RG_PAGE_STRIP ? span : «RG_PAGE_STRIP - 1»;", "RG_PAGE_STRIP", "a strip has a frame too many", tests=("pictures that the page takes",)),
+    Fault(PICTURES, "«key = k ? key : name;»", "key = name;", "values of a gate's sides are kept by B's picture", tests=("pictures that the page takes",)),
+    Fault(PICTURES, "linear.names[linear.count] = names[«i»];", "linear.count", "values are told of a device whose picture is missing", tests=("pictures that the page takes",)),
+    Fault(PICTURES, "i < count && «page->linear_count < RG_PAGE_LINEAR»; i++)", "true", "values of all pictures are in the page", tests=("pictures that the page takes",)),
+    Fault(PICTURES, "«page->left_out += !*has_room;»", ";", "pictures without room are not told", tests=("pictures that the page takes",)),
+    Fault(CODES, "«image->height <= WEBP_MAX_DIMENSION»;", "true", "a picture that WebP cannot hold is lost", tests=("pictures of the page",)),
+    Fault(LINEAR, "(size_t)(to - text «- 1»))", "- 0", "values end with a blank", tests=VALUES),
+    Fault(LINEAR, "\"channels\", «linear->pictures[0].channels»,", "linear->count", "values are told by another number of channels", tests=VALUES),
+    Fault(PICTURES, "{folder, «slash ? slash + 1 : name»}};", "name", "a picture that has moved is not found", tests=("pictures that the page takes",)),
+    Fault(PICTURES, "rg_encode(&picture, «1», codes.texels);", "2", "linear light is shown twice as bright", tests=("pictures that the page takes",)),
+    Fault(RECORDS, "«json_object_del(measured, \"passes_share\");»", ";", "shares that the page does not show are in it", tests=("the page",)),
 ]

@@ -9,6 +9,7 @@ LOBES, LEVELS = "core/scene/atlas/lights.c", "core/scene/atlas/levels.c"
 SPLASH, WATER = "core/scene/atlas/splash.c", "core/scene/atlas/optics/water.c"
 DROP, RAYS = "core/scene/atlas/optics/drop.c", "core/scene/atlas/optics/trace.c"
 FIND, COMPARE, FIGURES = "core/scene/atlas/cave/find.c", "core/scene/atlas/cave/compare.c", "harness/atlas/compare.c"
+EXPORT, TEXTURES = "harness/atlas/export.c", "harness/atlas/textures.c"
 
 ROWS = [
     Fault(LOBES, "direction[0] = (float)(cos(elevation) * «sin(azimuth)»);", "-sin(azimuth)", "lights of the atlas are mirrored"),
@@ -41,4 +42,28 @@ ROWS = [
     Fault(WATER, "along(inside, «-2 * after», normal, inside);", "-1 * after", "light leaves a ball askew after its reflection inside"),
     Fault(SPLASH, "atan2(fabs(from[0]), «-from[2]») * steps", "from[2]", "lights show on splashes from behind as from before"),
     Fault(SPLASH, "light->cells[height][phi] / (sum «* cell_sr»)", "* 1", "lights show on splashes alike however wide their cell"),
+    Fault(FIGURES, "            «figures.worst_row = row;»", "figures.worst_row = figures.worst_row ? figures.worst_row : row;", "the first picture of a set is called the worst", tests=("atlas, figures",)),
+    Fault(FIGURES, "if («rg_cave_figures(comparison, which, (enum rg_cave_way)way).median >\n            rg_cave_figures(comparison, which, best).median»)", "rg_cave_figures(comparison, which, (enum rg_cave_way)way).median >= rg_cave_figures(comparison, which, best).median", "of equal ways the last is the best", tests=("atlas, figures",)),
+    Fault(FIGURES, "best).pictures ? RG_CAVE_LIGHTS : «RG_CAVE_ENV»;", "RG_CAVE_LIGHTS", "pictures of light from everywhere alone have no best way", tests=("atlas, figures",)),
+    Fault(FIGURES, "if («row->found.env || !(row->ours > 0 && row->theirs > 0)»)", "!(row->ours > 0 && row->theirs > 0)", "light from everywhere counts as a single light's brightness", tests=("atlas, figures",)),
+    Fault(FIGURES, "if («n < LEAST_PAIRS»)", "n < LEAST_PAIRS - 1", "two pictures have a correlation of brightness", tests=("atlas, figures",)),
+    Fault(FIGURES, "return «(x->correlation > y->correlation) - (x->correlation < y->correlation)»;", "(x->correlation < y->correlation) - (x->correlation > y->correlation)", "the pictures most alike are called least alike", tests=("atlas, figures",)),
+    Fault(FIGURES, "i < count && «i < WORST_PRINTED»;", "true", "all pictures are called least alike", tests=("atlas, figures",)),
+    Fault(FIGURES, "\"view at %d degrees\", «20 * view»);", "view", "views are told by their numbers, not by degrees", tests=("atlas, figures",)),
+    Fault(FIGURES, "json_integer(«20 * f->light - 90»)", "20 * f->light", "programs are told elevations from the ground up", tests=("atlas, figures",)),
+    Fault(FIGURES, "\"best\", way_names[«best»],", "0", "programs are told that pictures are best as they are", tests=("atlas, figures",)),
+    Fault(FIGURES, "\"view %d\", «20 * view»);", "view", "programs are told views by their numbers", tests=("atlas, figures",)),
+    Fault(EXPORT, "if (factor > 0 && «(range.least <= 0 || factor < range.least)»)", "range.least <= 0", "the first factor is called the least", tests=("atlas, export",)),
+    Fault(EXPORT, "20 * («cell / RG_ATLAS_PHIS») - 90", "cell / RG_ATLAS_LIGHTS", "factors are listed by other elevations", tests=("atlas, export",)),
+    Fault(EXPORT, "rg_level_size(image->height, «level»), 1, path))", "level + 1", "levels are written with half their height", tests=("atlas, export",)),
+    Fault(EXPORT, "const float exposure = «SHEET_EXPOSURE» /", "1.0f", "sheets of factors are too dark to see", tests=("atlas, export",)),
+    Fault(EXPORT, "factors[«c / (RG_ATLAS_CELL_PX >> 2)»] * exposure", "c / RG_ATLAS_CELL_PX", "cells of a sheet have a neighbour's brightness", tests=("atlas, export",)),
+    Fault(EXPORT, "&sheet, side * half «+ point + GAP»);", "+ point", "light from everywhere is drawn into the gap of a sheet", tests=("atlas, export",)),
+    Fault(EXPORT, "const int top = «layer / FRAMES_A_ROW» *", "layer / FRAMES_A_ROW / 2", "rows of splashes cover each other", tests=("atlas, export",)),
+    Fault(EXPORT, "good = «good && write_splashes(atlas, folder)»;", "good", "the sheet of splashes is not written", tests=("atlas, export",)),
+    Fault(TEXTURES, "p.texels[i] = «(float)rg_srgb_decode((double)value)»;", "value", "grey textures look brighter than they are", tests=("textures",)),
+    Fault(TEXTURES, "channel(word, k) + «to[k] * (1 - channel(word, 3))»", "to[k]", "a sheet's ground shines through paint", tests=("textures",)),
+    Fault(TEXTURES, "y / zoom * t->side_px + «x / zoom»];", "x / zoom / 2", "textures on a sheet are twice as wide", tests=("textures",)),
+    Fault(TEXTURES, "if («!t->level && rows->count == RG_MAX_TEXTURE_ROWS»)", "!t->level && rows->count == RG_MAX_TEXTURE_ROWS - 1", "as many textures as a list holds are too many", tests=("textures",)),
+    Fault(TEXTURES, "|| «t->column >= COLUMNS» ||", "false", "a texture beside the sheet covers others", tests=("textures",)),
 ]
