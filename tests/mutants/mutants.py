@@ -136,7 +136,8 @@ def build_copy(copy, modules, wanted):
 def notices(test, number, cache, limit_s=None):
     """The message of a test that fails with a fault, or exceeds its time limit; "" if it passes. Processes that it leaves running
     are ended."""
-    env = dict(os.environ, **test["env"], GOMP_SPINCOUNT="0", RG_LONG_S="1e9", RG_PROBE_S="0", XDG_CACHE_HOME=str(cache), RG_MUTANT=str(number))
+    own = {"GOMP_SPINCOUNT": "0", "RG_LONG_S": "1e9", "RG_PROBE_S": "0", "XDG_CACHE_HOME": str(cache), "RG_MUTANT": str(number)}
+    env = {**os.environ, **test["env"], **own}
     with tempfile.TemporaryFile() as told:
         run = subprocess.Popen(test["cmd"], cwd=test["workdir"], env=env, stdin=subprocess.DEVNULL, stdout=told,
                                stderr=subprocess.STDOUT, start_new_session=True)
