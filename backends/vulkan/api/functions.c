@@ -1,6 +1,8 @@
 // Finds the driver's code that serves a device.
 #include "backends/vulkan/vulkan.h"
 
+#include "core/base/log.h"
+
 // Whether the code is the loader's, which implements some functions itself, or a layer's. A loader
 // that is also a driver, as NVIDIA's is, counts as a driver.
 static bool is_between(const void *code)

@@ -253,4 +253,5 @@ ROWS = [
     Fault(ORIGINS, "(char)('A' + (left - 1) % «26»);", "25", "no machine is called Z", tests=("key",)),
     Fault(DRIVER, "i ? «\", with\"» : \",\", from_here", "\",\"", "a driver's second library is told as the first", tests=("passport",)),
     Fault(PASSPORT, "\"distribution\", rg_json_text(«m.distribution»), \"clocks\"", "m.kernel", "a distribution is its kernel", tests=("passport",)),
+    Fault("harness/record/disk/stored.c", "return «stat(path, &found)» == 0", "lstat(path, &found)", "a link to a folder is no folder", tests=("held",)),
 ]

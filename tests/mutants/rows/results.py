@@ -342,4 +342,7 @@ ROWS = [
     Fault(SHEETS + "digits.c", "number >= 9.995 ? 1 : «number >= 0.0995» ? 2 : 3;", "number >= 0.1", "a tenth has four digits", tests=("brief",)),
     Fault(SHEETS + "digits.c", "decimals = «number >= 99.95» ? 0 :", "number >= 99.5", "numbers below a hundred lose a digit", tests=("brief",)),
     Fault(SHEETS + "digits.c", "«number >= 9.95» ? 0 : number >= 0.995", "number >= 9.9", "ratios below ten lose a digit", tests=("brief",)),
+    Fault("harness/tables/print.c", "if («format == RG_RESULT_MD»)", "format <= RG_RESULT_MD", "wide forms are brief", tests=("sheets, written",)),
+    Fault("harness/tables/sheet/sheet.c", "if («rg_result_at(result, at)->counted_count»)", "true", "the first record names the counts, with counts or not", tests=("sheets, cells",)),
+    Fault("harness/tables/measuring/textures.c", "rg_level_size(«desc.height», own_level)", "desc.width", "a texture is as high as it is wide", tests=("sizes of textures",)),
 ]

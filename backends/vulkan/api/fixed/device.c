@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
+#include "core/base/log.h"
 
 struct extras {
     VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback;

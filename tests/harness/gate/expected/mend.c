@@ -263,6 +263,13 @@ static void what_is_not_known_of_a_driver_is_not_written(void **state)
            "explained\n  since      2026-01-15\n  until      2026-04-15\n\n"
            "fail b\n  device     gl\n  outcome    timeout\n  reason     not explained\n"
            "  since      2026-01-15\n  until      2026-04-15\n");
+    // Letters beyond ASCII stay, and control characters do not.
+    static const struct rg_known_result foreign[] = {
+        {"stra\303\237e\x01", "gl", "Ger\303\244t", RG_TIMEOUT, 1, 1, false}};
+    expect("", RG_FORM_OWN, foreign, 1, "2026-01-15",
+           "fail stra\303\237e?\n  device     gl\n  driver     Ger\303\244t\n  outcome    "
+           "timeout\n  reason     not explained\n  since      2026-01-15\n  until      "
+           "2026-04-15\n");
     // Names that Mesa's form would read as something else.
     static const struct rg_known_result odd[] = {{"#a", "gl", "M", RG_FAIL, 1, 1, false},
                                                  {"b\x7f", "gl", "M", RG_FAIL, 1, 1, false},

@@ -163,6 +163,8 @@ static void reports_go_where_they_are_asked(void **state)
         {{.junit = "b.xml", .folder = "out"}, "junit b.xml, text", "out"},
         {{.junit = "b.txt"}, "junit b.txt, text", "b.txt-pictures"},
         {{.junit = "x.xml/b"}, "junit x.xml/b, text", "x.xml/b-pictures"},
+        {{.junit = "./b.xml"}, "junit ./b.xml, text", "./b-pictures"},
+        {{.junit = "b.1.xml"}, "junit b.1.xml, text", "b.1-pictures"},
         {{.folder = "out"}, "text", "out"},
     };
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {

@@ -168,6 +168,14 @@ static void test_folder(void **state)
     assert_true(rg_stored_read(&stored, folder));
     assert_int_equal(stored.count, 3);
     rg_stored_free(&stored);
+    // A link to a folder is as good as the folder.
+    snprintf(path, sizeof(path), "%s-link", folder);
+    assert_int_equal(symlink(folder, path), 0);
+    const bool is_read = rg_stored_read(&stored, path);
+    unlink(path);
+    assert_true(is_read);
+    assert_int_equal(stored.count, 3);
+    rg_stored_free(&stored);
     assert_int_equal(lines, 0);
     // An error's line is counted from the file's beginning.
     char why[RG_WHY_SIZE];

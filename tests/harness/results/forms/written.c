@@ -117,6 +117,35 @@ static void a_table_ends_as_its_cells(void **state)
     rg_result_free(&rig.result);
 }
 
+// --- forms ---
+
+static void each_form_is_its_own(void **state)
+{
+    (void)state;
+    static const struct {
+        int format;
+        const char *begin, *has, *lacks; // `lacks`: a column that only wide forms have
+    } forms[] = {{RG_RESULT_MD, "## names\n", "| ", "ms, 95 %"},
+                 {RG_RESULT_WIDE, "## names\n", "ms, 95 %", "\\"},
+                 {RG_RESULT_CSV, "scene,", "ms, 95 %", "|"},
+                 {RG_RESULT_JSON, "{\n", "\"cells\"", "ms, 95 %"},
+                 {RG_RESULT_TEX, "\\begin{table}", "\\\\", "ms, 95 %"}};
+    struct rig rig;
+    sheet_measure(&rig, &sheet_names_table, (double[]){40, 30, 20, 10});
+    for (size_t i = 0; i < sizeof(forms) / sizeof(forms[0]); i++) {
+        static char text[1 << 16];
+        memset(text, 0, sizeof(text));
+        FILE *out = fmemopen(text, sizeof(text), "w");
+        assert_non_null(out);
+        assert_true(rg_result_print(&rig.result, forms[i].format, out));
+        assert_int_equal(fclose(out), 0);
+        if (strncmp(text, forms[i].begin, strlen(forms[i].begin)) != 0 ||
+            !strstr(text, forms[i].has) || strstr(text, forms[i].lacks))
+            fail_msg("form %d is not its own: %.600s", (int)i, text);
+    }
+    rg_result_free(&rig.result);
+}
+
 // --- earlier files ---
 
 // A result without a number replaces none that is there; it is written where there is none.
@@ -216,6 +245,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_table_ends_as_its_cells, begin, end),
+        cmocka_unit_test(each_form_is_its_own),
         cmocka_unit_test_setup_teardown(files_stay_where_nothing_was_measured, begin, end),
         cmocka_unit_test_setup_teardown(files_that_are_read_are_spared, begin, end),
         cmocka_unit_test_setup_teardown(files_that_cannot_be_written_are_told, begin, end),

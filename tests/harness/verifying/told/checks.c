@@ -102,6 +102,21 @@ static void rows_are_read_back(void **state)
     }
 }
 
+// A driver's text may be no UTF-8.
+static void foreign_bytes_are_replaced(void **state)
+{
+    (void)state;
+    struct rg_checks checks = {0}, read = {0};
+    rg_checks_add(&checks, "flow", "image", "g\xffl", RG_FAIL, "it \xfe fell");
+    json_t *document = rg_checks_document(&checks, json_array());
+    assert_true(rg_checks_read(&read, json_array_get(json_object_get(document, "checks"), 0)));
+    assert_string_equal(read.rows[0].device, "g?l");
+    assert_string_equal(read.rows[0].detail, "it ? fell");
+    json_decref(document);
+    rg_checks_free(&checks);
+    rg_checks_free(&read);
+}
+
 // If some results are of devices, these alone say whether something was proven. Anything that is
 // worse counts, whose it ever is, and so does a status that no row tells.
 static void devices_decide_the_exit_status(void **state)
@@ -347,6 +362,7 @@ int main(void)
         cmocka_unit_test(lines_have_columns_and_a_count),
         cmocka_unit_test(a_document_has_each_check),
         cmocka_unit_test(rows_are_read_back),
+        cmocka_unit_test(foreign_bytes_are_replaced),
         cmocka_unit_test(devices_decide_the_exit_status),
         cmocka_unit_test(a_course_has_a_unit_a_device),
         cmocka_unit_test(the_reference_alone_is_a_unit),

@@ -104,4 +104,5 @@ ROWS = [
     Fault(JUNIT, "    fprintf(out, *told->measured ? \"\\n%s\" : \"%s\", «told->measured»);", "\"\"", "JUnit does not tell what was measured", tests=("reports, forms",)),
     Fault(JUNIT, "    if («rg_ending_fails(told->ending)»)\n        put_attribute(out, \"type\"", "!passes", "what is skipped has a type of failure", tests=("reports, forms",)),
     Fault(JUNIT, "        count += of && «!strcmp(of, element)»;", "true", "every case that did not pass is a failure, an error and skipped", tests=("reports, forms",)),
+    Fault("harness/commands/comparing/outputs.c", "*end = «strrchr(file, '.')»;", "strchr(file, '.')", "the first point of a path ends the name of its folder", tests=("reports of a gate",)),
 ]
