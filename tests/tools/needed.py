@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Prints ninja's targets that tests need: needed.py BUILD [--suite NAME]... [--no-suite NAME]...
 
-Those of the tests in one of the suites, all unless one is named, and in none of the others, as `meson test` picks them. Those of
-`make thorough` are left out.
+All that a build makes but what is of other tests alone: of those in none of the suites, if any is named, or in one of the others, as
+`meson test` picks them. Those of `make thorough` are left out.
 """
 import argparse
 import json
@@ -22,13 +22,14 @@ def main():
     parser.add_argument("--no-suite", action="append", default=[])
     options = parser.parse_args()
     subprocess.run(["ninja", "-C", options.build, "build.ninja"], check=True, stdout=subprocess.DEVNULL)
-    files = {target["id"]: target["filename"] for target in introspect(options.build, "targets")}
-    wanted = set()
+    wanted, unwanted = set(), set()
     for test in introspect(options.build, "tests"):
         suites = {suite.split(":")[-1] for suite in test["suite"]}
-        if not suites & {"thorough", *options.no_suite} and (not options.suite or suites & set(options.suite)):
-            wanted.update(name for target in test["depends"] for name in files[target])
-    print(" ".join(sorted(os.path.relpath(name, os.path.abspath(options.build)) for name in wanted)))
+        is_picked = not suites & {"thorough", *options.no_suite} and (not options.suite or suites & set(options.suite))
+        (wanted if is_picked else unwanted).update(test["depends"])
+    names = [name for target in introspect(options.build, "targets") if target["build_by_default"] and target["id"] not in unwanted - wanted
+             for name in target["filename"]]
+    print(" ".join(sorted(os.path.relpath(name, os.path.abspath(options.build)) for name in names)))
 
 
 if __name__ == "__main__":

@@ -45,7 +45,8 @@ static struct {
 static struct {
     struct rg_side *sides;
     char compared[MOST * 40], timed[MOST * 40]; // names with a blank after each
-    double ends_ms[MOST];                       // when a course has to end
+    char libraries[RG_KEY_TEXT];
+    double ends_ms[MOST]; // when a course has to end
     int courses;
     json_t *key;
     bool fresh, is_done;
@@ -109,8 +110,8 @@ bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_
 // Only the sides of the case may run meanwhile.
 void rg_gate_agree(struct rg_gate_case *c, struct rg_truth *truth, const char *folder)
 {
-    (void)truth;
     assert_true(is("pictures", folder));
+    snprintf(seen.libraries, sizeof(seen.libraries), "%s", truth->libraries);
     for (int i = 0; i < 4; i++) {
         const struct rg_side *side = &seen.sides[i];
         const bool is_own = side == c->sides[RG_SIDE_A] || side == c->sides[RG_SIDE_B];
@@ -476,6 +477,30 @@ static struct rg_baseline baseline_of(void)
     return baseline;
 }
 
+// The baseline's libraries were others than this host's.
+static void libraries_that_differ_are_told_as_now_and_then(void **state)
+{
+    (void)state;
+    struct rg_baseline baseline = baseline_of();
+    json_t *libraries =
+        json_object_get(json_object_get(baseline.passport, "raingauge"), "libraries");
+    void *first = json_object_iter(libraries);
+    assert_non_null(first);
+    const char *name = json_object_iter_key(first);
+    char due[256];
+    snprintf(due, sizeof(due), "%s %s and not 0.0.1", name,
+             json_string_value(json_object_iter_value(first)));
+    json_object_set_new(libraries, name, json_string("0.0.1"));
+    begin();
+    request.pairs = &alone;
+    request.baseline = &baseline;
+    request.folder = "kept";
+    assert_int_equal(rg_gate_run(&request, &gate), RG_EXIT_PASS);
+    assert_string_equal(seen.libraries, due);
+    end();
+    rg_baseline_free(&baseline);
+}
+
 static void times_under_another_key_are_advice(void **state)
 {
     (void)state;
@@ -516,6 +541,7 @@ int main(void)
         cmocka_unit_test(a_journal_is_of_one_choice_of_cells_sides_and_margin),
         cmocka_unit_test(pairs_share_what_is_left_of_the_budget),
         cmocka_unit_test(a_budget_without_a_look_is_refused_with_what_is_needed),
+        cmocka_unit_test(libraries_that_differ_are_told_as_now_and_then),
         cmocka_unit_test(times_under_another_key_are_advice),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
