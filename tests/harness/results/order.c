@@ -154,18 +154,18 @@ static void test_rounding(void **state)
                 !rg_margin_orders(1, NAN));
 }
 
-// The margin of printed numbers on a line, with one of five rows off by `off`. Its neighbours see
+// The margin of printed numbers on a line, with the third row off by `off`. Its neighbours see
 // half of that.
-static double margin_of_line(double off)
+static double margin_of_line(int rows, double off)
 {
     struct rg_slope_point points[5];
     double weights[5], printed[5];
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < rows; i++) {
         points[i] = (struct rg_slope_point){.x = i};
         printed[i] = 123.4567 * exp(-i + (i == 2 ? off : 0)); // seven digits: hardly any rounding
     }
-    rg_slope_weights(points, 5, weights);
-    return rg_margin_slope(points, weights, printed, 5);
+    rg_slope_weights(points, rows, weights);
+    return rg_margin_slope(points, weights, printed, rows);
 }
 
 // Rows 2 to 4 are off by 0.1, 0.2 and 0.1 of a line, each seen with 1 + 1/4 + 1/4. So the median is
@@ -174,8 +174,10 @@ static void test_scatter_of_print(void **state)
 {
     (void)state;
     const double sigma = 0.1 / sqrt(1.5) / 0.6745;
-    assert_below(fabs(margin_of_line(0.2) - 1.96 * sigma / sqrt(10)), 1e-4);
-    assert_below(margin_of_line(0), 1e-4);
+    assert_below(fabs(margin_of_line(5, 0.2) - 1.96 * sigma / sqrt(10)), 1e-4);
+    assert_below(margin_of_line(5, 0), 1e-4);
+    // Of four rows two are off, by 0.1 and 0.2; the weights' squares add up to 1/5.
+    assert_below(fabs(margin_of_line(4, 0.2) - 1.96 * 1.5 * sigma / sqrt(5)), 1e-4);
     // Rounding alone, of two rows: up to half a unit of 10 and of 20 either way, uniformly.
     const struct rg_slope_point two[] = {{.x = 0}, {.x = 1}};
     const double printed[] = {20, 10}, weights[] = {-1, 1};
