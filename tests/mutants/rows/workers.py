@@ -416,4 +416,5 @@ ROWS = [
     Fault(APART, "length && «!strncmp(choosing[i], variable, length)»);", "true", "a variable as long as one that chooses a driver does so", tests=OF_APART),
     Fault(APART, "all = «!*of_a->path && !*of_b->path» ? true", "!*of_b->path", "files below the first of two drivers do not count", tests=OF_APART),
     Fault(FRAME, "rg_log_hold(false);", ";", "nothing more is told after a look for rain", tests=OF_FRAMES),
+    Fault(PREFIX, "for (int i = 0; «!*found && i < prefix->folder_count»; i++) {\n        char path[PATH_MAX + 16];", "i < prefix->folder_count", "the last folder with drivers of DRI is taken", tests=OF_PREFIXES),
 ]

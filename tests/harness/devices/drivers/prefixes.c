@@ -163,6 +163,7 @@ static void loaders_use_the_folder_alone(void **state)
                                             "dri/x_dri.so"};
     for (int i = 0; i < 5; i++)
         put_text(text_of("mesa/lib64/%s", libraries[i]), "code");
+    put_text("mesa/lib/dri/y_dri.so", "code"); // the first folder counts
     put_text("mesa/lib/gbm/dri_gbm.so", "code");
     put_text("copies/empty", "");
     assert_true(rg_prefix_read("new", "gl", in_place("mesa"), &prefix));
