@@ -203,29 +203,30 @@ static void baselines_are_held_against(void **state)
     assert_non_null(file);
     assert_int_equal(fclose(file), 0);
     device_names[0] = "cpu";
-    device_names[1] = "gl";
+    device_names[1] = "cpu:reference";
     timed[0] = timed[1] = 9;
     snprintf(seen, sizeof(seen),
-             "memory 0; read b.json; 2 of cells.txt on -;  > cpu,  > gl, 2 "
+             "memory 0; read b.json; 2 of cells.txt on -;  > cpu,  > cpu:reference, 2 "
              "cells, margin 0.1%s",
              rest);
     asked_expect("gate --baseline b.json --cells cells.txt", seen, RG_EXIT_INCONCLUSIVE);
     snprintf(seen, sizeof(seen),
-             "memory 0; read b.json; 2 of cells.txt on gl;  > gl, 2 cells, "
+             "memory 0; read b.json; 2 of cells.txt on cpu:reference;  > cpu:reference, 2 cells, "
              "margin 0.02%s, without cpu",
              rest);
-    asked_expect("gate --baseline b.json --cells cells.txt --device gl --margin 2", seen,
+    asked_expect("gate --baseline b.json --cells cells.txt --device cpu:reference --margin 2", seen,
                  RG_EXIT_INCONCLUSIVE);
     asked_run("gate --baseline b.json --cells cells.txt --device cpu");
-    assert_non_null(strstr(asked_seen, "120 s, without gl"));
+    assert_non_null(strstr(asked_seen, "120 s, without cpu:reference"));
     timed[1] = 0; // one of the two has times
     assert_int_equal(asked_run("gate --baseline b.json --cells cells.txt"), RG_EXIT_INCONCLUSIVE);
-    assert_int_equal(asked_run("gate --baseline b.json --cells cells.txt --device gl"),
+    assert_int_equal(asked_run("gate --baseline b.json --cells cells.txt --device cpu:reference"),
                      RG_EXIT_USAGE);
     assert_string_equal(asked_logged, "b.json: has no times of what is asked; give --pictures, or "
                                       "make it anew without that");
-    assert_int_equal(asked_run("gate --baseline b.json --cells cells.txt --device gl --pictures"),
-                     RG_EXIT_INCONCLUSIVE);
+    assert_int_equal(
+        asked_run("gate --baseline b.json --cells cells.txt --device cpu:reference --pictures"),
+        RG_EXIT_INCONCLUSIVE);
     device_names[1] = "new";
     assert_int_equal(asked_run("gate --baseline b.json --cells cells.txt"), RG_EXIT_USAGE);
     assert_string_equal(asked_logged,

@@ -121,8 +121,9 @@ static void plans_are_asked_for(void **state)
                  RG_EXIT_PASS);
     assert_string_equal(asked_printed, TOLD);
     asked_expect(
-        "plan ye-1 raster-1 feng-1 ye-1 --full --device gl,new=cpu@OMP_NUM_THREADS=1 -o p.json",
-        "feng-1 raster-1 ye-1 on gl on new=cpu@OMP_NUM_THREADS=1 in 0, full, load 3.5",
+        "plan ye-1 raster-1 feng-1 ye-1 --full --device cpu:reference,new=cpu@OMP_NUM_THREADS=1 -o "
+        "p.json",
+        "feng-1 raster-1 ye-1 on cpu:reference on new=cpu@OMP_NUM_THREADS=1 in 0, full, load 3.5",
         RG_EXIT_PASS);
     known = 1;
     asked_run("plan raster-1 -o plan.json");
@@ -200,11 +201,13 @@ static void merges_are_asked_for(void **state)
 static void shards_are_asked_for(void **state)
 {
     (void)state;
-    asked_run("plan raster-1 --shards 3 --device gl,new=cpu@OMP_NUM_THREADS=1 -o plan.json");
-    asked_expect("table --plan plan.json --shard 2/3 -o out --timeout 9",
-                 "memory 0; open gl,new=cpu@OMP_NUM_THREADS=1, require -, 9 s; measure 2/3 of 8 "
-                 "cells on 2 into out; close 2",
-                 RG_EXIT_INCONCLUSIVE);
+    asked_run(
+        "plan raster-1 --shards 3 --device cpu:reference,new=cpu@OMP_NUM_THREADS=1 -o plan.json");
+    asked_expect(
+        "table --plan plan.json --shard 2/3 -o out --timeout 9",
+        "memory 0; open cpu:reference,new=cpu@OMP_NUM_THREADS=1, require -, 9 s; measure 2/3 of 8 "
+        "cells on 2 into out; close 2",
+        RG_EXIT_INCONCLUSIVE);
     asked_left_out = RG_EXIT_FAIL;
     assert_int_equal(asked_run("table --plan plan.json --shard 2/3 -o out"), RG_EXIT_FAIL);
     asked_left_out = RG_EXIT_PASS;
