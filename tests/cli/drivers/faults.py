@@ -42,7 +42,7 @@ DOCTORS = ("doctor", "fixed")
 WAYS = ("error", "abort", "exit", "hang", "lost", "swell")
 PREFIX = {"vulkan": "vk", "gl": ("gl", "egl"), "opencl": "cl"}
 GIVES_BACK = re.compile("vkDestroy|vkFree|glDelete|clRelease|eglDestroyContext|eglTerminate")
-MOST_LINES = 5  # of verify, which draws five scenes, each of which may fail with a kernel of its own
+MOST_LINES = {"verify": 5}  # else 4; it draws five scenes, each of which may fail with a kernel of its own
 HANG_S = 3  # time after which a hanging driver is given up
 PAIRS_OF_A_SAMPLE = 6  # pairs of an API and a command; each first runs once without a fault
 
@@ -104,7 +104,7 @@ def try_all(faults, asked, at_once):
         for done in concurrent.futures.as_completed(started):
             fault, (status, lines) = started[done], done.result()
             ends[fault] = status
-            if status != 1 or not lines or len(lines) > MOST_LINES:
+            if status != 1 or not lines or len(lines) > MOST_LINES.get(fault.command, 4):
                 problems.append("%s %s in %s: status %d, %d lines: %s" % (fault.function, fault.how, fault.command, status, len(lines), lines[:2]))
                 print(problems[-1], flush=True)
             if len(ends) % 100 == 0:

@@ -109,7 +109,7 @@ static void expect_json(json_t *found, const char *due)
 static void devices_are_described(void **state)
 {
     (void)state;
-    const struct rg_device_info cpu = cpu_of("/home/me/raingauge");
+    const struct rg_device_info cpu = cpu_of("a/folder/raingauge");
     const struct rg_device_info *const infos[] = {&gl, &cpu};
     expect_json(rg_passport_devices(infos, 2),
                 "[{\"name\": \"new\", \"api\": \"OpenGL 4.5 core\", \"device\": \"llvmpipe\", "
