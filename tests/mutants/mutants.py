@@ -3,17 +3,19 @@
 notice each.
 
 mutants.py BUILD [AREA]...    BUILD is a build of the source; an area is a file of rows/, or a room of kernels
-mutants.py --places           only checks that the rows' places are in the source
+mutants.py --places [BUILD]   only checks that the rows' places are in the source, and that BUILD's compiler takes their faults
 
 Without areas all are tried. The faults of kernels are those of tests/core/techniques/mutants.py, which runs them. Prints a line a
 fault: the test that noticed it and its seconds, or that it lived, with its row's reason. Ends with counts. The exit status is 1
 if fewer than 95 % were noticed, if one lived without a reason, or if a test fails on the unchanged source. The test that noticed
 a fault is tried first the next time.
 """
+import concurrent.futures
 import importlib.util
 import json
 import os
 import pathlib
+import shlex
 import signal
 import subprocess
 import sys
@@ -62,6 +64,18 @@ def check_places(faults):
         sys.exit("\n".join(wrong))
 
 
+def check_once(faults):
+    """No text and no fault stands in two rows: what was found of one would count for the other."""
+    seen, wrong = {}, []
+    for _, area, row in faults:
+        place = row.file, row.start_in((SOURCE / row.file).read_text(encoding="utf-8")), row.old, row.new
+        for what in (row.about, place):
+            if seen.setdefault(what, row) is not row:
+                wrong.append(f"mutants.py: {area}: {row.about}: another row has the same {'fault' if what is place else 'text'}")
+    if wrong:
+        sys.exit("\n".join(wrong))
+
+
 def changed(path, faults):
     """A file's text with the switches of its faults."""
     text = (SOURCE / path).read_text(encoding="utf-8")
@@ -81,6 +95,38 @@ def changed(path, faults):
     return f'#include "tests/mutants/switch.h"\n#line 1 "{path}"\n' + text
 
 
+def all_changed(faults):
+    """The texts of all files that have faults, by name."""
+    of_file = {}
+    for number, _, row in faults:
+        of_file.setdefault(row.file, []).append((number, row))
+    return {path: changed(path, rows) for path, rows in sorted(of_file.items())}
+
+
+def refused(command, text, build):
+    """What a compiler says of a changed file that it does not take."""
+    with tempfile.NamedTemporaryFile("w", suffix=pathlib.Path(command["file"]).suffix, encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        words = [file.name if word == command["file"] else word for word in shlex.split(command["command"])]
+        done = subprocess.run(words + ["-fsyntax-only", "-w", "-I", str(SOURCE)], cwd=build, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True)
+    return done.stderr if done.returncode else ""
+
+
+def check_compiles(build, texts):
+    """All faults of a file compile together, by the first command that compiles it."""
+    commands = {}
+    for command in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+        commands.setdefault(os.path.relpath(build / command["file"], SOURCE), command)
+    tried = [path for path in texts if path in commands]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        wrong = list(filter(None, pool.map(lambda path: refused(commands[path], texts[path], build), tried)))
+    if wrong or not tried:
+        sys.exit("mutants.py: faults that do not compile:\n" + "\n".join(wrong))
+    print(f"{len(tried)} files with faults compile")
+
+
 def write_changed(path, text):
     """Writes a file unless it is the same, so that it is not built again."""
     data = text if isinstance(text, bytes) else text.encode("utf-8")
@@ -91,22 +137,22 @@ def write_changed(path, text):
 
 
 def copy_source(copy, faults):
-    of_file = {}
-    for number, _, row in faults:
-        of_file.setdefault(row.file, []).append((number, row))
+    texts = all_changed(faults)
     listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=SOURCE,
                             check=True, stdout=subprocess.PIPE, text=True).stdout
     names = [name for name in listed.split("\0") if name and (SOURCE / name).is_file()]
     for name in names:
-        text = changed(name, of_file[name]) if name in of_file else (SOURCE / name).read_bytes()
-        write_changed(copy / name, text)
+        write_changed(copy / name, texts[name] if name in texts else (SOURCE / name).read_bytes())
         (copy / name).chmod((SOURCE / name).stat().st_mode)
 
 
 def tests_of(build):
     """The tests of a build, by name."""
-    told = subprocess.run(["meson", "introspect", "--tests", build], check=True, stdout=subprocess.PIPE, text=True)
-    return {test["name"]: dict(test, workdir=test["workdir"] or build) for test in json.loads(told.stdout)}
+    told = json.loads(subprocess.run(["meson", "introspect", "--tests", build], check=True, stdout=subprocess.PIPE, text=True).stdout)
+    tests = {test["name"]: dict(test, workdir=test["workdir"] or build) for test in told}
+    if len(tests) < len(told):
+        sys.exit("mutants.py: two tests have one name")
+    return tests
 
 
 def configure(copy, *options):
@@ -247,8 +293,10 @@ def main():
     if sys.argv[1] == "--places":
         faults = numbered(modules)
         check_places(faults)
-        for path in sorted({row.file for _, _, row in faults}):
-            changed(path, [(number, row) for number, _, row in faults if row.file == path])
+        check_once(faults)
+        texts = all_changed(faults)
+        for build in sys.argv[2:]:
+            check_compiles(pathlib.Path(build).resolve(), texts)
         print(f"{len(faults)} faults of host code in {len(modules)} areas")
         return
     build, wanted = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:]

@@ -26,7 +26,8 @@ extern int rg_mutant_close(int) __asm__("__close");
 static inline void rg_mutant_reached(int number)
 {
     enum { NUMBERS = 1 << 14, WRITE_AND_APPEND = 02001 };
-    static char *path, is_told[NUMBERS];
+    static const char *path;
+    static char is_told[NUMBERS];
     if (!path && !(path = getenv("RG_MUTANTS_REACHED")))
         path = "";
     if (!*path || number >= NUMBERS || is_told[number])

@@ -105,7 +105,7 @@ def try_all(faults, asked, at_once):
             fault, (status, lines) = started[done], done.result()
             ends[fault] = status
             if status != 1 or not lines or len(lines) > MOST_LINES.get(fault.command, 4):
-                problems.append("%s %s in %s: status %d, %d lines: %s" % (fault.function, fault.how, fault.command, status, len(lines), lines[:2]))
+                problems.append("%s %s in %s: status %s, %d lines: %s" % (fault.function, fault.how, fault.command, status, len(lines), lines[:2]))
                 print(problems[-1], flush=True)
             if len(ends) % 100 == 0:
                 print("%d of %d tried, %d amiss" % (len(ends), len(asked), len(problems)), flush=True)

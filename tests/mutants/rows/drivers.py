@@ -65,7 +65,7 @@ ROWS = [
     Fault(ROUNDING, "if («!device->backend->rough» || driver)", "false", "devices of exact languages are asked how they divide", tests=OF_ROUNDING),
     Fault(ROUNDING, "ok && !*is_rough && «roots < 2»", "roots < 1", "inexact roots are not noticed", tests=OF_ROUNDING),
     Fault(ROUNDING, "*is_rough = ok && «!all_are_exact(o, roots)»;", "false", "no driver rounds badly", tests=OF_ROUNDING),
-    Fault(KERNEL, "{RG_CODE_FRAGMENT_SPIRV, RG_CODE_ROUNDS, «RG_CODE_ROUNDED_FRAGMENT_SPIRV»},", "RG_CODE_FRAGMENT_SPIRV", "fragments are the driver's to round", tests=OF_ROUNDING),
+    Fault(KERNEL, "return «forms[i].form»;", "forms[i].form == RG_CODE_ROUNDED_FRAGMENT_SPIRV ? RG_CODE_FRAGMENT_SPIRV : forms[i].form", "fragments are the driver's to round", tests=OF_ROUNDING),
     Fault(KERNEL, "found = «kind_of(kind, ways)»;", "kind", "modules are the driver's to round", tests=OF_ROUNDING),
     Fault("backends/gl/program.c", "rg_kernel_code(kernel, kind, «ways»,", "ways & ~RG_CODE_ROUNDS", "gl: programs are the driver's to round", tests=OF_ROUNDING),
     Fault("backends/vulkan/program.c", "rg_kernel_code(kernel, kind, «rg_device_ways(&device->pub, kernel)» | ways,", "0u", "vulkan: programs are the driver's to round", tests=OF_ROUNDING),

@@ -35,7 +35,7 @@ ROWS = [
     Fault(MEASURE, "        record->sample_count = «r->first[r->order[i]]»;", "record->sample_count", "samples that are taken again are not"),
     Fault(MEASURE, "k < record->sample_count; k++)\n            record->taken[k] = «share»;", "0", "what others took is not noted"),
     Fault(MEASURE, "const double share = fmin(«taken.stolen + taken.others», 1);", "taken.stolen", "other programs disturb nothing"),
-    Fault(RECORD, "count += «record->taken[i] > RG_MOST_TAKEN»;", "record->taken[i] >= RG_MOST_TAKEN", "a share that is allowed is marked"),
+    Fault(RECORD, "count += «record->taken[i] > RG_MOST_TAKEN»;", "record->taken[i] >= RG_MOST_TAKEN", "a share that is allowed is marked", tests=("records",)),
     Fault(RECORD, "return «width > RG_WIDE_INTERVAL» ? sqrt(width) - 1 : 0;", "width > 1.5", "a wide interval is not marked"),
     Fault("harness/doctor/examine.c", "if («!rg_drawn_is_well(&e->drawing.formats[i], e->info.tier)»)", "false", "a device that draws wrongly is well", tests=("command line, doctor",)),
     Fault("harness/measure/drawing.c", "return «drawn->differing <= (tier == RG_T0 ? 0 : RG_DRAWING_PIXELS / 1000)»;", "drawn->differing < RG_DRAWING_PIXELS", "a device that blends nothing draws well", tests=("command line, doctor",)),

@@ -98,7 +98,6 @@ ROWS = [
     Fault(MACHINE, "add_clock(machine, «*line == '0'» ? \"boost on\" : \"boost off\");", "*line != '0'", "a processor that is kept from boosting is said to boost", tests=("machine",)),
     Fault(RECORD, "return «launch->stolen > RG_MOST_TAKEN || launch->others > RG_MOST_TAKEN»;", "launch->stolen > RG_MOST_TAKEN", "a launch that other processes disturbed counts", tests=("records",)),
     Fault(RECORD, "(record->pass_frames > 0 && «record->sample_count >= record->wanted_samples»);", "record->sample_count > record->wanted_samples", "a cell with all of its samples is begun", tests=("records",)),
-    Fault(RECORD, "count += «record->taken[i] > RG_MOST_TAKEN»;", "record->taken[i] >= RG_MOST_TAKEN", "a sample that lost just what it may is busy", tests=("records",)),
     Fault(RECORD, "return width > RG_WIDE_INTERVAL ? «sqrt(width) - 1» : 0;", "(width - 1) / 2", "noise is half the width, not its logarithm", tests=("records",)),
     Fault(RECORD, "fmin(«100 * noise», 1e6)", "noise", "marks are shares, and not per cent", tests=("records",)),
     Fault(RECORD, "fmin(100 * noise, 1e6), «is_busy ? \" busy\" : \"\"»);", "\"\"", "a wide interval hides that the machine was busy", tests=("records",)),

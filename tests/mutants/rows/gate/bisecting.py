@@ -24,7 +24,7 @@ ROWS = [
     Fault(RUN, "if (exit == RG_EXIT_PASS)\n        exit = «judge_end(bisect, count - 1, RG_JUDGED_BAD)»;", "RG_EXIT_PASS", "the bad end is not judged"),
     Fault(COMMAND, "if («strstr(line, blanks[i][0])»)", "false", "the shell gets {} for a candidate"),
     Fault(COMMAND, "i < («is_git ? 1 : 3»); i++)", "3", "git's command may have no {}"),
-    Fault(JUDGE, "{\"skip\", «RG_EXIT_GIT_SKIP»}", "1", "git takes what was skipped for bad"),
+    Fault(JUDGE, "return «verdicts[verdict].git» +", "(verdict == RG_JUDGED_SKIP ? 1 : verdicts[verdict].git)", "git takes what was skipped for bad"),
     Fault(JUDGE, "return «git_is_bisecting» ?", "false", "git takes a misspelt option for bad"),
     Fault(JUDGE, "return «git_is_bisecting» ?", "true", "a misspelt option ends with 128 everywhere"),
     Fault(JUDGE, "«hand_over(RG_VARIABLE_CANDIDATE, candidate)»", "true", "the command gets no candidate"),

@@ -12,7 +12,7 @@ CELLS = "harness/compare/gate/cells/cells.c"
 FILE = "core/base/files/file.c"
 COMMAND = "harness/commands/comparing/gate.c"
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
-PART, RECORDS = "harness/compare/gate/shards/part.c", ("records of shards",)
+PART, RECORDS = "harness/compare/gate/shards/part.c", ("records of gated shards",)
 
 ROWS = [
     Fault(OUTPUTS, "bool ok = «spares_kept(outputs->pictures, file)»;", "true", "a gate's journal replaces its cells", tests=("command line, baselines",)),
@@ -25,9 +25,9 @@ ROWS = [
     Fault(FILE, "return name_a && name_b && «!strcmp(name_a, name_b)» && lead", "false", "a report replaces another whose file was not there yet", tests=("command line, gates",)),
     Fault(FILE, "&& «lead_to_one(folder_a, folder_b)»;", "true", "files of one name in two folders are one", tests=("command line, gates",)),
     Fault(OUTPUTS, "ok = «spares(outputs->files[i], file)»;", "true", "a report replaces what the gate reads", tests=("command line, gates",)),
-    Fault(OUTPUTS, "ok = ok && «spares_kept(outputs->pictures, file)»;", "true", "a report replaces a gate's journal", tests=("command line, gates",)),
+    Fault(OUTPUTS, "ok = ok && «spares_kept(outputs->pictures, file)»;", "true", "a report replaces a gate's journal", tests=("reports of a gate", "command line, gates",)),
     Fault(OUTPUTS, "ok = «spares(file, outputs->files[other])»;", "true", "a summary is appended to a report", tests=("command line, gates",)),
-    Fault(OUTPUTS, "if (i > 0 && form->where == RG_WHERE_APPENDED && «outputs->are_written[i - 1]»)", "true", "a summary is appended that nobody asked for", tests=("command line, gates",)),
+    Fault(OUTPUTS, "if (i > 0 && form->where == RG_WHERE_APPENDED && «outputs->are_written[i - 1]»)", "true", "a summary is appended that nobody asked for", tests=("reports of a gate", "command line, gates",)),
     Fault(OUTPUTS, "(form->where == RG_WHERE_DEFAULT && «!is_printed» &&", "true", "text stands below JSON", tests=("command line, gates",)),
     Fault(HELD, "c->agreement.is_ours |= «c->agreement.outcome == RG_FAIL»;", "false", "a driver that does not load is a picture that was expected to differ", tests=("command line, gates",)),
     Fault(SHARDS, "if («!path || !*path»)", "true", "no runner is told that shards are understood"),
@@ -51,10 +51,10 @@ ROWS = [
     Fault(RESULTS, "compared = «-report->idle_count»;", "0", "what fell as expected counts as compared", tests=("command line, gates", "command line, vacuous")),
     Fault(RESULTS, "    if («!any || is_told»)\n", "true", "a required device of which nothing was compared passes", tests=("command line, vacuous",)),
     Fault("harness/compare/gate/run/cases.c", "    clean = «rg_texts_clean(name, true)»;", "strdup(name)", "a name that is listed is not known to a filter"),
-    Fault(PARSE, "if (!flag || «holds»)", "true", "a flag that is 0 holds"),
-    Fault(FLAGS, "char *value = «*text» ? NULL", "false", "the environment goes before a flag"),
+    Fault(PARSE, "if (!flag || «holds»)", "true", "a flag that is 0 holds", tests=("command line, parsing",)),
+    Fault(FLAGS, "char *value = «*text» ? NULL", "false", "the environment goes before a flag", tests=("reports of a gate",)),
     Fault(FLAGS, "if («is_folder»)", "false", "a report's folder is not made"),
-    Fault(FLAGS, "is_folder ? «\"raingauge.xml\"» : \"\"", "\"\"", "a report is written over its folder"),
+    Fault(FLAGS, "is_folder ? «\"raingauge.xml\"» : \"\"", "\"\"", "a report is written over its folder", tests=("reports of a gate",)),
     Fault(AGREE, "agreement->has_pictures = «rg_gate_pictures_write(agreement->folder, agreement->name,\n                                                             &a->picture, &b->picture, &c)»;", "true", "reports name pictures that are not there"),
     Fault(AGREE, "if («!ok» && agreement->folder)", "true", "pictures that are the same are written"),
     Fault(AGREE, "agreement->would_hold = «rg_tiers_strictest(tiers)»;", "RG_TIER_COUNT", "no command says what a tier that would hold costs", tests=("command line, gates",)),
@@ -73,7 +73,7 @@ ROWS = [
     Fault(OUTPUTS, "outputs->today, «adds_new»,", "false", "what nothing expects is not added"),
     Fault(OUTPUTS, "        «adds_new = false;»", ";", "what nothing expects is added to every file", tests=("command line, reports",)),
     Fault(OUTPUTS, "if («is_read && !is_same»)", "false", "nobody is told that a file changed meanwhile", tests=("command line, reports",)),
-    Fault(OUTPUTS, "if («!is_unchanged(lines)» ||", "false", "what somebody wrote meanwhile is lost", tests=("command line, reports",)),
+    Fault(OUTPUTS, "if («!is_unchanged(lines)» ||", "false", "what somebody wrote meanwhile is lost", tests=("reports of a gate", "command line, reports",)),
     Fault(COMMAND, "return («!request->filter && request->shard.count <= 1») ||", "true", "a part of the cells decides for all", tests=("command line, reports",)),
     Fault(OUTPUTS, "return !report || «!file || !rg_file_is_same(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
     Fault(AGREE, "} else if («rg_comparison_outcome(&c, owed) == RG_NOTHING») {", "false", "a cell without rain is a difference", tests=("command line, gates",)),

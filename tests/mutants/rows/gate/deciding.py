@@ -43,7 +43,7 @@ ROWS = [
     Fault(APART, "rg_shift(a.logs, a.count, b.logs, b.count, «rg_gate_tail(rule)»);", "rule->error", "times that were taken apart spend all of the error at each end", tests=("verdicts apart",)),
     Fault(SHIFT, "(«u >= b» ? of_a * of[b][u - b] : 0)", "u > b", "a pair is missing from the distribution", tests=("verdicts apart",)),
     Fault(SHIFT, "+ «of_b» * of[b - 1][u];", "of_a", "two samples are taken for as large as each other", tests=("verdicts apart",)),
-    Fault(SHIFT, "below + probability[k] <= «tail»)", "2 * tail", "each end of an interval spends all of the error", tests=("verdicts apart",)),
+    Fault(SHIFT, "below + probability[k] <= «tail»)", "2 * tail", "each end of an interval spends all of the error (shift.c)", tests=("verdicts apart",)),
     Fault(SHIFT, "b[j] «- a[i]»;", "+ a[i]", "a shift is a sum", tests=("verdicts apart",)),
     Fault(SHIFT, ".high = k ? differences[«pairs - k»] : NAN,", "pairs - k - 1", "the upper end is one pair too low", tests=("verdicts apart",)),
     Fault(COURSE, "return «s->source->before»\n", "NULL", "times that were taken earlier are not looked at", tests=("verdicts apart",)),

@@ -41,7 +41,7 @@ ROWS = [
     Fault(BRIEF, "if («on && !rg_page_is(verdict, \"device\", on)»)", "false", "verdicts of all devices are said to differ", tests=("the page in short",)),
     Fault(BRIEF, "of_several ? «machine» : \"\",", "\"\"", "verdicts do not say of which machine they are", tests=("the page in short",)),
     Fault(BRIEF, "*part ? \", \" : \"\", «part», line);", "\"\"", "the part of a claim that was tested is not told", tests=("the page in short",)),
-    Fault(BRIEF, "(i < MOST_TEXT || «(from[i] & 0xC0) == 0x80»)", "false", "a text is cut within a character", tests=("the page in short",)),
+    Fault(BRIEF, "(i < MOST_TEXT || «(from[i] & 0xC0) == 0x80»)", "false", "a text is cut within a character (brief.c)", tests=("the page in short",)),
     Fault(BRIEF, "left, «a + b / 2», right);", "b / 2", "the words of a badge cover each other", tests=("the page in short",)),
     Fault(BRIEF, "stands[RG_STAND_HOLDS] || «found.cases + found.checks»", "found.cases", "a badge of checks that all pass is grey", tests=("the page in short",)),
     Fault(BRIEF, "failures, «found.cases + found.checks»);", "found.cases", "a badge counts no checks", tests=("the page in short",)),
