@@ -36,7 +36,8 @@ int rg_exit_with(int exit, int64_t count);
 // is at fault.
 int rg_exit_of_error(void);
 
-// The status that a record tells of a command; RG_EXIT_FAIL if no command ends with it.
+// The status that a record tells of its command's work; RG_EXIT_FAIL for all that is told of no
+// work, such as a signal or a busy machine.
 int rg_exit_of_record(const json_t *status);
 
 // Logs that standard output cannot be written, and returns false, as rg_error does.

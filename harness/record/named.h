@@ -25,7 +25,8 @@ struct rg_count {
 };
 
 // Copies text so that JSON and terminals accept it: whole UTF-8 characters, as many as fit,
-// question marks for invalid bytes, control characters replaced (core/base/text/plain.h).
+// question marks for all bytes beyond ASCII if these are no UTF-8, control characters replaced
+// (core/base/text/plain.h).
 void rg_text_copy(char *to, size_t size, const char *from);
 // A number as it is after writing and reading a document: rounded to RG_NUMBER_DIGITS; NAN if JSON
 // has no such number.
@@ -56,7 +57,8 @@ json_t *rg_number_json(double number);
 // readers know, and a "fault" that tells which.
 void rg_outcome_set(json_t *json, enum rg_outcome outcome);
 
-// A JSON string of text from outside, as rg_text_copy copies it, of any length.
+// A JSON string of text from outside, of any length: as it is if it is UTF-8, else with question
+// marks for all bytes beyond ASCII.
 json_t *rg_json_text(const char *text);
 
 #endif

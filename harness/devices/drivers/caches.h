@@ -24,10 +24,10 @@ struct rg_side_folder {
 };
 
 // Finds or makes the folder of a device's settings and of the driver that it had when last opened.
-// It stays while this process lives; of the others the least recently used are removed. Settings
-// are the API's name, the device's own variables (harness/devices/workers/environment.h) but for
-// those of raingauge (RG_PROGRAM counts), and this process's variables that a driver reads. False,
-// and one logged line, on failure.
+// It stays while this process lives; of the others the least recently used are removed, up to the
+// first that another process uses. Settings are the API's name, the device's own variables
+// (harness/devices/workers/environment.h) but for those of raingauge (RG_PROGRAM counts), and this
+// process's variables that a driver reads. False, and one logged line, on failure.
 bool rg_side_folder_find(const char *api, const char *environment, struct rg_side_folder *folder);
 
 // Switches to the folder of the driver that was actually found, and notes it for the next time.

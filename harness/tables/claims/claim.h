@@ -26,8 +26,8 @@ enum rg_claim_test {
     RG_CLAIM_OPTIMUM,  // the fastest of rows `first` to `last` is one of `knee` to `until`
     RG_CLAIM_SLOWEST,  // row `knee` is slower than every other of rows `first` to `last`
     RG_CLAIM_CROSSES,  // `variant` is slower than `other` before row `knee`, and faster from there
-    RG_CLAIM_FLATTENS, // from row `first` to `knee` the error falls at least `least` times as much
-                       // as from `knee` to `last`
+    RG_CLAIM_FLATTENS, // from row `first` to `knee` the error falls, and at least `least` times as
+                       // much as from `knee` to `last`
 };
 
 // The tests' names, and which of a claim's members each needs beside rows and a variant.
