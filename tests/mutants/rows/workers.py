@@ -326,6 +326,7 @@ ROWS = [
     Fault(KEPT, "if («kept->truths[i].frames == frames» &&", "true", "the picture of another frame is taken", tests=OF_KEPT),
     Fault(KEPT, "kept->truth_count++;", ";", "a new picture replaces the newest", tests=OF_KEPT),
     Fault(KEPT, "*kept = (struct rg_kept){.devices = kept->devices};", ";", "what was freed is kept", tests=OF_KEPT),
+    Fault(TRACE, "return «rg_now_ms() - trace->begin_ms»;", "rg_now_ms()", "a trace's clock begins with the machine", tests=("timelines",)),
     Fault(TRACE, "\"ts\", «1e3 * at_ms»,", "at_ms", "a trace's slices begin in another unit", tests=OF_FRAMES),
     Fault(TRACE, "\"dur\", «1e3 * ms»));", "ms", "a trace's slices last another unit", tests=OF_FRAMES),
     Fault(TRACE, "at_ms, «1e-6 * (double)(end_ns - begin_ns)»);", "1e-6 * (double)end_ns", "the API's clock is told, not its time", tests=OF_FRAMES),
