@@ -61,18 +61,21 @@ class System:
     def within(self, command, compiler="gcc"):
         """Runs a command in the sources of the system, in namespaces of its own so that nothing stays mounted. Whether it ended with 0."""
         cc, cxx = COMPILERS[compiler]
-        inner = 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" sh -c \'cd /raingauge && exec "$@"\' sh "$@"'
+        # PoCL asks /sys for the processors.
+        inner = 'mount -t proc proc "$0/proc" && mount --rbind /sys "$0/sys" && mount --rbind /dev "$0/dev" && exec chroot "$0" sh -c \'cd /raingauge && exec "$@"\' sh "$@"'
         variables = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LANG": "C.UTF-8", "CC": cc, "CXX": cxx}
         with open(self.log, "a") as log:
             print("+", *command, file=log, flush=True)
-            return subprocess.run(["unshare", "--mount", "--pid", "--fork", "sh", "-c", inner, str(self.root)] + command,
+            return subprocess.run(["unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-c", inner, str(self.root)] + command,
                                   stdout=log, stderr=log, env=variables, check=False).returncode == 0
 
     def bring_sources(self):
-        """The tree's commit: what is not committed is left out."""
+        """The tree's commit: what is not committed is left out. Builds that are there go on."""
         to = self.root / "raingauge"
-        shutil.rmtree(to, ignore_errors=True)
-        subprocess.run(["git", "clone", "--quiet", "--no-hardlinks", str(ROOT), str(to)], check=True)
+        if not to.exists():
+            subprocess.run(["git", "clone", "--quiet", "--no-hardlinks", str(ROOT), str(to)], check=True)
+        subprocess.run(["git", "-C", str(to), "fetch", "--quiet", str(ROOT), "HEAD"], check=True)
+        subprocess.run(["git", "-C", str(to), "reset", "--quiet", "--hard", "FETCH_HEAD"], check=True)
 
     def try_compiler(self, compiler):
         """The name of the first step that failed; None if all passed."""
