@@ -75,13 +75,13 @@ RG_FN bool cartoon_is_behind(rg_ctx rg, cartoon_rain_params p, cartoon_spot s, v
 RG_FN bool cartoon_is_met(rg_ctx rg, cartoon_rain_params p, cartoon_spot s, v3 from, v3 way,
                           float least, float most)
 {
-    bool is_met = false;
+    int met = 0; // counted: PoCL 6 ends the process that compiles `is_met = is_met || ...`
     for (int i = 0; i < CARTOON_ABOUT; i++) {
         int face = cartoon_face_about(rg, p, s, i);
         float share = face < 0 ? -1.0f : cartoon_meets(rg, face, from, way, 0.0f);
-        is_met = is_met || (share >= 0.0f && share >= least && share <= most);
+        met += share >= 0.0f && share >= least && share <= most ? 1 : 0;
     }
-    return is_met;
+    return met > 0;
 }
 
 #endif
