@@ -215,7 +215,7 @@ static int replay(const struct render_options *o)
         exit = rg_devices_open_asked(
             &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);
     if (exit == RG_EXIT_PASS)
-        exit = rg_case_replay(&found, devices.devices[0]);
+        exit = rg_case_replay(&found, o->replayed, devices.devices[0]);
     exit = rg_devices_end(&devices, exit);
     rg_case_free(&found);
     return exit;

@@ -28,7 +28,8 @@ bool rg_case_read(const char *path, struct rg_case *found);
 void rg_case_free(struct rg_case *found);
 
 // Replays a case on a device, and prints the digest of the asset or how the device failed. Returns
-// an enum rg_exit: pass if the digest is the expected one.
-int rg_case_replay(const struct rg_case *found, struct rg_device *device);
+// an enum rg_exit: pass if the digest is the expected one. `path` is where the case was read, for
+// errors.
+int rg_case_replay(const struct rg_case *found, const char *path, struct rg_device *device);
 
 #endif

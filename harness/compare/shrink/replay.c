@@ -28,16 +28,17 @@ static bool knows_asset(const struct rg_digests *digests, const char *asset)
 
 // Whether this version has the case's stage and asset. They are raingauge's own, so a case of
 // another version says nothing about a device.
-static bool is_of_this_version(const struct rg_case *c, const struct rg_digests *digests)
+static bool is_of_this_version(const struct rg_case *c, const char *path,
+                               const struct rg_digests *digests)
 {
     const char *stage = stage_behind(digests, c->stages_run);
     if (!stage)
-        return rg_error("the case: there are fewer than %d stages here; %s", c->stages_run, mend);
+        return rg_error("%s: there are fewer than %d stages here; %s", path, c->stages_run, mend);
     if (strcmp(stage, c->stage) != 0)
-        return rg_error("the case: stage %d is '%s' here, and not '%s'; %s", c->stages_run, stage,
+        return rg_error("%s: stage %d is '%s' here, and not '%s'; %s", path, c->stages_run, stage,
                         c->stage, mend);
     return knows_asset(digests, c->asset) ||
-           rg_error("the case: there is no asset '%s' here; %s", c->asset, mend);
+           rg_error("%s: there is no asset '%s' here; %s", path, c->asset, mend);
 }
 
 static int tell(const struct rg_case *c, const struct rg_digests *digests, const char *device)
@@ -67,14 +68,14 @@ static void tell_fall(const struct rg_case *c, struct rg_device *device)
                rg_fall_is_same(&fall, &c->fall) ? ", as was found" : "");
 }
 
-int rg_case_replay(const struct rg_case *c, struct rg_device *device)
+int rg_case_replay(const struct rg_case *c, const char *path, struct rg_device *device)
 {
     struct rg_digests digests = {0};
     int exit;
     if (!rg_digests_take(&c->run, device, &digests)) {
         exit = rg_exit_of_error();
         tell_fall(c, device);
-    } else if (is_of_this_version(c, &digests))
+    } else if (is_of_this_version(c, path, &digests))
         exit = tell(c, &digests, device->info.name);
     else
         exit = rg_exit_of_error();

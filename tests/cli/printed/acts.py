@@ -96,7 +96,7 @@ def of_baselines(place, runner):
 def of_cases(place, _):
     for i, name in enumerate(place.names):
         path = place.file("in/%d.txt" % i, CASE % ("set model=torus\nset faces=300\n", "x", "y", name, name))
-        yield ["render", "--case", path], {2}, "the case: "
+        yield ["render", "--case", path], {2}, "in/%d.txt: " % i
     place.file("in/linked.txt.files/real.obj", "")
     os.symlink(place.pipe, place.path("in/linked.txt.files/model.obj"))
     for i, setting in enumerate(("file model=../secret.txt", "file model=" + place.secret, "file model=..", "file model=", "set model=" + place.pipe,

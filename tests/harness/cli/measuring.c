@@ -144,10 +144,10 @@ bool rg_case_read(const char *path, struct rg_case *found)
     return true;
 }
 
-int rg_case_replay(const struct rg_case *found, struct rg_device *device)
+int rg_case_replay(const struct rg_case *found, const char *path, struct rg_device *device)
 {
     (void)found;
-    asked_note("replay on %s; ", device->info.name);
+    asked_note("replay %s on %s; ", path, device->info.name);
     return RG_EXIT_FAIL;
 }
 
@@ -359,7 +359,7 @@ static void frames_are_asked_for(void **state)
     assert_non_null(strstr(asked_printed, ", on first (on?[e); "));
     strcpy(asked_devices[0].info.device, "one");
     asked_expect("render --case a.txt --device gl --timeout 9",
-                 "memory 0; case a.txt; open gl, require -, 9 s; replay on first; close 2",
+                 "memory 0; case a.txt; open gl, require -, 9 s; replay a.txt on first; close 2",
                  RG_EXIT_FAIL);
 }
 

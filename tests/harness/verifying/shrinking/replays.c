@@ -245,7 +245,7 @@ static void replay(struct rg_case c, int exit, const char *prints)
     c.run = run_of(3, &settings);
     made_frame = 3;
     printed_begin(&printed);
-    const int ended = rg_case_replay(&c, &made_device);
+    const int ended = rg_case_replay(&c, "rain.txt", &made_device);
     char *text = printed_end(&printed);
     assert_string_equal(text, prints);
     assert_int_equal(ended, exit);
@@ -299,16 +299,16 @@ static void a_case_of_another_version_is_refused(void **state)
     struct rg_case c = case_of_water;
     c.stages_run = 7;
     replay(c, RG_EXIT_USAGE, "");
-    assert_string_equal(rg_last_error(), "the case: there are fewer than 7 stages here; write one "
+    assert_string_equal(rg_last_error(), "rain.txt: there are fewer than 7 stages here; write one "
                                          "anew with `raingauge shrink`");
     c.stages_run = 6;
     replay(c, RG_EXIT_USAGE, "");
-    assert_string_equal(rg_last_error(), "the case: stage 6 is 'rain_draw' here, and not "
+    assert_string_equal(rg_last_error(), "rain.txt: stage 6 is 'rain_draw' here, and not "
                                          "'rain_step'; write one anew with `raingauge shrink`");
     c = case_of_water;
     strcpy(c.asset, "snow");
     replay(c, RG_EXIT_USAGE, "");
-    assert_string_equal(rg_last_error(), "the case: there is no asset 'snow' here; write one anew "
+    assert_string_equal(rg_last_error(), "rain.txt: there is no asset 'snow' here; write one anew "
                                          "with `raingauge shrink`");
     rg_log_hold(false);
 }
