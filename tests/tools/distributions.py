@@ -61,8 +61,8 @@ class System:
     def within(self, command, compiler="gcc"):
         """Runs a command in the sources of the system, in namespaces of its own so that nothing stays mounted. Whether it ended with 0."""
         cc, cxx = COMPILERS[compiler]
-        # PoCL asks /sys for the processors.
-        inner = 'mount -t proc proc "$0/proc" && mount --rbind /sys "$0/sys" && mount --rbind /dev "$0/dev" && exec chroot "$0" sh -c \'cd /raingauge && exec "$@"\' sh "$@"'
+        # PoCL asks /sys for the processors. The shell is process 1, and reaps processes as an init does.
+        inner = 'mount -t proc proc "$0/proc" && mount --rbind /sys "$0/sys" && mount --rbind /dev "$0/dev" && chroot "$0" sh -c \'cd /raingauge && exec "$@"\' sh "$@"; exit $?'
         variables = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LANG": "C.UTF-8", "CC": cc, "CXX": cxx}
         with open(self.log, "a") as log:
             print("+", *command, file=log, flush=True)

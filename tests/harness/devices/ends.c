@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -506,6 +505,20 @@ static void another_build_with_other_messages_is_turned_away(void **state)
     assert_non_null(strstr(logged, "RG_PROGRAM=/none/raingauge cannot be started: No such file"));
 }
 
+// Where process 1 is no init, as in some containers, nobody reaps the process, and a zombie stays.
+static bool has_ended(pid_t process)
+{
+    char path[64], text[512];
+    snprintf(path, sizeof(path), "/proc/%d/stat", (int)process);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return true;
+    text[fread(text, 1, sizeof(text) - 1, file)] = 0;
+    fclose(file);
+    const char *name_end = strrchr(text, ')');
+    return !name_end || name_end[2] == 'Z';
+}
+
 // A worker ends when the harness is killed.
 static void no_worker_outlives_the_harness(void **state)
 {
@@ -526,10 +539,9 @@ static void no_worker_outlives_the_harness(void **state)
     close(told[0]);
     waitpid(harness, &status, 0);
     assert_true(WIFSIGNALED(status));
-    for (int i = 0; i < 10000 && !kill((pid_t)process, 0); i++)
+    for (int i = 0; i < 10000 && !has_ended((pid_t)process); i++)
         usleep(1000);
-    assert_int_equal(kill((pid_t)process, 0), -1);
-    assert_int_equal(errno, ESRCH);
+    assert_true(has_ended((pid_t)process));
 }
 
 int main(int argc, char **argv)

@@ -445,17 +445,18 @@ static void test_cut_and_changed_files(void **state)
 
 // --- the process ---
 
-static void expect_assimp_fails(const char *name, const char *how)
-{
-    char path[1024];
-    snprintf(path, sizeof(path), "%s/assimp/%s", fuzz_folder, name);
-    expect_refused(path, how);
-}
-
-static void test_what_assimp_does(void **state)
+// Assimp 5.2 ends its process at this file. Later ones read it.
+static void test_assimp_ends_its_process(void **state)
 {
     (void)state;
-    expect_assimp_fails("aborts.ply", "Assimp crashed on it (Aborted)");
+    char path[1024];
+    snprintf(path, sizeof(path), "%s/assimp/aborts.ply", fuzz_folder);
+    struct rg_mesh *mesh = rg_mesh_load(path);
+    const bool is_read = mesh;
+    rg_mesh_destroy(mesh);
+    if (is_read)
+        skip();
+    expect_refused(path, "Assimp crashed on it (Aborted)");
 }
 
 static void expect_lost(const char *script, const char *why)
@@ -507,7 +508,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_half_a_file),
         cmocka_unit_test(test_the_corpus),
         cmocka_unit_test(test_cut_and_changed_files),
-        cmocka_unit_test(test_what_assimp_does),
+        cmocka_unit_test(test_assimp_ends_its_process),
         cmocka_unit_test(test_what_the_importer_may_do),
     };
     return cmocka_run_group_tests_name("meshes from files", tests, make_folder, remove_folder);
