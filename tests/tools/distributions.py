@@ -34,7 +34,7 @@ def steps(program, build, jobs):
         ("program", ["ninja", "-j", jobs, "-C", build, "program"]),
         ("baseline", [program, "gate", "--baseline", "results/baseline.json", "--device", "cpu,gl,vulkan", "--pictures"]),
         ("verify", [program, "verify", "--quick", "--device", DEVICES, "--require", DEVICES]),
-        ("build", ["ninja", "-j", jobs, "-C", build]),
+        ("build", ["ninja", "-j", jobs, "-k", "0", "-C", build]),
         ("unit", ["meson", "test", "-C", build, "--no-rebuild", "--suite", "unit", "--num-processes", jobs, "--print-errorlogs"]),
     ]
 

@@ -68,8 +68,8 @@ static void test_the_rate_of_paper_is_what_lands(void **state)
 {
     (void)state;
     static const char *const cases[] = {"", "drop_radius_min_mm=0.5 drop_radius_max_mm=7",
-                                        "pane_mm=40 drop_radius_min_mm=7 drop_radius_max_mm=9 "
-                                        "drop_height_per_mm=0.1 rain_drops_s=100"};
+                                        ("pane_mm=40 drop_radius_min_mm=7 drop_radius_max_mm=9 "
+                                         "drop_height_per_mm=0.1 rain_drops_s=100")};
     for (int i = 0; i < 3; i++) {
         char text[256];
         snprintf(text, sizeof(text),
