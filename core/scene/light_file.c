@@ -197,6 +197,20 @@ static bool read_light(json_t *object, const struct place *place, struct rg_ligh
 
 // --- the file ---
 
+static bool read_sky(json_t *object, const char *path, float colour[3])
+{
+    const struct place place = place_of(path, -1);
+    const char *name;
+    json_t *value;
+    json_object_foreach(object, name, value)
+    {
+        if (strcmp(name, "colour") != 0 && strcmp(name, "intensity") != 0)
+            return rg_error("%s: '%.60s' is no property of the sky; it has colour and intensity",
+                            place.text, name);
+    }
+    return read_colour(object, &place, colour);
+}
+
 static bool read_all(json_t *root, const char *path, struct rg_lights *lights)
 {
     json_t *list = json_object_get(root, "lights"), *sky = json_object_get(root, "sky"), *value;
@@ -215,8 +229,7 @@ static bool read_all(json_t *root, const char *path, struct rg_lights *lights)
             return false;
     }
     lights->count = (int)json_array_size(list);
-    const struct place place = place_of(path, -1);
-    return !sky || read_colour(sky, &place, lights->sky);
+    return !sky || read_sky(sky, path, lights->sky);
 }
 
 bool rg_light_file_read(const char *path, struct rg_lights *lights)

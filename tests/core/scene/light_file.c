@@ -160,6 +160,9 @@ static void bad_files_are_refused_in_one_line(void **state)
         {"{\"lights\": [{\"type\": \"point\", \"position_m\": [0, 0, 0], \"colour\": [1, 1, 1]}],"
          "\"sky\": {\"colour\": 4}}",
          {": sky: ", "list of three"}},
+        {"{\"lights\": [{\"type\": \"point\", \"position_m\": [0, 0, 0], \"colour\": [1, 1, 1]}],"
+         "\"sky\": {\"colour\": [1, 1, 1], \"intensty\": 4}}",
+         {": sky: ", "'intensty' is no property of the sky"}},
     };
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         struct rg_lights lights;
