@@ -116,8 +116,8 @@ static const char *const told[] = {
     "",
     "~ vulkan: another key: driver Mesa 26 and not Mesa 25\n",
     "+ snow.vulkan: new\n- rain.vulkan: gone\n",
-    "~ fixed function 'linear' of gl: another digest\n+ fixed function 'stencil' of gl: new\n"
-    "- fixed function 'nearest' of gl: gone\n",
+    ("~ fixed function 'linear' of gl: another digest\n+ fixed function 'stencil' of gl: new\n"
+     "- fixed function 'nearest' of gl: gone\n"),
     "~ flow.vulkan: timed now\n",
     "",
 };
