@@ -10,6 +10,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "tests/tools/expect.h"
+
 struct pty {
     int reader, writer; // the writer is the terminal
 };
@@ -18,13 +20,15 @@ static inline struct pty pty_open(void)
 {
     struct pty pty = {.reader = posix_openpt(O_RDWR | O_NOCTTY)};
     struct termios way;
-    grantpt(pty.reader);
-    unlockpt(pty.reader);
+    assert_at_least(pty.reader, 0);
+    assert_int_equal(grantpt(pty.reader), 0);
+    assert_int_equal(unlockpt(pty.reader), 0);
     pty.writer = open(ptsname(pty.reader), O_RDWR | O_NOCTTY);
-    tcgetattr(pty.writer, &way);
+    assert_at_least(pty.writer, 0);
+    assert_int_equal(tcgetattr(pty.writer, &way), 0);
     way.c_oflag &= ~(tcflag_t)OPOST; // line ends stay as they are
-    tcsetattr(pty.writer, TCSANOW, &way);
-    fcntl(pty.reader, F_SETFL, O_NONBLOCK);
+    assert_int_equal(tcsetattr(pty.writer, TCSANOW, &way), 0);
+    assert_int_equal(fcntl(pty.reader, F_SETFL, O_NONBLOCK), 0);
     return pty;
 }
 

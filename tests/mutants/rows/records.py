@@ -240,6 +240,7 @@ ROWS = [
     Fault(PARTS, "snprintf(r->first, sizeof(r->first), \"%s\", «path»);", "\"\"", "another whole's record is held against nothing", tests=("records of shards",)),
     Fault(PROGRAM, "rg_build_id(info, id);\n    return 1;", "return 1;", "a program has no build id", tests=("passport",)),
     Fault(PROGRAM, "all->hash += «XXH3_64bits(id, strlen(id))»;", "0", "libraries have no hash", tests=("passport",)),
+    Fault(PROGRAM, "if («all->count++»)", "false", "a library's build is not in the hash", tests=("passport",)),
     Fault(MACHINE, "machine->quota_cpus == 0 || «quota < machine->quota_cpus»)", "quota > machine->quota_cpus", "the loosest quota applies", tests=("machine",)),
     Fault(MACHINE, "!read_value(root, \"/proc/cpuinfo\", «\"Features\"», flags", "\"features\"", "a processor of arm64 has no features", tests=("machine",)),
     Fault(MACHINE, "machine->cores_allowed = rg_cpu_list_count(«machine->cores_list»);", "online", "all cores are allowed", tests=("machine",)),

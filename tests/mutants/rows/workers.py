@@ -273,6 +273,7 @@ ROWS = [
     Fault(END, "*seen.queued && «!is_told» ?", "true", "a kernel that runs is told twice", tests=OF_ENDS),
     Fault(END, "*mend = «end->verdict == RG_WORKER_NO_ROOM || ended_lacking(end)»", "false", "what mends a lack of memory is not told", tests=OF_ENDS),
     Fault(HELD, "return «resident * sysconf(_SC_PAGESIZE)»;", "resident * 1024", "pages are taken for KiB", tests=OF_ENDS),
+    Fault(HELD, "return «resident * sysconf(_SC_PAGESIZE)»;", "all * sysconf(_SC_PAGESIZE)", "memory that was only asked for is held", tests=OF_ENDS),
     Fault(FIELDS, "(int64_t)(length < size ? «length + 1» : size));", "length", "a text is sent without its end", tests=OF_FIELDS),
     Fault(FIELDS, "rg_put_fields(message, field->of, at(rows, «(size_t)i * field->size»));", "0", "all rows of a list are the first", tests=OF_FIELDS),
     Fault(FIELDS, "return field->least < 0 ? «(int64_t)word» :", "(int64_t)(uint32_t)word", "numbers below 0 are refused", tests=OF_FIELDS),

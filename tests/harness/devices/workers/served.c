@@ -388,6 +388,7 @@ static void a_kernel_s_code_is_the_same(void **state)
     (void)state;
     struct pair pair = open_pair("raster", "billboards=10", 0);
     const struct rg_kernel *kernel = rg_kernel_find("probe_copy");
+    int found = 0;
     static const enum rg_code_kind kinds[] = {RG_CODE_GLSL, RG_CODE_SPIRV, RG_CODE_OPENCL};
     for (int k = 0; k < 3; k++) {
         void *code[2];
@@ -399,6 +400,7 @@ static void a_kernel_s_code_is_the_same(void **state)
         }
         assert_int_equal(!code[LOCAL], !code[REMOTE]);
         if (code[LOCAL]) {
+            found++;
             assert_int_equal(sizes[LOCAL], sizes[REMOTE]);
             assert_memory_equal(code[LOCAL], code[REMOTE], sizes[LOCAL]);
             if (kinds[k] == RG_CODE_SPIRV)
@@ -407,8 +409,17 @@ static void a_kernel_s_code_is_the_same(void **state)
         free(code[LOCAL]);
         free(code[REMOTE]);
     }
+    close_pair(&pair);
+    if (!found)
+        skip(); // a build without drivers
+}
+
+static void a_kernel_is_compiled(void **state)
+{
+    (void)state;
+    struct pair pair = open_pair("raster", "billboards=10", 0);
     for (int i = 0; i < 2; i++)
-        assert_true(rg_digests_compile(pair.devices[i], kernel));
+        assert_true(rg_digests_compile(pair.devices[i], rg_kernel_find("probe_copy")));
     close_pair(&pair);
 }
 
@@ -448,6 +459,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(dispatches_of_a_stage_are_kept_and_replayed),
         cmocka_unit_test(contents_of_a_state_have_its_layout),
         cmocka_unit_test(a_kernel_s_code_is_the_same),
+        cmocka_unit_test(a_kernel_is_compiled),
         cmocka_unit_test(a_device_s_memory_is_its_process_s),
     };
     rg_log_listen(keep, NULL);

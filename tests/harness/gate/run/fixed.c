@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "backends/backend.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/run/fixed.h"
 #include "harness/console/clock.h"
@@ -51,6 +52,14 @@ json_t *rg_fixed_digests(struct rg_device *device, int *count)
     now_ms += 750;
     *count = failed[side_of(device)];
     return json_incref(digests[side_of(device)]);
+}
+
+// One backend with fixed functions and one without, whatever the build has.
+const struct rg_backend *rg_backend_of(const char *name)
+{
+    static const struct rg_backend cpu = {.name = "cpu"},
+                                   vulkan = {.name = "vulkan", .fixed_draw = rg_device_fixed_draw};
+    return !strcmp(name, "cpu") ? &cpu : &vulkan;
 }
 
 // Two codes, one of which is the same on both sides.
@@ -330,10 +339,8 @@ static void a_pair_has_a_case_of_them_if_the_baseline_has_digests(void **state)
         {{{"cpu", "cpu@LD_LIBRARY_PATH=/new"}}, false},
         {{{"gl", "vulkan@VK_DRIVER_FILES=new.json"}}, false},
     };
-    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
-        const bool is_built = rg_backend_of(rows[i].pair.names[RG_SIDE_B]);
-        assert_int_equal(rg_gate_has_fixed(NULL, &rows[i].pair), rows[i].has && is_built);
-    }
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
+        assert_int_equal(rg_gate_has_fixed(NULL, &rows[i].pair), rows[i].has);
     end();
 }
 

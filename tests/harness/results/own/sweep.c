@@ -134,7 +134,7 @@ static void rows_have_settings_before_their_own(void **state)
     (void)state;
     struct rg_grid *grid = grid_of((const char *const[]){"zoom=0.5,0.75..1", NULL});
     grid->set = "scene=car";
-    assert_true(grid && rg_grid_make(grid, rg_technique_find("cartoon")));
+    assert_true(rg_grid_make(grid, rg_technique_find("cartoon")));
     assert_int_equal(grid->table.row_count, 3);
     assert_equals(grid->table.rows[1].values[0], 0.75);
     assert_string_equal(grid->table.rows[2].set, "scene=car zoom=1");
