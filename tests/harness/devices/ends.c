@@ -22,6 +22,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/serve.h"
 #include "harness/devices/workers/worker.h"
+#include "tests/tools/interrupt.h"
 
 // --- in the worker ---
 
@@ -392,7 +393,7 @@ static void an_interruption_is_passed_on(void **state)
     int64_t number = 0, result = 0;
     assert_int_equal(ask(*state, RG_CALL_STEP, 1, &result), RG_OK);
     rg_interrupt_watch();
-    raise(SIGTERM);
+    interrupt_by(SIGTERM);
     assert_int_equal(ask(*state, RG_CALL_FRAMES, 0, &number), RG_OK);
     rg_interrupt_watch();
     assert_int_equal(number, SIGINT);

@@ -7,6 +7,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/clock.h"
+#include "tests/tools/interrupt.h"
 
 static double now_ms = 1000;
 static char events[1 << 16];
@@ -233,7 +234,7 @@ static bool step_fake(struct rg_instance *instance)
     fake->pending_ms += script->step_ms + (fake->last == instance ? 0 : script->cold_ms);
     fake->last = instance;
     if (++instance->frame == script->interrupt_at)
-        raise(SIGTERM);
+        interrupt_by(SIGTERM);
     end_stage(instance, "stir");
     return true;
 }

@@ -22,6 +22,7 @@
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/measuring/measure.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/interrupt.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
@@ -87,7 +88,7 @@ static void hear(enum rg_log_level level, const char *line, void *user)
     (void)level;
     (void)line;
     if (!rig->messages++ && rig->interrupts)
-        raise(SIGINT);
+        interrupt_by(SIGINT);
 }
 
 static void begin(struct rig *rig, struct rg_result *result, int last_row)

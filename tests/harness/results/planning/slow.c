@@ -12,6 +12,7 @@
 #include "core/base/log.h"
 #include "core/techniques/proof.h"
 #include "harness/record/record.h"
+#include "tests/tools/interrupt.h"
 
 // --- a technique whose frames take the time of its settings ---
 
@@ -99,7 +100,7 @@ static bool open_slow(struct rg_instance *instance)
 {
     const struct slow_instance *slow = (const struct slow_instance *)instance;
     if (++slow_opened == slow_interrupted)
-        raise(SIGINT);
+        interrupt_by(SIGINT);
     fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms + compiled_ms(instance, true) +
               shared_ms(instance));
     return true;
