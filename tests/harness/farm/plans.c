@@ -324,24 +324,6 @@ static void test_cut(void **state)
     }
 }
 
-static void test_array(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *has, *text;
-    } rows[] = {{"....", ""},       {"x...", "1"},          {"...x", "4"},       {"xxxx", "1-4"},
-                {".xx.x", "2-3,5"}, {"x.x.xxx", "1,3,5-7"}, {"xx.xx", "1-2,4-5"}};
-    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
-        bool has[8];
-        char text[8 * RG_SHARD_NUMBER];
-        const int count = (int)strlen(rows[i].has);
-        for (int k = 0; k < count; k++)
-            has[k] = rows[i].has[k] == 'x';
-        rg_shard_array(has, count, text, sizeof(text));
-        assert_string_equal(text, rows[i].text);
-    }
-}
-
 // --- a file ---
 
 static void expect_cells(const struct rg_farm_plan *found, const struct rg_farm_plan *due)
@@ -523,7 +505,6 @@ int main(void)
         cmocka_unit_test(test_expected),
         cmocka_unit_test(test_lengths),
         cmocka_unit_test(test_cut),
-        cmocka_unit_test(test_array),
         cmocka_unit_test(test_file),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_malformed),

@@ -12,7 +12,6 @@
 #include <cmocka.h>
 
 #include "core/base/log.h"
-#include "harness/compare/gate/run/choose.h"
 #include "harness/compare/gate/run/timing.h"
 #include "harness/compare/gate/shards/shards.h"
 #include "harness/console/exit.h"
@@ -40,32 +39,6 @@ static void test_error(void **state)
         assert_true(rule.error / rule.rows > 0.999 * rows[i].share &&
                     rule.error / rule.rows < 1.001 * rows[i].share);
     }
-}
-
-// The error is shared by the cells of all shards, though each shard has some of them alone.
-static void test_family(void **state)
-{
-    (void)state;
-    static const char text[] =
-        "a/one raster 16x16 1\na/two raster 16x16 1\na/three raster 16x16 1\n";
-    struct rg_gate_cells cells;
-    struct rg_gate_pairs pairs = {.count = 1};
-    assert_true(rg_gate_cells_of("cells", text, strlen(text), &cells));
-    assert_true(rg_gate_pair_of("cpu", "cpu:reference", &pairs.all[0]));
-    int cases = 0;
-    for (int shard = 1; shard <= 2; shard++) {
-        const struct rg_gate_request request = {
-            .pairs = &pairs, .cells = &cells, .shard = {shard, 2}};
-        struct rg_gate gate = {.case_count = 0};
-        struct rg_running_gate run = {.asked = &request, .gate = &gate};
-        assert_true(rg_gate_choose(&run));
-        assert_int_equal(run.family[0], 3);
-        assert_int_equal(gate.chosen, 3);
-        cases += gate.case_count;
-        rg_gate_free(&gate);
-    }
-    assert_int_equal(cases, 3);
-    rg_gate_cells_free(&cells);
 }
 
 // --- records ---
@@ -97,30 +70,6 @@ static struct rg_parts parts_of(json_t *first, json_t *second, const char *requi
     parts.documents[1] = second;
     parts.of = json_object_get(json_object_get(first, "shard"), "of");
     return parts;
-}
-
-static void test_order(void **state)
-{
-    (void)state;
-    const struct rg_gate_request whole = {.shard = {1, 1}};
-    struct rg_gate gate = {.case_count = 0};
-    int beyond;
-    struct rg_parts parts = parts_of(
-        record(1, case_json("two.gl", "gl", "pass", true), "Mesa 22", RG_EXIT_PASS),
-        record(0, case_json("one.gl", "gl", "differs", true), "Mesa 22", RG_EXIT_HARNESS), "gl");
-    assert_true(rg_gate_merge(&parts, &gate, &beyond));
-    assert_int_equal(gate.report.case_count, 2);
-    assert_string_equal(gate.report.cases[0].name, "one.gl");
-    assert_string_equal(gate.report.cases[1].name, "two.gl");
-    assert_true(gate.report.cases[1].is_compared);
-    assert_true(gate.report.cases[1].seconds == 1.5);
-    assert_string_equal(gate.report.passport,
-                        "{\"devices\": [{\"name\": \"gl\", \"driver\": \"Mesa 22\"}]}");
-    assert_string_equal(gate.note, "A  cpu\n");
-    assert_int_equal(beyond, RG_EXIT_HARNESS);
-    assert_int_equal(rg_gate_exit(&whole, &gate), RG_EXIT_FAIL);
-    rg_gate_free(&gate);
-    rg_parts_free(&parts);
 }
 
 // A device that no shard compared fails; one that another shard compared does not.
@@ -184,9 +133,10 @@ static void test_broken(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error),   cmocka_unit_test(test_family),
-        cmocka_unit_test(test_order),   cmocka_unit_test(test_required),
-        cmocka_unit_test(test_drivers), cmocka_unit_test(test_broken),
+        cmocka_unit_test(test_error),
+        cmocka_unit_test(test_required),
+        cmocka_unit_test(test_drivers),
+        cmocka_unit_test(test_broken),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
