@@ -1,4 +1,5 @@
-// Assertions of order that tell both values, where assert_true(a < b) tells only its text.
+// Assertions of order and of distance that tell both values, where assert_true(a < b) tells only
+// its text.
 #ifndef RG_TESTS_TOOLS_EXPECT_H
 #define RG_TESTS_TOOLS_EXPECT_H
 
@@ -10,6 +11,7 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <math.h>
 
 // Both sides are evaluated once and compared as long doubles, which hold every integer and double
 // exactly. With a NaN, only assert_differs passes.
@@ -19,6 +21,9 @@
 #define assert_at_least(a, b) RG_EXPECT(a, ">=", b)
 #define assert_equals(a, b)   RG_EXPECT(a, "==", b)
 #define assert_differs(a, b)  RG_EXPECT(a, "!=", b)
+
+// At most so far apart. With a NaN, or two infinities, it fails.
+#define assert_near(a, b, within) rg_near((a), (b), (within), #a, __FILE__, __LINE__)
 
 #define RG_EXPECT(a, order, b)                                                                     \
     rg_expect((long double)(a), order, (long double)(b), #a " " order " " #b, __FILE__, __LINE__)
@@ -35,6 +40,15 @@ static inline void rg_expect(long double a, const char *order, long double b, co
     if (holds)
         return;
     print_error("%s: %.19Lg %s %.19Lg does not hold\n", text, a, order, b);
+    _fail(file, line);
+}
+
+static inline void rg_near(double a, double b, double within, const char *text, const char *file,
+                           int line)
+{
+    if (fabs(a - b) <= within)
+        return;
+    print_error("%s: %.17g is not within %g of %.17g\n", text, a, within, b);
     _fail(file, line);
 }
 

@@ -244,9 +244,9 @@ static void test_expected(void **state)
     // Six samples, and check frames, of 0.4 s each at least.
     assert_at_least(cells[0].seconds, 6 * 0.4);
     const double mean = (cells[0].seconds + cells[2].seconds + cells[4].seconds) / 3;
-    assert_true(fabs(cells[6].seconds - mean) < 1e-9);
-    assert_true(fabs(cells[8].seconds - mean) < 1e-9);
-    assert_true(fabs(farm.plan.groups[0].seconds - cells[0].seconds - cells[1].seconds) < 1e-9);
+    assert_near(cells[6].seconds, mean, 1e-9);
+    assert_near(cells[8].seconds, mean, 1e-9);
+    assert_near(farm.plan.groups[0].seconds, cells[0].seconds + cells[1].seconds, 1e-9);
     // Without records the machine's speed is all that is known.
     assert_int_equal(rg_farm_expect(&farm.plan, farm.all, 2, &none, 1), 6); // stays known
     rg_result_free(&result);
@@ -318,7 +318,7 @@ static void test_cut(void **state)
         }
         for (int s = 0; s < shards; s++)
             longest = fmax(longest, taken[s]);
-        assert_true(fabs(longest - told) < 1e-9 * longest);
+        assert_near(longest, told, 1e-9 * longest);
         assert_at_most(longest, fmax(1.3 * mean, most) * (1 + 1e-12));
         rg_farm_plan_free(&plan);
     }
@@ -333,7 +333,7 @@ static void expect_cells(const struct rg_farm_plan *found, const struct rg_farm_
         assert_int_equal(found->groups[g].first_cell, due->groups[g].first_cell);
         assert_int_equal(found->groups[g].cell_count, due->groups[g].cell_count);
         assert_string_equal(found->groups[g].table, due->groups[g].table);
-        assert_below(fabs(found->groups[g].seconds - due->groups[g].seconds), 1e-6);
+        assert_near(found->groups[g].seconds, due->groups[g].seconds, 1e-6);
     }
     for (int64_t i = 0; i < found->cell_count; i++) {
         assert_int_equal(found->cells[i].row, due->cells[i].row);

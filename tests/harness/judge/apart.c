@@ -14,8 +14,6 @@
 #include "tests/harness/judge/chance.h"
 #include "tests/tools/expect.h"
 
-#define assert_near(value, due, within) assert_true(fabs((double)(value) - (due)) <= (within))
-
 // --- noise ---
 
 enum noise { NORMAL, SKEWED, TWO_STATES, LINKED, NOISES };

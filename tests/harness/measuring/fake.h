@@ -39,9 +39,6 @@ struct fake_device {
 };
 struct fake_device *fake_open(void);
 
-// False for NaN and infinities, too.
-#define assert_near(value, due, within) assert_true(fabs((double)(value) - (due)) <= (within))
-
 // The events since fake_forget, of all devices: "(" opened, a script's letter for a step, "."
 // drawn, "|" waited, "t" the clock read.
 const char *fake_events(void);

@@ -10,6 +10,7 @@
 #include "harness/measure/timer_audit.h"
 #include "kernels/probe/arithmetic_params.h"
 #include "tests/harness/measuring/fake.h"
+#include "tests/tools/expect.h"
 
 static void audit(double clock_rate, double word_ms, struct rg_timer_audit *result)
 {

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "tests/harness/measuring/bench.h"
+#include "tests/tools/expect.h"
 
 // --- jobs that are visited again ---
 

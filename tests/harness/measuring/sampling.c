@@ -14,6 +14,7 @@
 #include "harness/measure/sampling.h"
 #include "harness/measure/yardsticks.h"
 #include "tests/harness/measuring/bench.h"
+#include "tests/tools/expect.h"
 
 // --- sampling ---
 

@@ -11,8 +11,6 @@
 #include "kernels/dialect/rng.h"
 #include "tests/tools/expect.h"
 
-#define assert_near(value, due, within) assert_true(fabs((value) - (due)) <= (within))
-
 // The numbers from 1 to count, unsorted: ranks are their own values.
 static void fill(double *samples, int count)
 {

@@ -133,11 +133,6 @@ static void begin(bool has_baseline)
                                   .is_advised = has_baseline && i == 2};
 }
 
-static void assert_near(double value, double due)
-{
-    assert_at_most(fabs(value - due), 1e-12 * fabs(due));
-}
-
 // --- what is timed ---
 
 static void cases_of_a_pair_are_timed_in_one_course(void **state)
@@ -220,7 +215,7 @@ static void courses_share_the_error(void **state)
             run.family[baselined ? 0 : 1] = 10;
             assert_true(rg_gate_time(&run, cases, MOST));
             assert_near(courses[0].rule.error,
-                        0.01 / (baselined ? 1 : 2) * (shards > 1 ? 2 / 10.0 : 1));
+                        0.01 / (baselined ? 1 : 2) * (shards > 1 ? 2 / 10.0 : 1), 1e-14);
             assert_int_equal(courses[0].rule.is_apart, baselined);
         }
 }

@@ -23,6 +23,7 @@
 #include "harness/record/passport/machine.h"
 #include "harness/tables/runs/compile.h"
 #include "tests/harness/results/planning/slow.h"
+#include "tests/tools/expect.h"
 
 // --- tables and devices that have only names ---
 

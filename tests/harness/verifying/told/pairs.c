@@ -260,8 +260,7 @@ static void each_figure_has_its_key(void **state)
     const json_t *linear = json_object_get(pair, "linear");
     for (int t = 0; t < 4; t++) {
         const json_t *above = json_array_get(json_object_get(linear, "above"), (size_t)t);
-        assert_float_equal(json_number_value(json_object_get(above, "threshold")), thresholds[t],
-                           1e-9);
+        assert_near(json_number_value(json_object_get(above, "threshold")), thresholds[t], 1e-9);
         assert_int_equal(json_integer_value(json_object_get(above, "values")), 41 + t);
         assert_int_equal(json_integer_value(json_object_get(above, "pixels")), 31 + t);
     }
