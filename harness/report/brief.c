@@ -424,7 +424,8 @@ char *rg_page_badge(const struct rg_page *page)
     if (found.cases + found.checks)
         snprintf(said, sizeof(said), "%d of %d fail", failures, found.cases + found.checks);
     else if (all)
-        snprintf(said, sizeof(said), "%d of %d claims hold", stands[RG_STAND_HOLDS], all);
+        snprintf(said, sizeof(said), "%d of %d %s", stands[RG_STAND_HOLDS], all,
+                 all == 1 ? "claim holds" : "claims hold");
     json_decref(document);
     char *text = draw(title, said,
                       failures                                               ? "#b3261e"

@@ -267,10 +267,13 @@ static void note_interruption(const struct rg_result *result, struct rg_sheet *s
         if (rg_result_has(result, row))
             continue;
         const int last = end_of_gap(result, row);
-        rg_sheet_note(sheet, "Rows %d to %d are missing: %s.", row + 1, last + 1,
-                      rg_result_wants(result, row) ? "the run was interrupted"
-                      : result->budget_s > 0       ? "a budget leaves them out"
-                                                   : "quick mode leaves them out");
+        const char *why = rg_result_wants(result, row) ? "the run was interrupted"
+                          : result->budget_s > 0       ? "left out by a budget"
+                                                       : "left out by quick mode";
+        if (row == last)
+            rg_sheet_note(sheet, "Row %d is missing: %s.", row + 1, why);
+        else
+            rg_sheet_note(sheet, "Rows %d to %d are missing: %s.", row + 1, last + 1, why);
         row = last;
     }
 }

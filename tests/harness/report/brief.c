@@ -286,7 +286,7 @@ static void badges_are_as_wide_as_their_words(void **state)
         int left_px, right_px;
     } cases[] = {
         {{{"claims", holds}}, "creus", "1 of 2 claims hold", "#17733a", 47, 138},
-        {{{"claims", open}}, "creus", "0 of 1 claims hold", "#666", 47, 138},
+        {{{"claims", open}}, "creus", "0 of 1 claim holds", "#666", 47, 138},
         {{{"gate", passes}}, "raingauge", "0 of 2 fail", "#17733a", 75, 89},
         {{{"gate", fails}}, "raingauge", "1 of 2 fail", "#b3261e", 75, 89},
         {{{"verify", verified}}, "raingauge", "0 of 3 fail", "#17733a", 75, 89},

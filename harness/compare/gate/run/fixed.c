@@ -35,15 +35,15 @@ bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_
 
 // --- whether bits may be compared ---
 
-// A copy of a device's name without LLVM's version: "llvmpipe (LLVM , 256 bits)". The vector width
+// A copy of a device's name without LLVM's version: "llvmpipe (LLVM, 256 bits)". The vector width
 // stays, and a driver may be built anew.
 static json_t *hardware(const char *name)
 {
     char text[RG_KEY_TEXT];
     const char *llvm = strstr(name, "LLVM ");
-    const char *rest = llvm ? llvm + strlen("LLVM ") : name;
+    const char *rest = llvm ? llvm + strlen("LLVM") : name;
     snprintf(text, sizeof(text), "%.*s%s", (int)(rest - name), name,
-             rest + (llvm ? strspn(rest, "0123456789.") : 0));
+             rest + (llvm ? strspn(rest, " 0123456789.") : 0));
     return json_string(text);
 }
 

@@ -212,7 +212,7 @@ static void what_cannot_be_compared_is_skipped_and_says_why(void **state)
         {"features", "sse2", RG_ENDING_SKIPPED, "features avx2 and not sse2"},
         {"variables", "X=1", RG_ENDING_SKIPPED, "variables unknown and not X=1"},
         {"device", "llvmpipe (LLVM 9, 128 bits)", RG_ENDING_SKIPPED,
-         "device llvmpipe (LLVM , 256 bits) and not llvmpipe (LLVM , 128 bits)"},
+         "device llvmpipe (LLVM, 256 bits) and not llvmpipe (LLVM, 128 bits)"},
         {"device", "llvmpipe (LLVM 9, 256 bits)", RG_ENDING_PASS, NULL},
         {"driver", "Mesa 9", RG_ENDING_PASS, NULL},
         {NULL, "name", RG_ENDING_UNSUPPORTED, "the device did not open"},
@@ -302,7 +302,7 @@ static void two_drivers_that_leave_nothing_to_compare_say_so(void **state)
         } else {
             snprintf(run.infos[RG_SIDE_A].device, sizeof(run.infos[0].device), "llvmpipe");
             ending = RG_ENDING_SKIPPED;
-            why = "device llvmpipe (LLVM , 256 bits) and not llvmpipe";
+            why = "device llvmpipe (LLVM, 256 bits) and not llvmpipe";
         }
         snprintf(due, sizeof(due), "%d digests are not compared: %s", rg_fixed_count(),
                  why ? why : "");

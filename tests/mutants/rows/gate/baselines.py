@@ -15,7 +15,7 @@ OF_FILE, OF_CHANGES, OF_MAKING, OF_TAKING = (
 ROWS = [
     Fault(FIXED, "const bool same = «was && is && !strcmp(was, is)»;", "true", "every digest of a fixed function is the baseline's", tests=OF_FIXED),
     Fault(FIXED, "if («*why»)\n        return skip(&h, RG_ENDING_SKIPPED", "false", "digests of another processor are compared", tests=OF_FIXED),
-    Fault(FIXED, "rest + («llvm ? strspn(rest, \"0123456789.\") : 0»)", "0", "digests of another LLVM are not compared", tests=OF_FIXED),
+    Fault(FIXED, "rest + («llvm ? strspn(rest, \" 0123456789.\") : 0»)", "0", "digests of another LLVM are not compared", tests=OF_FIXED),
     Fault(FIXED, "if (!was || (same && «row < 0»))", "true", "an expectation of a fixed function never passes unexpectedly", tests=OF_FIXED),
     Fault(FIXED, "return «steps <= rg_fixed_draws[draw].steps ? steps : 0»;", "steps", "two drivers may differ by anything where the APIs allow a little", tests=OF_FIXED),
     Fault(FIXED, "same || (steps && «!asked->strict»)", "true", "a strict gate lets two drivers differ", tests=OF_FIXED),

@@ -30,6 +30,7 @@ ROWS = [
     Fault(BRIEF, "(rg_page_is(record, \"kind\", \"gate\") && «i != last_gate»)", "false", "gates of earlier runs are told as found now"),
     Fault(BRIEF, "for (int i = 0; i < «4»; i++) {\n        f.wanted = statuses[i];", "3", "a merge request is not told which checks fail"),
     Fault(STANDS, "if («holds || fails»)", "holds && fails", "figures of one launch go before verdicts"),
+    Fault(BRIEF, "«all == 1» ? \"claim holds\"", "false", "a badge of one claim has several", tests=("the page in short",)),
     Fault("harness/report/brief.c", "(«i && strcmp(title, paper) != 0»)", "i > 1 && strcmp(title, paper) != 0", "a badge of two papers has the name of one", tests=("the page",)),
     Fault(STANDS, "if («!any && machine»)", "false", "claims are open on machines that have none of them", tests=("the page in short",)),
     Fault(STANDS, "if («!is_on(verdict, machine)»)", "false", "each machine has the standing of all", tests=("the page in short",)),
