@@ -15,6 +15,7 @@
 
 #include "harness/atlas/compare.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 // Nine pictures of single lights, five of them from the front, one of light from everywhere, and
 // one that is even.
@@ -104,21 +105,10 @@ static void brightness_is_that_of_single_lights(void **state)
 // What is printed, until the next call.
 static const char *printed(const struct rg_cave_comparison *comparison, bool json)
 {
-    static char text[1 << 14];
     const struct rg_atlas atlas = {.hash = 0xabcdef};
-    FILE *file = tmpfile();
-    assert_non_null(file);
-    fflush(stdout);
-    const int kept = dup(STDOUT_FILENO);
-    dup2(fileno(file), STDOUT_FILENO);
+    printed_begin();
     rg_cave_print(comparison, &atlas, "/db", json);
-    fflush(stdout);
-    dup2(kept, STDOUT_FILENO);
-    close(kept);
-    rewind(file);
-    text[fread(text, 1, sizeof(text) - 1, file)] = 0;
-    fclose(file);
-    return text;
+    return printed_end();
 }
 
 // The same with a blank for each run of them.

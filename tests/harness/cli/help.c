@@ -12,8 +12,8 @@
 #include "harness/commands/cli/shared.h"
 #include "harness/commands/cli/subject.h"
 #include "harness/commands/commands.h"
-#include "tests/harness/cli/printed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 struct values {
     int format, count;

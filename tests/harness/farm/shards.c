@@ -23,6 +23,7 @@
 #include "harness/tables/farm/shard.h"
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 enum { ROWS = 4, DEVICES = 3 };
 
@@ -44,7 +45,8 @@ static const struct rg_table table = {.id = "slow-1",
 
 static struct rg_farm_plan plan;
 static struct slow_rig rig;
-static char folder[64], heard[4096], printed[1024];
+static char folder[64], heard[4096];
+static const char *printed;
 
 static void hear(enum rg_log_level level, const char *line, void *user)
 {
@@ -110,26 +112,14 @@ static const struct rg_table *find(const char *id)
 // Measures a shard, and keeps what it prints and logs.
 static int measure(int number, int count)
 {
-    char path[96];
     const struct rg_shard shard = {number, count};
-    snprintf(path, sizeof(path), "%s/printed", folder);
-    fflush(stdout);
-    const int own = dup(STDOUT_FILENO);
-    FILE *file = fopen(path, "w+");
-    assert_true(own >= 0 && file);
-    dup2(fileno(file), STDOUT_FILENO);
     *heard = 0;
     slow_opened = 0;
     rg_log_listen(hear, NULL);
+    printed_begin();
     const int exit = rg_farm_measure(&plan, &shard, &rig.devices, find, folder);
+    printed = printed_end();
     rg_log_listen(NULL, NULL);
-    fflush(stdout);
-    dup2(own, STDOUT_FILENO);
-    close(own);
-    rewind(file);
-    printed[fread(printed, 1, sizeof(printed) - 1, file)] = 0;
-    fclose(file);
-    unlink(path);
     return exit;
 }
 

@@ -16,8 +16,8 @@
 #include "harness/compare/bisect/bisect.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
-#include "tests/harness/verifying/told/printed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 enum { LONGEST = 11 };
 
@@ -261,7 +261,7 @@ static void listen(enum rg_log_level level, const char *line, void *user)
 
 // Bisects the numbers from 1 to 6. Returns what it prints, and then its JSON; the caller frees
 // both.
-static char *bisect(const char *line, int *exit, json_t **json)
+static const char *bisect(const char *line, int *exit, json_t **json)
 {
     static const char *const names[] = {"1", "2", "3", "4", "5", "6"};
     struct rg_candidates candidates = {.count = 0};
@@ -269,12 +269,11 @@ static char *bisect(const char *line, int *exit, json_t **json)
         assert_true(rg_candidates_add(names[i], &candidates));
     const struct rg_judging judging = {.line = line, .budget_s = 1, .tries = 2};
     struct rg_bisect b = {.candidates = &candidates, .judging = &judging, .prints = true};
-    struct printed printed;
     *told = 0;
     rg_log_listen(listen, NULL);
-    printed_begin(&printed);
+    printed_begin();
     *exit = rg_bisect_run(&b);
-    char *text = printed_end(&printed);
+    const char *text = printed_end();
     rg_log_listen(NULL, NULL);
     FILE *out = tmpfile();
     assert_non_null(out);
@@ -294,7 +293,7 @@ static void the_first_bad_one_is_told(void **state)
     static const char line[] = "test \"$RG_GOOD\" = 1 && test $RG_CANDIDATE -lt 5";
     int exit;
     json_t *json;
-    char *text = bisect(line, &exit, &json);
+    const char *text = bisect(line, &exit, &json);
     assert_int_equal(exit, RG_EXIT_PASS);
     assert_string_equal(text, "good  1  (exit status 0, 0.25 s)\n"
                               "bad   6  (exit status 1, 0.25 s)\n"
@@ -319,7 +318,6 @@ static void the_first_bad_one_is_told(void **state)
     assert_true(json_equal(json, due));
     json_decref(due);
     json_decref(json);
-    free(text);
 }
 
 // The third can never be judged, and the fourth not by this command.
@@ -328,7 +326,7 @@ static void several_are_told(void **state)
     (void)state;
     int exit;
     json_t *json;
-    char *text =
+    const char *text =
         bisect("case $RG_CANDIDATE in 3) exit 3;; 4) exit 77;; *) test $RG_CANDIDATE -lt 5; esac",
                &exit, &json);
     assert_int_equal(exit, RG_EXIT_INCONCLUSIVE);
@@ -346,7 +344,6 @@ static void several_are_told(void **state)
     assert_string_equal(json_string_value(json_object_get(json, "end")), "one of several");
     json_decref(due);
     json_decref(json);
-    free(text);
 }
 
 // An end that is not what it is called, or that cannot be judged, and a command that judges
@@ -374,7 +371,7 @@ static void ends_that_are_wrong_are_told(void **state)
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         int exit;
         json_t *json;
-        free(bisect(cases[i].line, &exit, &json));
+        bisect(cases[i].line, &exit, &json);
         assert_int_equal(exit, cases[i].exit);
         assert_string_equal(told, cases[i].says);
         assert_string_equal(json_string_value(json_object_get(json, "end")), cases[i].end);

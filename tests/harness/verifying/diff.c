@@ -5,7 +5,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <fcntl.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,10 +16,12 @@
 #include "harness/compare/diff/files.h"
 #include "tests/core/image/rain_picture.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 static char folder[] = "/tmp/raingauge-diff-XXXXXX";
-static char a[64], b[64], background[64], small[64], three[64], output[64], prefix[64];
-static char text[16384], last_error[1024];
+static char a[64], b[64], background[64], small[64], three[64], prefix[64];
+static const char *text;
+static char last_error[1024];
 static int error_count;
 
 static void listen(enum rg_log_level level, const char *line, void *user)
@@ -42,20 +43,13 @@ static void write_rain(const char *path, int width, int channels, int streaks)
     rg_picture_destroy(&picture);
 }
 
-// Runs with stdout in a file, whose text it puts into `text`.
+// Runs, and keeps what is printed in `text`.
 static int run(const struct rg_diff_request *request)
 {
-    fflush(stdout);
-    int kept = dup(1), file = open(output, O_RDWR | O_CREAT | O_TRUNC, 0600);
-    dup2(file, 1);
+    printed_begin();
     error_count = 0;
-    int status = rg_diff_files(request);
-    fflush(stdout);
-    dup2(kept, 1);
-    close(kept);
-    ssize_t size = pread(file, text, sizeof(text) - 1, 0);
-    text[size > 0 ? size : 0] = '\0';
-    close(file);
+    const int status = rg_diff_files(request);
+    text = printed_end();
     return status;
 }
 
@@ -302,7 +296,6 @@ static int make_files(void **state)
     snprintf(background, sizeof(background), "%s/background.exr", folder);
     snprintf(small, sizeof(small), "%s/small.exr", folder);
     snprintf(three, sizeof(three), "%s/three.exr", folder);
-    snprintf(output, sizeof(output), "%s/output", folder);
     snprintf(prefix, sizeof(prefix), "%s/heat", folder);
     write_rain(a, 160, 4, 60);
     write_rain(b, 160, 4, 55);
@@ -316,8 +309,8 @@ static int remove_files(void **state)
 {
     (void)state;
     rg_log_listen(NULL, NULL);
-    const char *const files[] = {a, b, background, small, three, output};
-    for (int i = 0; i < 6; i++)
+    const char *const files[] = {a, b, background, small, three};
+    for (int i = 0; i < 5; i++)
         unlink(files[i]);
     return rmdir(folder); // empty: nothing else is left
 }

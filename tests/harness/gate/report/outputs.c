@@ -15,8 +15,8 @@
 #include "core/base/log.h"
 #include "harness/commands/comparing/outputs.h"
 #include "harness/compare/gate/text/date.h"
-#include "tests/harness/cli/printed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 static char folder[64], logged[1024];
 static int log_count;

@@ -6,8 +6,8 @@
 #include "harness/console/exit.h"
 #include "harness/doctor/compile.h"
 #include "harness/measure/serving/fixed.h"
-#include "tests/harness/measuring/doctor/printed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 static char logged[1024];
 static int lines;
@@ -51,16 +51,13 @@ static json_t *make_rows(void)
     return rows;
 }
 
-static void print_rows(const void *what)
-{
-    rg_doctor_fixed_print(what);
-}
-
 static void rows_are_printed_with_what_fails(void **state)
 {
     (void)state;
     json_t *rows = make_rows();
-    assert_string_equal(printed_by(print_rows, rows),
+    printed_begin();
+    rg_doctor_fixed_print(rows);
+    assert_string_equal(printed_end(),
                         "new: 4 draws of fixed functions, 1 unsupported, 1 fail; 1 of 2 closed "
                         "cases hold; in 12 ms\n"
                         "  linear                     00aa\n"
@@ -219,15 +216,12 @@ static void the_named_kernels_are_compiled(void **state)
     json_decref(report);
 }
 
-static void print_compiled(const void *what)
-{
-    assert_int_equal(rg_doctor_compile(what, "raster_quads,probe_copy", NULL), RG_EXIT_PASS);
-}
-
 static void what_compiles_is_counted_for_people(void **state)
 {
     (void)state;
-    assert_string_equal(printed_by(print_compiled, "cpu"),
+    printed_begin();
+    assert_int_equal(rg_doctor_compile("cpu", "raster_quads,probe_copy", NULL), RG_EXIT_PASS);
+    assert_string_equal(printed_end(),
                         "cpu: 2 kernels compile, an item of 1 of them was run, and 0 fail\n");
 }
 

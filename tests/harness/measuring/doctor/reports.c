@@ -5,8 +5,8 @@
 
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
-#include "tests/harness/measuring/doctor/printed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 // --- a report with two devices: one that was examined, and one that crashed ---
 
@@ -94,15 +94,28 @@ static int end(void **state)
     return 0;
 }
 
-static void print_text(const void *what)
+// The report as text, until the next call.
+static const char *text_now(void)
 {
-    rg_doctor_print_text(what);
+    printed_begin();
+    rg_doctor_print_text(&report);
+    return printed_end();
 }
 
-static void print_json(const void *what)
+// How many lines of a text are this one.
+static int lines_like(const char *text, const char *line)
 {
-    rg_doctor_print_json(what);
+    int count = 0;
+    for (const char *at = text; *at; at += strcspn(at, "\n") + (at[strcspn(at, "\n")] == '\n'))
+        count += strcspn(at, "\n") == strlen(line) && !strncmp(at, line, strlen(line));
+    return count;
 }
+
+#define assert_line(text, line)                                                                    \
+    do {                                                                                           \
+        if (lines_like(text, line) != 1)                                                           \
+            fail_msg("not one line is '%s':\n%s", line, text);                                     \
+    } while (0)
 
 // --- for people ---
 
@@ -147,7 +160,7 @@ static void each_finding_has_a_line(void **state)
         "  -           take care",
         "1 of 2 devices are well: they work, and compute what C computes",
     };
-    const char *text = printed_by(print_text, &report), *before = text;
+    const char *text = text_now(), *before = text;
     for (size_t i = 0; i < sizeof(due) / sizeof(due[0]); i++) {
         assert_line(text, due[i]);
         assert_true(strstr(text, due[i]) >= before); // in this order
@@ -165,7 +178,7 @@ static void the_key_is_the_device_s(void **state)
     json_t *parts = rg_key_parts(report.passport, device);
     rg_key_hash(parts, key);
     snprintf(due, sizeof(due), "  key         %s of cpu Fast CPU; features avx fma; cores 4;", key);
-    const char *text = printed_by(print_text, &report);
+    const char *text = text_now();
     assert_non_null(strstr(text, due));
     json_decref(parts);
     json_decref(device);
@@ -188,7 +201,7 @@ static void what_is_lacking_is_told(void **state)
     e->timer.has_timer = false;
     e->drawing.count = 0;
     strcpy(e->info.limits.no_draws, "has no queue that draws");
-    const char *text = printed_by(print_text, &report);
+    const char *text = text_now();
     assert_line(text, "  features    none of interest");
     assert_line(text, "  cores       8 online, 4 allowed (0-3), no quota; memory 3.0 GiB");
     assert_line(text, "  variables   none is set that matters (docs/environment.md)");
@@ -206,7 +219,7 @@ static void what_is_lacking_is_told(void **state)
     assert_null(strstr(text, "\nwarnings\n"));
     e->timer.has_timer = e->timer.trusted = true;
     e->drawing = (struct rg_drawing){.count = 1, .formats = {{RG_RGBA8, 13}}};
-    text = printed_by(print_text, &report);
+    text = text_now();
     assert_non_null(strstr(text, "  timer       trusted: 3.00 ms by the API"));
     assert_line(text, "  drawing     FAIL RGBA8: 13 of 12288 pixels are not what cpu:reference "
                       "draws");
@@ -222,7 +235,7 @@ static void lines_are_broken_at_spaces(void **state)
     *why = 0;
     for (int i = 0; i < 25; i++)
         strcat(why, "abcdefg ");
-    const char *text = printed_by(print_text, &report);
+    const char *text = text_now();
     snprintf(due, sizeof(due), "  drivers     %.79s", why); // ten words, of 86 characters
     assert_line(text, due);
     snprintf(due, sizeof(due), "              %.79s", why);
@@ -231,13 +244,13 @@ static void lines_are_broken_at_spaces(void **state)
     assert_line(text, due);
     memset(why, 'w', 86);
     strcpy(why + 86, " next");
-    text = printed_by(print_text, &report);
+    text = text_now();
     snprintf(due, sizeof(due), "  drivers     %.86s", why);
     assert_line(text, due);
     assert_line(text, "              next");
     memset(why, 'w', 120);
     strcpy(why + 120, " next");
-    text = printed_by(print_text, &report);
+    text = text_now();
     snprintf(due, sizeof(due), "  drivers     %.120s", why);
     assert_line(text, due);
     assert_line(text, "              next");
@@ -255,7 +268,7 @@ static void functions_of_drivers_stand_in_a_table(void **state)
     strcpy(examinations[1].info.name, "a long device's name");
     for (int i = 1; i < 3; i++)
         examinations[1].probe[RG_PROBE_OP_COUNT + i].different = 0;
-    const char *text = printed_by(print_text, &report);
+    const char *text = text_now();
     assert_line(text, "builtin                  new a long device");
     for (int i = 0; i < 3; i++) {
         snprintf(due, sizeof(due), "%-14s%14s%14s",
@@ -270,7 +283,7 @@ static void functions_of_drivers_stand_in_a_table(void **state)
     }
     report.examinations = many;
     report.count = 9;
-    text = printed_by(print_text, &report);
+    text = text_now();
     snprintf(due, sizeof(due), "builtin       %14s%14s%14s%14s%14s%14s", "d0", "d1", "d2", "d3",
              "d5", "d6");
     assert_line(text, due);
@@ -278,7 +291,7 @@ static void functions_of_drivers_stand_in_a_table(void **state)
     assert_line(text, due);
     assert_line(text, "9 of 9 devices are well: they work, and compute what C computes");
     report.count = 0;
-    assert_null(strstr(printed_by(print_text, &report), "builtin"));
+    assert_null(strstr(text_now(), "builtin"));
 }
 
 // --- for machines ---
@@ -298,7 +311,9 @@ static const json_t *at(const json_t *value, const char *path)
 
 static json_t *document(void)
 {
-    json_t *root = json_loads(printed_by(print_json, &report), 0, NULL);
+    printed_begin();
+    rg_doctor_print_json(&report);
+    json_t *root = json_loads(printed_end(), 0, NULL);
     assert_non_null(root);
     return root;
 }

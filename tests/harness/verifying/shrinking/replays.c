@@ -12,8 +12,8 @@
 #include "core/base/log.h"
 #include "harness/console/exit.h"
 #include "tests/harness/verifying/shrinking/made.h"
-#include "tests/harness/verifying/told/printed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 static enum made_way way;
 
@@ -241,16 +241,14 @@ static const struct rg_case case_of_water = {.stages_run = 5,
 static void replay(struct rg_case c, int exit, const char *prints)
 {
     void *settings;
-    struct printed printed;
     c.run = run_of(3, &settings);
     made_frame = 3;
-    printed_begin(&printed);
+    printed_begin();
     const int ended = rg_case_replay(&c, "rain.txt", &made_device);
-    char *text = printed_end(&printed);
+    const char *text = printed_end();
     assert_string_equal(text, prints);
     assert_int_equal(ended, exit);
     free(settings);
-    free(text);
 }
 
 static void a_replay_tells_what_the_asset_holds(void **state)

@@ -13,8 +13,8 @@
 #include "core/base/log.h"
 #include "harness/compare/verify/course.h"
 #include "harness/console/exit.h"
-#include "tests/harness/verifying/told/printed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 // --- lines and machine forms ---
 
@@ -31,16 +31,14 @@ static void lines_have_columns_and_a_count(void **state)
 {
     (void)state;
     struct rg_checks checks = three_checks();
-    struct printed printed;
-    printed_begin(&printed);
+    printed_begin();
     rg_checks_print(&checks, "a note\n", json_array(), false);
-    char *text = printed_end(&printed);
+    const char *text = printed_end();
     assert_string_equal(text, "a note\n"
                               "ok           flow    state    cpu            3 runs\n"
                               "unsupported  raster  mutants  gl             none\n"
                               "fail         flow    image    cpu:reference  another\n"
                               "3 checks, 1 ok, 1 fail, 1 unsupported\n");
-    free(text);
     rg_checks_free(&checks);
 }
 
@@ -49,10 +47,9 @@ static void a_document_has_each_check(void **state)
     (void)state;
     struct rg_checks checks = three_checks();
     rg_checks_add(&checks, "flow", "device", "vulkan", RG_SETUP, "broken");
-    struct printed printed;
-    printed_begin(&printed);
+    printed_begin();
     rg_checks_print(&checks, "a note\n", json_pack("[s]", "a device"), true);
-    char *text = printed_end(&printed);
+    const char *text = printed_end();
     json_t *found = json_loads(text, 0, NULL);
     json_t *due = json_pack("{si s[s] s[{ssssssssss}{ssssssssss}{ssssssssss}{ssssssssssss}]}",
                             "format", 1, "devices", "a device", "checks",                     //
@@ -68,7 +65,6 @@ static void a_document_has_each_check(void **state)
     assert_true(json_equal(found, due));
     json_decref(found);
     json_decref(due);
-    free(text);
     rg_checks_free(&checks);
 }
 

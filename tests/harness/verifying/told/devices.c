@@ -19,8 +19,8 @@
 #include "harness/devices/frames/frame.h"
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/passport.h"
-#include "tests/harness/verifying/told/printed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 // --- stand-ins ---
 
@@ -174,7 +174,7 @@ static void listen(enum rg_log_level level, const char *line, void *user)
 }
 
 // Runs `diff` on these devices, and returns what it prints; the caller frees it.
-static char *run(bool json, const char *prefix, int *exit)
+static const char *run(bool json, const char *prefix, int *exit)
 {
     static const struct rg_param_table none = {.technique = "made"};
     static const struct rg_technique made = {.name = "made", .params = &none};
@@ -185,21 +185,19 @@ static char *run(bool json, const char *prefix, int *exit)
                                                     .frames = 7,
                                                     .heatmap_prefix = prefix,
                                                     .json = json};
-    struct printed printed;
     *last = 0;
     rg_log_listen(listen, NULL);
-    printed_begin(&printed);
+    printed_begin();
     *exit = rg_diff_devices(&request);
     rg_log_listen(NULL, NULL);
-    return printed_end(&printed);
+    return printed_end();
 }
 
 static json_t *run_json(const char *prefix, int *exit)
 {
-    char *text = run(true, prefix, exit);
+    const char *text = run(true, prefix, exit);
     json_t *json = json_loads(text, 0, NULL);
     assert_non_null(json);
-    free(text);
     return json;
 }
 
@@ -233,7 +231,7 @@ static void each_pair_has_a_line(void **state)
     reference.red = 0.5f;
     cpu.red = gl.red = 0.5001f;
     OPEN(&reference, &cpu, &gl);
-    char *text = run(false, NULL, &exit);
+    const char *text = run(false, NULL, &exit);
     assert_int_equal(exit, RG_EXIT_FAIL);
     const char *at = text;
     for (int i = 0; i < 5; i++) {
@@ -243,12 +241,10 @@ static void each_pair_has_a_line(void **state)
         at = found + strlen(due[i]) - 1;
     }
     assert_string_equal(at, "\n");
-    free(text);
     has_blame = false;
     text = run(false, NULL, &exit);
     assert_non_null(strstr(text, "\n  no stage leaves other bits when each is read: it may not "
                                  "differ in every run\n"));
-    free(text);
 }
 
 // cpu:reference counts as the truth, then the device of the stricter tier, then cpu, then the
@@ -265,7 +261,7 @@ static void the_device_nearer_to_the_reference_is_trusted(void **state)
             pairs[i][0]->red = 0.5f;
             pairs[i][1]->red = 0.9f;
             OPEN(pairs[i][turned], pairs[i][!turned]);
-            free(run(false, NULL, &exit));
+            run(false, NULL, &exit);
             assert_int_equal(exit, RG_EXIT_FAIL);
             assert_ptr_equal(trusted, &pairs[i][0]->device);
             assert_ptr_equal(blamed, &pairs[i][1]->device);
@@ -274,7 +270,7 @@ static void the_device_nearer_to_the_reference_is_trusted(void **state)
     OPEN(&vulkan, &gl); // alike
     vulkan.red = 0.5f;
     gl.red = 0.9f;
-    free(run(false, NULL, &exit));
+    run(false, NULL, &exit);
     assert_ptr_equal(trusted, &vulkan.device);
 }
 
@@ -377,10 +373,9 @@ static void devices_without_a_picture_are_told(void **state)
         devices.absent_count = cases[i].has_absent;
         devices.absent[0] =
             (struct rg_absent_device){"opencl", RG_UNSUPPORTED, "opencl: is absent"};
-        char *text = run(false, NULL, &exit);
+        const char *text = run(false, NULL, &exit);
         assert_int_equal(exit, cases[i].exit);
         assert_non_null(strstr(text, cases[i].ends));
-        free(text);
     }
     int exit;
     json_t *json = run_json(NULL, &exit);
@@ -400,23 +395,22 @@ static void what_cannot_be_compared_is_told(void **state)
     reference.red = REFUSED;
     cpu.red = 0.5f;
     OPEN(&reference, &cpu);
-    free(run(false, NULL, &exit));
+    run(false, NULL, &exit);
     assert_int_equal(exit, RG_EXIT_USAGE);
     assert_string_equal(last, "cpu:reference: a file is not there");
     reference.red = cpu.red = 0;
-    char *text = run(false, NULL, &exit);
+    const char *text = run(false, NULL, &exit);
     assert_int_equal(exit, RG_EXIT_NOTHING);
     assert_string_equal(last, "diff made: no rain at --frame 7 and exposure 1");
     assert_string_equal(text, "cpu:reference;cpu;\n0 pairs of 2 devices compared\n");
-    free(text);
     OPEN(&cpu);
-    free(run(false, NULL, &exit));
+    run(false, NULL, &exit);
     assert_int_equal(exit, RG_EXIT_USAGE);
     assert_string_equal(last, "--device these: a comparison takes two devices");
     cpu.red = 0.5f;
     reference.red = UNABLE;
     OPEN(&reference, &cpu);
-    free(run(false, NULL, &exit));
+    run(false, NULL, &exit);
     assert_int_equal(exit, RG_EXIT_NOTHING); // no pair is left
 }
 

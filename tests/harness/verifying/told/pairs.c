@@ -15,8 +15,8 @@
 #include "harness/compare/diff/accepts.h"
 #include "harness/compare/diff/beside.h"
 #include "harness/compare/diff/report.h"
-#include "tests/harness/verifying/told/printed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/printed.h"
 
 // A comparison whose figures all differ.
 static const struct rg_comparison all = {
@@ -84,15 +84,13 @@ static const struct rg_comparison all = {
 
 static void expect_text(const struct rg_comparison *comparison, const char *const *parts)
 {
-    struct printed printed;
     char due[4096] = "";
     for (; *parts; parts++)
         snprintf(due + strlen(due), sizeof(due) - strlen(due), "%s", *parts);
-    printed_begin(&printed);
+    printed_begin();
     rg_pair_print("a.exr", "b.exr", comparison);
-    char *text = printed_end(&printed);
+    const char *text = printed_end();
     assert_string_equal(text, due);
-    free(text);
 }
 
 static const char *const all_lines[] = {
@@ -308,13 +306,12 @@ static void a_document_has_what_there_is(void **state)
 {
     (void)state;
     for (int has = 0; has < 2; has++) {
-        struct printed printed;
         json_t *devices = has ? json_pack("[s]", "d") : NULL;
         json_t *pictures = has ? json_pack("[s]", "p") : NULL;
         json_t *pairs = json_pack("[s]", "q"), *failures = json_pack("[s]", "f");
-        printed_begin(&printed);
+        printed_begin();
         assert_true(rg_pairs_print_json(devices, pictures, pairs, failures));
-        char *text = printed_end(&printed);
+        const char *text = printed_end();
         json_t *found = json_loads(text, 0, NULL);
         json_t *due = has ? json_pack("{si s[s] s[s] s[s] s[s]}", "format", 1, "devices", "d",
                                       "pictures", "p", "pairs", "q", "failures", "f")
@@ -325,7 +322,6 @@ static void a_document_has_what_there_is(void **state)
         json_decref(pictures);
         json_decref(pairs);
         json_decref(failures);
-        free(text);
     }
 }
 
@@ -371,10 +367,9 @@ static void differences_are_told_with_both_values(void **state)
     (void)state;
     struct rg_beside beside = find(picture_with("channel Z\t1\nname\tx\nview\tv\n", 1, false),
                                    picture_with("channel Z\t2\nname\tx\n!profile\tp\n", 1, true));
-    struct printed printed;
-    printed_begin(&printed);
+    printed_begin();
     rg_beside_print(&beside);
-    char *text = printed_end(&printed);
+    const char *text = printed_end();
     assert_string_equal(text, "\nthe files differ in\n"
                               "  channel Z                    A: 1; B: 2\n"
                               "  view                         A: v; B: none\n"
@@ -387,7 +382,6 @@ static void differences_are_told_with_both_values(void **state)
     assert_int_equal(lines, 0);
     json_decref(json);
     json_decref(due);
-    free(text);
     free(beside.items);
 }
 
@@ -396,16 +390,14 @@ static void what_files_share_is_no_difference(void **state)
     (void)state;
     static const char extras[] = "!profile\tp\nname\tx\n!colours\tc\n";
     struct rg_beside beside = find(picture_with(extras, 1, false), picture_with(extras, 1, false));
-    struct printed printed;
     assert_int_equal(beside.count, 0);
     assert_int_equal(lines, 1);
     assert_string_equal(last, "a.png and b.png: have the same profile, colours, which is not "
                               "applied: figures of light are those of sRGB's colours");
-    printed_begin(&printed);
+    printed_begin();
     rg_beside_print(&beside);
-    char *text = printed_end(&printed);
+    const char *text = printed_end();
     assert_string_equal(text, "");
-    free(text);
     beside = find(picture_with("name\tx\n", 1, false), picture_with("name\tx\n", 1, false));
     assert_int_equal(beside.count + lines, 0);
 }
@@ -455,10 +447,9 @@ static void expect_accepts(const struct rg_tiers *tiers, bool wanted, const char
     static struct rg_accepts accepts = {
         .is_known = {false, true, true},
         .of = {[RG_T1] = {RG_T1, 9, 0, {NULL}}, [RG_T2] = {RG_T2, 8, 2, {"fewer", "bent less"}}}};
-    struct printed printed;
-    printed_begin(&printed);
+    printed_begin();
     assert_null(rg_accepts_tell(&accepts, NULL, tiers, wanted, false));
-    char *told = printed_end(&printed);
+    const char *told = printed_end();
     assert_string_equal(told, text);
     json_t *found = rg_accepts_tell(&accepts, NULL, tiers, wanted, true);
     json_t *due = json_loads(json, 0, NULL);
@@ -466,7 +457,6 @@ static void expect_accepts(const struct rg_tiers *tiers, bool wanted, const char
     assert_true(json_equal(found, due));
     json_decref(found);
     json_decref(due);
-    free(told);
 }
 
 static void the_strictest_tier_that_holds_is_told(void **state)
