@@ -15,7 +15,7 @@
 
 #include "harness/atlas/compare.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 // Nine pictures of single lights, five of them from the front, one of light from everywhere, and
 // one that is even.

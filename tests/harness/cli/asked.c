@@ -9,7 +9,7 @@
 #include "core/base/memory.h"
 #include "harness/commands/commands.h"
 #include "harness/devices/devices.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 char asked_seen[4096], asked_logged[1024];
 const char *asked_printed;

@@ -13,7 +13,7 @@
 #include "harness/commands/cli/subject.h"
 #include "harness/commands/commands.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 struct values {
     int format, count;

@@ -22,7 +22,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/serve.h"
 #include "harness/devices/workers/worker.h"
-#include "tests/tools/interrupt.h"
+#include "tests/tools/process/interrupt.h"
 
 // --- in the worker ---
 

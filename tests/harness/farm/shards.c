@@ -23,7 +23,7 @@
 #include "harness/tables/farm/shard.h"
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 enum { ROWS = 4, DEVICES = 3 };
 

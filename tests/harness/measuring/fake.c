@@ -7,7 +7,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/clock.h"
-#include "tests/tools/interrupt.h"
+#include "tests/tools/process/interrupt.h"
 
 static double now_ms = 1000;
 static char events[1 << 16];

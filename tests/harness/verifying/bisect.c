@@ -17,7 +17,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 enum { LONGEST = 11 };
 

@@ -16,7 +16,7 @@
 #include "harness/compare/diff/files.h"
 #include "tests/core/image/rain_picture.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 static char folder[] = "/tmp/raingauge-diff-XXXXXX";
 static char a[64], b[64], background[64], small[64], three[64], prefix[64];

@@ -16,7 +16,7 @@
 #include "harness/commands/comparing/outputs.h"
 #include "harness/compare/gate/text/date.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 static char folder[64], logged[1024];
 static int log_count;

@@ -7,7 +7,7 @@
 #include "harness/doctor/compile.h"
 #include "harness/measure/serving/fixed.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 static char logged[1024];
 static int lines;

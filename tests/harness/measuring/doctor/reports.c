@@ -6,7 +6,7 @@
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 // --- a report with two devices: one that was examined, and one that crashed ---
 

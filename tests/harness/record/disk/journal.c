@@ -22,7 +22,7 @@
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/measuring/measure.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/interrupt.h"
+#include "tests/tools/process/interrupt.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"

@@ -12,7 +12,7 @@
 #include "core/base/log.h"
 #include "core/techniques/proof.h"
 #include "harness/record/record.h"
-#include "tests/tools/interrupt.h"
+#include "tests/tools/process/interrupt.h"
 
 // --- a technique whose frames take the time of its settings ---
 

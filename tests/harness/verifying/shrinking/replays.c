@@ -13,7 +13,7 @@
 #include "harness/console/exit.h"
 #include "tests/harness/verifying/shrinking/made.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 static enum made_way way;
 

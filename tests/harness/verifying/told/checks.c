@@ -14,7 +14,7 @@
 #include "harness/compare/verify/course.h"
 #include "harness/console/exit.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 // --- lines and machine forms ---
 

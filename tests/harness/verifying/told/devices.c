@@ -20,7 +20,7 @@
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/passport.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 // --- stand-ins ---
 

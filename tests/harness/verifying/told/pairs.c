@@ -16,7 +16,7 @@
 #include "harness/compare/diff/beside.h"
 #include "harness/compare/diff/report.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/printed.h"
+#include "tests/tools/process/printed.h"
 
 // A comparison whose figures all differ.
 static const struct rg_comparison all = {

@@ -8,7 +8,7 @@
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/oracle/optics/drop.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/sanitized.h"
+#include "tests/tools/process/sanitized.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -8,7 +8,7 @@
 
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/sanitized.h"
+#include "tests/tools/process/sanitized.h"
 
 // Light that is lost is lost in a small picture, too, which takes sanitizers a sixteenth of the
 // time.

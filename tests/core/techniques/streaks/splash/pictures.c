@@ -12,7 +12,7 @@
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/core/techniques/streaks/splash/crown.h"
 #include "tests/tools/expect.h"
-#include "tests/tools/sanitized.h"
+#include "tests/tools/process/sanitized.h"
 
 enum { MATERIALS = 4 };
 

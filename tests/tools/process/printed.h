@@ -1,6 +1,6 @@
 // What functions print on standard output.
-#ifndef RG_TESTS_TOOLS_PRINTED_H
-#define RG_TESTS_TOOLS_PRINTED_H
+#ifndef RG_TESTS_TOOLS_PROCESS_PRINTED_H
+#define RG_TESTS_TOOLS_PROCESS_PRINTED_H
 
 #include <setjmp.h>
 #include <stdarg.h>
