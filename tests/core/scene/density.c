@@ -15,10 +15,10 @@
 
 #include "core/image/files/io.h"
 #include "core/scene/density.h"
-#include "tests/core/folder.h"
 #include "tests/core/techniques/rigs/packets.h"
 #include "tests/oracle/streaks/packets.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // A PNG of these bytes, with 8 or 16 bits a channel (the more significant byte first).
 static const char *write_png(int width, int height, int bits, int colour, const uint8_t *bytes)

@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <ftw.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,12 +18,12 @@
 #include "kernels/dialect/rng.h"
 #include "tests/core/scene/atlas/codes.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // Widths 8 and 4 are levels 2 and 3, the first two of the small atlas.
 enum { LEVEL = 2, WIDTH = 8, MOST = WIDTH * 400 };
 
 static struct rg_atlas *atlas;
-static char root[] = "/tmp/raingauge-test-XXXXXX";
 static char last_line[2048];
 
 static void keep_line(enum rg_log_level level, const char *line, void *user)
@@ -57,7 +56,7 @@ static int height_of(int view)
 
 static void in_root(char path[300], const char *name, int number)
 {
-    snprintf(path, 300, "%s/%s%d", root, name, number);
+    snprintf(path, 300, "%s/%s%d", folder, name, number);
 }
 
 static int make_atlas(void **state)
@@ -79,22 +78,13 @@ static int make_atlas(void **state)
                 else
                     (&atlas->point_factor[k][view][0][0])[cell] = (float)own_factor(k, view, cell);
             }
-    return rg_atlas_finish(atlas) && mkdtemp(root) ? 0 : -1;
-}
-
-static int remove_one(const char *path, const struct stat *st, int type, struct FTW *where)
-{
-    (void)st;
-    (void)type;
-    (void)where;
-    return remove(path);
+    return rg_atlas_finish(atlas) ? make_folder(state) : -1;
 }
 
 static int free_atlas(void **state)
 {
-    (void)state;
     rg_atlas_destroy(atlas);
-    return nftw(root, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    return remove_whole_folder(state);
 }
 
 // --- a database ---
@@ -122,7 +112,7 @@ static double changed(const struct change *c, int k, int view, int cell, int i)
     return own * (1 - c->noise) + c->noise * uniform((uint32_t)(7000 + k), (uint32_t)i);
 }
 
-static void write_one(const char *folder, const struct change *c, int k, int view, bool env)
+static void write_one(const char *database, const struct change *c, int k, int view, bool env)
 {
     static uint16_t codes[MOST];
     char path[600];
@@ -130,31 +120,31 @@ static void write_one(const char *folder, const struct change *c, int k, int vie
     for (int i = 0; i < WIDTH * height_of(view); i++)
         codes[i] = (uint16_t)lrint(65535 * changed(c, k, view, cell, i));
     if (env)
-        snprintf(path, sizeof(path), "%s/cv%d_osc%d.png", folder, 20 * view, k);
+        snprintf(path, sizeof(path), "%s/cv%d_osc%d.png", database, 20 * view, k);
     else
-        snprintf(path, sizeof(path), "%s/cv%d_v%d_h%d_osc%d.png", folder, 20 * view,
+        snprintf(path, sizeof(path), "%s/cv%d_v%d_h%d_osc%d.png", database, 20 * view,
                  20 * LIGHT - 90, 20 * PHI + 10, k);
     write_codes(path, WIDTH, height_of(view), codes);
 }
 
 // All oscillations from two views, in a folder within the folder.
-static void write_all(const char *folder, const struct change *c)
+static void write_all(const char *database, const struct change *c)
 {
     char within[512];
-    assert_int_equal(mkdir(folder, 0700), 0);
-    snprintf(within, sizeof(within), "%s/within", folder);
+    assert_int_equal(mkdir(database, 0700), 0);
+    snprintf(within, sizeof(within), "%s/within", database);
     assert_int_equal(mkdir(within, 0700), 0);
     for (int k = 0; k < RG_ATLAS_OSCILLATIONS; k++) {
         write_one(within, c, k, 0, false);
         write_one(within, c, k, 3, false);
-        write_one(folder, c, k, 3, true);
+        write_one(database, c, k, 3, true);
     }
 }
 
-static struct rg_cave_comparison compared(const char *folder)
+static struct rg_cave_comparison compared(const char *database)
 {
     struct rg_cave_comparison comparison;
-    assert_true(rg_cave_compare(folder, atlas, NULL, &comparison));
+    assert_true(rg_cave_compare(database, atlas, NULL, &comparison));
     return comparison;
 }
 
@@ -170,10 +160,10 @@ static void the_way_is_told(void **state)
         [RG_CAVE_OTHER_DROP] = {false, true, 0},
     };
     for (int way = 0; way < RG_CAVE_WAYS; way++) {
-        char folder[300];
-        in_root(folder, "way", way);
-        write_all(folder, &changes[way]);
-        struct rg_cave_comparison comparison = compared(folder);
+        char database[300];
+        in_root(database, "way", way);
+        write_all(database, &changes[way]);
+        struct rg_cave_comparison comparison = compared(database);
         assert_int_equal(comparison.count, 30);
         assert_int_equal(rg_cave_best(&comparison), way);
         for (int other = 0; other < RG_CAVE_WAYS; other++) {
@@ -206,10 +196,10 @@ static void noise_lowers_the_correlation(void **state)
 {
     (void)state;
     const struct change noisy = {.noise = 0.325};
-    char folder[300];
-    in_root(folder, "noisy", 0);
-    write_all(folder, &noisy);
-    struct rg_cave_comparison comparison = compared(folder);
+    char database[300];
+    in_root(database, "noisy", 0);
+    write_all(database, &noisy);
+    struct rg_cave_comparison comparison = compared(database);
     double values[10];
     int above = 0;
     for (int i = 0; i < comparison.count; i++) {
@@ -246,11 +236,11 @@ static void noise_lowers_the_correlation(void **state)
 static void brightness_is_compared(void **state)
 {
     (void)state;
-    char folder[300], path[400];
+    char database[300], path[400];
     for (int noisy = 0; noisy < 2; noisy++) {
-        in_root(folder, "bright", noisy);
-        write_all(folder, &(struct change){.noise = 0});
-        snprintf(path, sizeof(path), "%s/dcam00_point_max.txt", folder);
+        in_root(database, "bright", noisy);
+        write_all(database, &(struct change){.noise = 0});
+        snprintf(path, sizeof(path), "%s/dcam00_point_max.txt", database);
         FILE *file = fopen(path, "w");
         assert_non_null(file);
         fprintf(file, "cv0\nv%d\nh%d", 20 * LIGHT - 90, 20 * PHI + 10);
@@ -271,7 +261,7 @@ static void brightness_is_compared(void **state)
         assert_int_equal(fclose(file), 0);
         const double due = (sum[4] - sum[0] * sum[1] / 10) /
                            sqrt((sum[2] - sum[0] * sum[0] / 10) * (sum[3] - sum[1] * sum[1] / 10));
-        struct rg_cave_comparison comparison = compared(folder);
+        struct rg_cave_comparison comparison = compared(database);
         int pictures;
         const double is = rg_cave_brightness(&comparison, &pictures);
         assert_int_equal(pictures, 10); // the other view has no factors
@@ -286,12 +276,13 @@ static void the_widest_of_a_picture_is_taken(void **state)
 {
     (void)state;
     static uint16_t codes[4 * 400];
-    char folder[300], path[400];
-    in_root(folder, "widths", 0);
-    write_all(folder, &(struct change){.noise = 0});
-    snprintf(path, sizeof(path), "%s/cv0_v%d_h%d_osc1.png", folder, 20 * LIGHT - 90, 20 * PHI + 10);
+    char database[300], path[400];
+    in_root(database, "widths", 0);
+    write_all(database, &(struct change){.noise = 0});
+    snprintf(path, sizeof(path), "%s/cv0_v%d_h%d_osc1.png", database, 20 * LIGHT - 90,
+             20 * PHI + 10);
     write_codes(path, 4, rg_atlas_row_height(0, LEVEL + 1), codes); // it would be flat
-    struct rg_cave_comparison comparison = compared(folder);
+    struct rg_cave_comparison comparison = compared(database);
     assert_int_equal(comparison.count, 30);
     for (int i = 0; i < 30; i++)
         assert_true(comparison.rows[i].found.width == WIDTH && !comparison.rows[i].flat);
@@ -302,23 +293,23 @@ static void an_even_picture_has_no_correlation(void **state)
 {
     (void)state;
     static uint16_t codes[MOST];
-    char folder[300], path[400];
-    in_root(folder, "even", 0);
-    assert_int_equal(mkdir(folder, 0700), 0);
-    snprintf(path, sizeof(path), "%s/cv0_v10_h90_osc0.png", folder);
+    char database[300], path[400];
+    in_root(database, "even", 0);
+    assert_int_equal(mkdir(database, 0700), 0);
+    snprintf(path, sizeof(path), "%s/cv0_v10_h90_osc0.png", database);
     write_codes(path, WIDTH, height_of(0), codes);
-    struct rg_cave_comparison comparison = compared(folder);
+    struct rg_cave_comparison comparison = compared(database);
     assert_equals(comparison.count, 1);
     assert_true(comparison.rows[0].flat);
     assert_int_equal(rg_cave_figures(&comparison, RG_CAVE_LIGHTS, RG_CAVE_AS_IT_IS).pictures, 0);
     free(comparison.rows);
 }
 
-static void expect_refused(const char *folder, const char *words)
+static void expect_refused(const char *database, const char *words)
 {
     struct rg_cave_comparison comparison;
     last_line[0] = 0;
-    assert_false(rg_cave_compare(folder, atlas, NULL, &comparison));
+    assert_false(rg_cave_compare(database, atlas, NULL, &comparison));
     if (!strstr(last_line, words))
         fail_msg("'%s' lacks '%s'", last_line, words);
 }
@@ -327,26 +318,26 @@ static void what_is_no_picture_is_refused(void **state)
 {
     (void)state;
     static uint16_t codes[MOST];
-    char folder[300], path[400];
+    char database[300], path[400];
     expect_refused("/nonexistent/folder", "No such file");
-    in_root(folder, "none", 0);
-    assert_int_equal(mkdir(folder, 0700), 0);
+    in_root(database, "none", 0);
+    assert_int_equal(mkdir(database, 0700), 0);
     static const char *const others[] = {"cv0_v10_h90_osc1.png.old", "cv5_osc1.png",
                                          "cv0_v10_h90_osc10.png", "cv0_v0_h90_osc1.png",
                                          "acv0_osc1.png"};
     for (int i = 0; i < 5; i++) {
-        snprintf(path, sizeof(path), "%s/%s", folder, others[i]);
+        snprintf(path, sizeof(path), "%s/%s", database, others[i]);
         write_codes(path, WIDTH, height_of(0), codes);
     }
-    expect_refused(folder, "no picture of the database");
-    snprintf(path, sizeof(path), "%s/cv0_osc3.png", folder);
+    expect_refused(database, "no picture of the database");
+    snprintf(path, sizeof(path), "%s/cv0_osc3.png", database);
     write_codes(path, WIDTH, height_of(0) / 2, codes);
-    expect_refused(folder, "cv0_osc3.png: 8 x ");
+    expect_refused(database, "cv0_osc3.png: 8 x ");
     FILE *file = fopen(path, "w");
     assert_true(file);
     assert_at_least(fputs("no picture", file), 0);
     assert_true(!fclose(file));
-    expect_refused(folder, "cv0_osc3.png");
+    expect_refused(database, "cv0_osc3.png");
 }
 
 int main(void)

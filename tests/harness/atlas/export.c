@@ -15,12 +15,12 @@
 #include "core/scene/atlas/levels.h"
 #include "harness/atlas/export.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // The layer that is looked at; the others are black.
 enum { LAYER = 3, WIDE = 720, HIGH = 901, ENV_WIDE = 8, GAP = 12 };
 
 static struct rg_atlas *atlas;
-static char folder[] = "/tmp/raingauge-export-XXXXXX";
 
 static float factor_of(int view, int cell)
 {
@@ -38,9 +38,8 @@ static void fill(enum rg_atlas_part part, int layer)
 
 static int make_atlas(void **state)
 {
-    (void)state;
     atlas = rg_atlas_allocate(RG_ATLAS_SMALL);
-    if (!atlas || !mkdtemp(folder))
+    if (!atlas || make_folder(state))
         return -1;
     fill(RG_ATLAS_POINT, LAYER);
     fill(RG_ATLAS_ENV, LAYER);
@@ -55,11 +54,8 @@ static int make_atlas(void **state)
 
 static int remove_atlas(void **state)
 {
-    (void)state;
-    char command[64];
     rg_atlas_destroy(atlas);
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    return system(command);
+    return remove_whole_folder(state);
 }
 
 static struct rg_picture picture_of(const char *name)

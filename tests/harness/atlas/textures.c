@@ -16,9 +16,8 @@
 #include "harness/atlas/textures.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/instance.h"
+#include "tests/tools/process/folder.h"
 
-static char folder[] = "/tmp/raingauge-textures-XXXXXX",
-            dots_folder[] = "/tmp/raingauge-dots-XXXXXX";
 static struct rg_texture_rows rows;
 static struct rg_device *device;
 
@@ -254,8 +253,9 @@ static void what_does_not_fit_is_refused(void **state)
         made.count = cases[i].count, made.row = cases[i].row;
         made.column = cases[i].column, made.side_px = cases[i].side_px;
         *last_line = 0;
-        assert_int_equal(rg_textures_make(&dots, cases[i].is_written ? dots_folder : NULL, &of),
-                         !cases[i].says);
+        assert_int_equal(
+            rg_textures_make(&dots, cases[i].is_written ? in_folder("dots") : NULL, &of),
+            !cases[i].says);
         assert_string_equal(last_line, cases[i].says ? cases[i].says : "");
         assert_true(cases[i].says || of.count == cases[i].count);
     }
@@ -267,18 +267,14 @@ static void what_does_not_fit_is_refused(void **state)
 
 static int make_files(void **state)
 {
-    (void)state;
     device = rg_device_open("cpu");
-    return !device || !mkdtemp(folder) || !mkdtemp(dots_folder) ||
+    return !device || make_folder(state) || mkdir(in_folder("dots"), 0700) ||
            !rg_textures_make(rg_technique_find("cartoon"), folder, &rows);
 }
 
 static int remove_files(void **state)
 {
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof(command), "rm -r %s %s", folder, dots_folder);
-    return system(command) || !rg_device_close(device);
+    return remove_whole_folder(state) || !rg_device_close(device);
 }
 
 int main(void)

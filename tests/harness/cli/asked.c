@@ -9,6 +9,7 @@
 #include "core/base/memory.h"
 #include "harness/commands/commands.h"
 #include "harness/devices/devices.h"
+#include "tests/tools/process/folder.h"
 #include "tests/tools/process/printed.h"
 
 char asked_seen[4096], asked_logged[1024];
@@ -18,7 +19,6 @@ struct rg_device asked_devices[2] = {
     {.info = {.name = "first", .device = "one", .driver = "1.0"}},
     {.info = {.name = "second", .device = "two", .driver = "2.0"}},
 };
-static char folder[64];
 
 void asked_note(const char *format, ...)
 {
@@ -109,16 +109,11 @@ void asked_expect(const char *line, const char *seen, int exit)
 
 int asked_setup(void **state)
 {
-    (void)state;
     asked_opening = asked_left_out = asked_closing = RG_EXIT_PASS;
-    strcpy(folder, "/tmp/raingauge-asked-XXXXXX");
-    return mkdtemp(folder) ? chdir(folder) : -1;
+    return make_folder(state) || chdir(folder);
 }
 
 int asked_teardown(void **state)
 {
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    return chdir("/") || system(command);
+    return chdir("/") || remove_whole_folder(state);
 }

@@ -5,7 +5,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,24 +17,17 @@
 #include "harness/tables/farm/merge.h"
 #include "tests/harness/farm/made.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 enum { TABLES = 2, ROWS = 4, VARIANTS = 2, GROUPS = TABLES * ROWS };
 
 // A farm whose records lie in two folders, and what was logged of them.
 struct rig {
     struct farm farm;
-    char folder[64], a[80], b[80], out[80];
+    char a[80], b[80], out[80];
     struct rg_farm_records found;
     char heard[8192];
 };
-
-static int remove_one(const char *path, const struct stat *st, int type, struct FTW *ftw)
-{
-    (void)st;
-    (void)type;
-    (void)ftw;
-    return remove(path);
-}
 
 static void hear(enum rg_log_level level, const char *line, void *user)
 {
@@ -48,11 +40,11 @@ static void hear(enum rg_log_level level, const char *line, void *user)
 // The records of even groups lie in A, those of odd ones in B.
 static void begin_with(struct rig *rig, int tables)
 {
-    *rig = (struct rig){.folder = "/tmp/raingauge-test-merge-XXXXXX"};
-    assert_non_null(mkdtemp(rig->folder));
-    snprintf(rig->a, sizeof(rig->a), "%s/a", rig->folder);
-    snprintf(rig->b, sizeof(rig->b), "%s/b", rig->folder);
-    snprintf(rig->out, sizeof(rig->out), "%s/out", rig->folder);
+    *rig = (struct rig){.heard = ""};
+    assert_int_equal(make_folder(NULL), 0);
+    snprintf(rig->a, sizeof(rig->a), "%s/a", folder);
+    snprintf(rig->b, sizeof(rig->b), "%s/b", folder);
+    snprintf(rig->out, sizeof(rig->out), "%s/out", folder);
     make_farm(&rig->farm, tables, ROWS, VARIANTS);
     rg_text_copy(rig->farm.plan.digest, RG_FARM_DIGEST, "0123456789abcdef");
     for (int64_t g = 0; g < rig->farm.plan.group_count; g++)
@@ -68,7 +60,7 @@ static void end(struct rig *rig)
 {
     rg_farm_found_free(&rig->found);
     unmake_farm(&rig->farm);
-    nftw(rig->folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    remove_whole_folder(NULL);
 }
 
 static bool find(struct rig *rig)
@@ -97,11 +89,11 @@ static void expect_heard(const struct rig *rig, const char *words)
 }
 
 // The number of cells of the tables in a folder, each of which is a measured group's.
-static int count_cells(const struct rig *rig, const char *folder, int machine)
+static int count_cells(const struct rig *rig, const char *from, int machine)
 {
     struct rg_stored stored = {0};
     int cells = 0;
-    assert_true(rg_stored_read(&stored, folder));
+    assert_true(rg_stored_read(&stored, from));
     for (int i = 0; i < stored.count; i++) {
         const struct rg_result *table = &stored.results[i];
         for (struct rg_place at = rg_result_start(table); rg_result_next(table, &at); cells++) {

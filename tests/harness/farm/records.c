@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,11 +17,12 @@
 #include "harness/tables/farm/merge.h"
 #include "tests/harness/farm/made.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 enum { ROWS = 3, VARIANTS = 2 };
 
 static struct farm farm;
-static char folder[64], out[80], heard[4096];
+static char out[80], heard[4096];
 
 static void hear(enum rg_log_level level, const char *line, void *user)
 {
@@ -32,19 +32,10 @@ static void hear(enum rg_log_level level, const char *line, void *user)
     snprintf(heard + used, sizeof(heard) - used, "%s\n", line);
 }
 
-static int remove_one(const char *path, const struct stat *st, int type, struct FTW *ftw)
-{
-    (void)st;
-    (void)type;
-    (void)ftw;
-    return remove(path);
-}
-
 static int begin(void **state)
 {
     (void)state;
-    snprintf(folder, sizeof(folder), "/tmp/raingauge-test-record-XXXXXX");
-    assert_non_null(mkdtemp(folder));
+    assert_int_equal(make_folder(state), 0);
     snprintf(out, sizeof(out), "%s/out", folder);
     make_farm(&farm, 1, ROWS, VARIANTS);
     rg_text_copy(farm.plan.digest, RG_FARM_DIGEST, "0123456789abcdef");
@@ -55,7 +46,7 @@ static int end(void **state)
 {
     (void)state;
     unmake_farm(&farm);
-    nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    remove_whole_folder(state);
     return 0;
 }
 

@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <ftw.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,6 +22,7 @@
 #include "harness/tables/farm/shard.h"
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 #include "tests/tools/process/printed.h"
 
 enum { ROWS = 4, DEVICES = 3 };
@@ -45,7 +45,7 @@ static const struct rg_table table = {.id = "slow-1",
 
 static struct rg_farm_plan plan;
 static struct slow_rig rig;
-static char folder[64], heard[4096];
+static char heard[4096];
 static const char *printed;
 
 static void hear(enum rg_log_level level, const char *line, void *user)
@@ -54,14 +54,6 @@ static void hear(enum rg_log_level level, const char *line, void *user)
     (void)level;
     (void)user;
     snprintf(heard + used, sizeof(heard) - used, "%s\n", line);
-}
-
-static int remove_one(const char *path, const struct stat *st, int type, struct FTW *ftw)
-{
-    (void)st;
-    (void)type;
-    (void)ftw;
-    return remove(path);
 }
 
 // --- a plan ---
@@ -80,9 +72,6 @@ static void add_group(const char *id, const char *of, const char *its_rows, doub
 // second the two others.
 static int begin(void **state)
 {
-    (void)state;
-    snprintf(folder, sizeof(folder), "/tmp/raingauge-test-shard-XXXXXX");
-    assert_non_null(mkdtemp(folder));
     plan = (struct rg_farm_plan){.digest = "0123456789abcdef", .device_count = DEVICES};
     rg_text_copy(plan.commit, sizeof(plan.commit), rg_build_commit);
     slow_begin(&rig);
@@ -92,15 +81,14 @@ static int begin(void **state)
     add_group("slow-1/2", "slow-1", "2", 40);
     add_group("slow-1/4", "slow-1", "4", 20);
     rg_farm_sum(&plan);
-    return 0;
+    return make_folder(state);
 }
 
 static int end(void **state)
 {
-    (void)state;
     slow_end(&rig);
     rg_farm_plan_free(&plan);
-    nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    remove_whole_folder(state);
     return 0;
 }
 

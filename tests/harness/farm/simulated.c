@@ -13,7 +13,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <ftw.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,6 +31,7 @@
 #include "kernels/dialect/rng.h"
 #include "tests/harness/farm/made.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // A table has 50 rows of 10 variants on two devices.
 enum { ROWS = 50, VARIANTS = 10, ROW_CELLS = 2 * VARIANTS, TABLE_CELLS = ROWS * ROW_CELLS };
@@ -178,13 +178,13 @@ static void run_shards(struct rg_farm_plan *plan, const int *shard_of, int shard
 }
 
 // What a shard would write, without the sync that keeps it through a fall of the machine.
-static void write_record(const struct farm *farm, int64_t group, const char *folder, bool is_cut)
+static void write_record(const struct farm *farm, int64_t group, const char *to, bool is_cut)
 {
     struct rg_result result = measure_group(farm, group, 0);
     const struct rg_farm_group *g = &farm->plan.groups[group];
     json_t *json = rg_farm_record_json(&farm->plan, g, &result, g->seconds);
     char *text = json_dumps(json, JSON_COMPACT | RG_JSON_FLAGS);
-    FILE *file = fopen(record_path(farm, group, folder), "wb");
+    FILE *file = fopen(record_path(farm, group, to), "wb");
     assert_true(text && file);
     const size_t size = strlen(text) / (is_cut ? 2 : 1);
     assert_int_equal(fwrite(text, 1, size, file), size);
@@ -261,14 +261,6 @@ static int64_t count_cells(const struct farm *farm, const char *out)
     return cells;
 }
 
-static int remove_one(const char *path, const struct stat *st, int type, struct FTW *ftw)
-{
-    (void)st;
-    (void)type;
-    (void)ftw;
-    return remove(path);
-}
-
 static double peak_bytes(void)
 {
     struct rusage usage;
@@ -280,8 +272,8 @@ static void test_simulated(void **state)
 {
     (void)state;
     struct farm farm;
-    char folder[] = "/tmp/raingauge-test-farm-XXXXXX", paths[4][64];
-    assert_non_null(mkdtemp(folder));
+    char paths[4][64];
+    assert_int_equal(make_folder(state), 0);
     for (int i = 0; i < 4; i++)
         snprintf(paths[i], sizeof(paths[i]), "%s/%s", folder,
                  ((const char *[]){"plan.json", "all", "other", "out"})[i]);
@@ -298,7 +290,7 @@ static void test_simulated(void **state)
     const double merge_s = merge_farm(&farm, folders, paths[3], left);
     printf("memory: %.0f MB at most, with what made the records\n", peak_bytes() / 1e6);
     assert_int_equal(count_cells(&farm, paths[3]), wanted_cells);
-    nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    remove_whole_folder(state);
     free(shard_of);
     unmake_farm(&farm);
     assert_at_most(plan_s, PLAN_S);

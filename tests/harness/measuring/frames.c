@@ -20,6 +20,7 @@
 #include "harness/devices/frames/trace.h"
 #include "tests/harness/measuring/fake.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 static char logged[1024];
 static int lines;
@@ -167,28 +168,14 @@ static void a_timeline_ends_early(void **state)
 
 // --- sequences ---
 
-static char folder[] = "/tmp/raingauge-frames-XXXXXX";
-
-static const char *path_of(const char *name)
-{
-    static char paths[4][200];
-    static int next;
-    char *path = paths[next++ % 4];
-    snprintf(path, sizeof(paths[0]), "%s/%s", folder, name);
-    return path;
-}
-
 static int begin_in_folder(void **state)
 {
-    strcpy(strrchr(folder, '-'), "-XXXXXX");
-    return !mkdtemp(folder) || begin(state);
+    return make_folder(state) || begin(state);
 }
 
 static int end_in_folder(void **state)
 {
-    char command[100];
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    return system(command) || end(state);
+    return remove_whole_folder(state) || end(state);
 }
 
 static int count_of(char event)
@@ -214,7 +201,7 @@ static void a_sequence_has_the_wanted_frames(void **state)
 {
     struct fake_device *fake = *state;
     const struct fake_script script = {.letter = 'A'};
-    const char *path = path_of("a-%02d.png");
+    const char *path = in_folder("a-%02d.png");
     const struct rg_sequence wanted = sequence(&script, path, 2, 4);
     fake->shown = 0x3c00; // 1, also of alpha
     struct rg_session *session = rg_sequence_run(&wanted, &fake->pub);
@@ -231,9 +218,9 @@ static void a_sequence_has_the_wanted_frames(void **state)
                  {"a-04.png", true},
                  {"a-05.png", false}};
     for (int i = 0; i < 5; i++)
-        assert_int_equal(!access(path_of(files[i].name), F_OK), files[i].is_there);
+        assert_int_equal(!access(in_folder(files[i].name), F_OK), files[i].is_there);
     struct rg_picture picture;
-    assert_true(rg_picture_read(path_of("a-03.png"), &picture));
+    assert_true(rg_picture_read(in_folder("a-03.png"), &picture));
     assert_int_equal(picture.width, 8);
     assert_int_equal(picture.channels, 3); // without the alpha that is 1 everywhere
     assert_near(picture.texels[0], 0.5, 0.01);
@@ -248,13 +235,13 @@ static void a_sequence_begins_at_frame_0(void **state)
     struct fake_device *fake = *state;
     static const double draws_ms[] = {1};
     const struct fake_script script = {.letter = 'A', .frames_ms = draws_ms + 1};
-    const char *path = path_of("%d.exr");
+    const char *path = in_folder("%d.exr");
     const struct rg_sequence wanted = sequence(&script, path, 0, 1);
     struct rg_session *session = rg_sequence_run(&wanted, &fake->pub);
     assert_non_null(session);
     assert_int_equal(count_of('A'), 1);
     assert_int_equal(count_of('.'), 2);
-    assert_true(!access(path_of("0.exr"), F_OK) && !access(path_of("1.exr"), F_OK));
+    assert_true(!access(in_folder("0.exr"), F_OK) && !access(in_folder("1.exr"), F_OK));
     rg_session_close(session);
 }
 
@@ -263,13 +250,13 @@ static void what_is_written_until_a_signal_is_told(void **state)
     struct fake_device *fake = *state;
     char due[300];
     const struct fake_script script = {.letter = 'A', .interrupt_at = 3};
-    const char *path = path_of("%d.png");
+    const char *path = in_folder("%d.png");
     const struct rg_sequence some = sequence(&script, path, 2, 9);
     assert_null(rg_sequence_run(&some, &fake->pub));
     snprintf(due, sizeof(due), "%s: interrupted; frames 2-3 are written", path);
     assert_string_equal(logged, due);
     assert_int_equal(count_of('A'), 3);
-    assert_true(!access(path_of("3.png"), F_OK) && access(path_of("4.png"), F_OK));
+    assert_true(!access(in_folder("3.png"), F_OK) && access(in_folder("4.png"), F_OK));
     const struct rg_sequence none = sequence(&script, path, 7, 9);
     assert_null(rg_sequence_run(&none, &fake->pub));
     snprintf(due, sizeof(due), "%s: interrupted; nothing was written", path);
@@ -281,7 +268,7 @@ static void a_sequence_that_cannot_be_written_is_not_begun(void **state)
 {
     struct fake_device *fake = *state;
     const struct fake_script script = {.letter = 'A'};
-    const char *path = path_of("none/%d.png");
+    const char *path = in_folder("none/%d.png");
     const struct rg_sequence wanted = sequence(&script, path, 1, 9);
     assert_null(rg_sequence_run(&wanted, &fake->pub));
     assert_int_equal(lines, 1);

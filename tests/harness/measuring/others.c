@@ -23,6 +23,7 @@
 #include "harness/measure/measure.h"
 #include "tests/harness/measuring/fake.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 #define assert_ms(value, ms) assert_near(value, ms, 1e-6)
 
@@ -46,29 +47,27 @@ static void write_stat(const char *root, int processors, int idle, int waiting, 
 
 static void test_reading(void **state)
 {
-    (void)state;
-    char root[] = "/tmp/raingauge-stat-XXXXXX", path[256];
+    char path[256];
     const int processors = (int)sysconf(_SC_NPROCESSORS_CONF);
     const double tick_ms = 1e3 / (double)sysconf(_SC_CLK_TCK);
-    assert_non_null(mkdtemp(root));
-    assert_int_equal(rg_processors_read(root, NULL, 0).count, 0);
-    snprintf(path, sizeof(path), "%s/proc", root);
+    assert_int_equal(make_folder(state), 0);
+    assert_int_equal(rg_processors_read(folder, NULL, 0).count, 0);
+    snprintf(path, sizeof(path), "%s/proc", folder);
     assert_int_equal(mkdir(path, 0700), 0);
-    write_stat(root, processors, 100, 10, 5);
+    write_stat(folder, processors, 100, 10, 5);
     const pid_t gone = 0x7ffffff;
-    const struct rg_processors before = rg_processors_read(root, NULL, 0);
+    const struct rg_processors before = rg_processors_read(folder, NULL, 0);
     assert_in_range(before.count, 1, processors);
     assert_ms(before.idle_ms, 110 * before.count * tick_ms);
     assert_ms(before.stolen_ms, 5 * before.count * tick_ms);
     assert_above(before.own_ms, 0);
-    assert_true(isnan(rg_processors_read(root, &gone, 1).own_ms));
+    assert_true(isnan(rg_processors_read(folder, &gone, 1).own_ms));
     // A line that is cut off says nothing.
     FILE *file = fopen(strcat(path, "/stat"), "w");
     fprintf(file, "cpu  7 1 2\ncpu0 7 1\n");
     fclose(file);
-    assert_int_equal(rg_processors_read(root, NULL, 0).count, 0);
-    snprintf(path, sizeof(path), "rm -r %s", root);
-    assert_int_equal(system(path), 0);
+    assert_int_equal(rg_processors_read(folder, NULL, 0).count, 0);
+    assert_int_equal(remove_whole_folder(state), 0);
 }
 
 // Writes processors whose ticks of idle time and steal differ, and a line of all that is rounded
@@ -88,37 +87,35 @@ static void write_uneven(const char *root, int processors)
 // A process that may use one processor reads that one alone; one that may use all, their sum.
 static void test_processors_of_this_process(void **state)
 {
-    (void)state;
-    char root[] = "/tmp/raingauge-stat-XXXXXX", path[256];
+    char path[256];
     const double tick_ms = 1e3 / (double)sysconf(_SC_CLK_TCK);
     cpu_set_t before, one;
     assert_int_equal(sched_getaffinity(0, sizeof(before), &before), 0);
     int last = CPU_SETSIZE - 1;
     while (!CPU_ISSET(last, &before))
         last--;
-    assert_non_null(mkdtemp(root));
-    snprintf(path, sizeof(path), "%s/proc", root);
+    assert_int_equal(make_folder(state), 0);
+    snprintf(path, sizeof(path), "%s/proc", folder);
     assert_int_equal(mkdir(path, 0700), 0);
     CPU_ZERO(&one);
     CPU_SET(last, &one);
     assert_int_equal(sched_setaffinity(0, sizeof(one), &one), 0);
-    write_uneven(root, last + 2);
-    struct rg_processors now = rg_processors_read(root, NULL, 0);
+    write_uneven(folder, last + 2);
+    struct rg_processors now = rg_processors_read(folder, NULL, 0);
     assert_int_equal(now.count, 1);
     assert_ms(now.idle_ms, (100 + last) * tick_ms);
     assert_ms(now.stolen_ms, (10 + last) * tick_ms);
     assert_ms(now.grain_ms, tick_ms);
     assert_int_equal(sched_setaffinity(0, sizeof(before), &before), 0);
     if (CPU_COUNT(&before) == last + 1) {
-        write_uneven(root, last + 1);
-        now = rg_processors_read(root, NULL, 0);
+        write_uneven(folder, last + 1);
+        now = rg_processors_read(folder, NULL, 0);
         assert_int_equal(now.count, last + 1);
         assert_ms(now.idle_ms, 5050 * tick_ms);
         assert_ms(now.stolen_ms, 500 * tick_ms);
         assert_ms(now.grain_ms, tick_ms); // that line is rounded once
     }
-    snprintf(path, sizeof(path), "rm -r %s", root);
-    assert_int_equal(system(path), 0);
+    assert_int_equal(remove_whole_folder(state), 0);
 }
 
 enum { BURNT_MS = 40 };
@@ -423,10 +420,8 @@ static void write_heat(const char *root, int core, int count)
 // Before a job measures: a machine that is busy or gets hot takes no cells.
 static void test_prologue(void **state)
 {
-    (void)state;
-    char root[] = "/tmp/raingauge-heat-XXXXXX", command[64];
-    struct rg_prologue prologue = {.watch = watch_and_pass, .root = root};
-    assert_non_null(mkdtemp(root));
+    struct rg_prologue prologue = {.watch = watch_and_pass, .root = folder};
+    assert_int_equal(make_folder(state), 0);
     rg_log_listen(hear, NULL);
     *heard = 0;
     begin_machine(0, 1e9, 0.3);
@@ -435,19 +430,18 @@ static void test_prologue(void **state)
     *heard = 0;
     begin_machine(0, 1e9, 0.02);
     assert_true(rg_prologue_begin(&prologue) && rg_prologue_end(&prologue)); // nothing is told
-    write_heat(root, 0, 5);
-    write_heat(root, 1, 7);
+    write_heat(folder, 0, 5);
+    write_heat(folder, 1, 7);
     assert_true(rg_prologue_begin(&prologue) && rg_prologue_end(&prologue));
     assert_string_equal(heard, "");
-    write_heat(root, 1, 10);
+    write_heat(folder, 1, 10);
     assert_false(rg_prologue_end(&prologue));
     assert_non_null(strstr(heard, "takes no cells now: its processors were slowed 3 times"));
-    write_heat(root, 0, 9);
+    write_heat(folder, 0, 9);
     assert_false(rg_prologue_end(&prologue));
     assert_non_null(strstr(heard, "takes no cells now: its processors were slowed 7 times"));
     rg_log_listen(NULL, NULL);
-    snprintf(command, sizeof(command), "rm -r %s", root);
-    assert_int_equal(system(command), 0);
+    assert_int_equal(remove_whole_folder(state), 0);
 }
 
 static void test_probe(void **state)

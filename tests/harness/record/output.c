@@ -21,8 +21,8 @@
 #include "core/base/log.h"
 #include "harness/record/disk/hold.h"
 #include "harness/record/output.h"
+#include "tests/tools/process/folder.h"
 
-static char folder[] = "/tmp/raingauge-output-XXXXXX";
 static int messages;
 
 static void hear(enum rg_log_level level, const char *line, void *user)
@@ -328,15 +328,12 @@ static void names_become_parts_of_files_names(void **state)
 
 static int make(void **state)
 {
-    (void)state;
     rg_log_listen(hear, NULL);
-    snprintf(folder, sizeof(folder), "/tmp/raingauge-output-XXXXXX");
-    return mkdtemp(folder) == NULL;
+    return make_folder(state);
 }
 
 static int clear(void **state)
 {
-    (void)state;
     static const char *const names[] = {"a.md", "b.csv", "c.json"};
     char path[128];
     for (int i = 0; i < 3; i++) {
@@ -344,7 +341,7 @@ static int clear(void **state)
         remove(path);
     }
     rg_log_listen(NULL, NULL);
-    return rmdir(folder);
+    return remove_folder(state);
 }
 
 int main(void)

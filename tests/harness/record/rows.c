@@ -9,6 +9,7 @@
 #include "harness/tables/print.h"
 #include "tests/harness/record/made.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // Rows 1 to 3, counted from 0; row 2 is missing. Their settings are "a=ROW b=2".
 static void test_kept_rows(void **state)
@@ -42,18 +43,17 @@ static void test_kept_rows(void **state)
 // A table that lacks a row, its last one too, leaves no file.
 static void test_whole(void **state)
 {
-    (void)state;
     for (int last = 1; last <= 3; last++) {
-        char folder[64] = "/tmp/raingauge-rows-XXXXXX", path[128];
+        char path[128];
         struct rg_result result = make_result();
         result.last_row = last; // row 2 is missing
-        assert_non_null(mkdtemp(folder));
+        assert_int_equal(make_folder(state), 0);
         rg_result_finish(&result, RG_RESULT_CSV, folder);
         for (int i = 0; rg_result_formats[i]; i++) {
             snprintf(path, sizeof(path), "%s/%s.%s", folder, result.table, rg_result_formats[i]);
             assert_int_equal(!unlink(path), last < 2);
         }
-        assert_int_equal(rmdir(folder), 0);
+        assert_int_equal(remove_folder(state), 0);
         rg_result_free(&result);
     }
 }
@@ -241,10 +241,9 @@ static void test_drift(void **state)
 // file is whole or missing.
 static void test_files(void **state)
 {
-    (void)state;
-    char folder[64] = "/tmp/raingauge-rows-XXXXXX", path[128], text[16] = "";
+    char path[128], text[16] = "";
     struct stat found;
-    assert_non_null(mkdtemp(folder));
+    assert_int_equal(make_folder(state), 0);
     const mode_t masks[] = {022, 077, 0};
     for (int i = 0; i < 3; i++) {
         const mode_t mask = umask(masks[i]);
@@ -266,7 +265,7 @@ static void test_files(void **state)
     assert_int_equal(stat(path, &found), 0);
     assert_int_equal(found.st_mode & 0777, 0600);
     assert_int_equal(unlink(path), 0);
-    assert_int_equal(rmdir(folder), 0); // nothing else is left in it
+    assert_int_equal(remove_folder(state), 0); // nothing else is left in it
 }
 
 int main(void)

@@ -14,8 +14,7 @@
 #include "core/image/files/io.h"
 #include "harness/report/report.h"
 #include "tests/tools/expect.h"
-
-static char folder[] = "/tmp/raingauge-taken-XXXXXX";
+#include "tests/tools/process/folder.h"
 
 // A picture without symmetry; `shade` is the share of its light.
 static void write_picture(const char *name, int width, int height, float shade)
@@ -28,20 +27,6 @@ static void write_picture(const char *name, int width, int height, float shade)
         picture.texels[i] = shade * (float)(i % 7) / 7;
     assert_true(rg_picture_write(path, &picture, &(struct rg_write_options){.full_float = true}));
     rg_picture_destroy(&picture);
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[64];
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    return system(command);
 }
 
 static bool has(const struct rg_page *page, const char *name)
@@ -278,5 +263,5 @@ int main(void)
         cmocka_unit_test(values_are_those_of_sides),
         cmocka_unit_test(captions_stand_below_pictures),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, remove_whole_folder);
 }

@@ -16,6 +16,7 @@
 #include "harness/devices/frames/frame.h"
 #include "harness/tables/figures/figures.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // The figures to be drawn anew, without the letters of their parts.
 static const char *const wanted[] = {
@@ -119,8 +120,6 @@ static const struct rg_figure drawn[] = {{.id = "test-1",
                                           .caption = "The same earlier.",
                                           .printed = "In print, too"}};
 
-static char folder[64];
-
 // The content of a file in the folder; the caller frees it.
 static char *read_file(const char *name, size_t *size)
 {
@@ -201,8 +200,7 @@ static void test_drawn(void **state)
                                         "test-3.png", "test-3.obj",  "figures.md"};
     const struct rg_figure *const figures[] = {&drawn[0], &drawn[1], &drawn[2]};
     struct rg_device *cpu = rg_device_open("cpu");
-    snprintf(folder, sizeof(folder), "/tmp/raingauge-figures-XXXXXX");
-    assert_non_null(mkdtemp(folder));
+    assert_int_equal(make_folder(state), 0);
     const struct rg_figure_run run = {
         .device = cpu, .width = 32, .height = 16, .folder = folder, .figures = figures, .count = 3};
     assert_true(rg_figures_draw(&run));
@@ -216,7 +214,7 @@ static void test_drawn(void **state)
         snprintf(path, sizeof(path), "%s/%s", folder, names[i]);
         assert_int_equal(unlink(path), 0);
     }
-    assert_int_equal(rmdir(folder), 0);
+    assert_int_equal(remove_folder(state), 0);
     assert_true(rg_device_close(cpu));
 }
 
@@ -235,15 +233,14 @@ static void test_not_drawn(void **state)
     struct rg_device *cpu = rg_device_open("cpu");
     char heard[512] = "";
     broken.settings = "nonsense=1";
-    snprintf(folder, sizeof(folder), "/tmp/raingauge-figures-XXXXXX");
-    assert_non_null(mkdtemp(folder));
+    assert_int_equal(make_folder(state), 0);
     const struct rg_figure_run run = {
         .device = cpu, .width = 32, .height = 16, .folder = folder, .figures = figures, .count = 2};
     rg_log_listen(hear, heard);
     assert_false(rg_figures_draw(&run));
     rg_log_listen(NULL, NULL);
     assert_non_null(strstr(heard, "'nonsense'"));
-    assert_int_equal(rmdir(folder), 0); // empty
+    assert_int_equal(remove_folder(state), 0); // empty
     assert_true(rg_device_close(cpu));
 }
 

@@ -16,9 +16,9 @@
 #include "harness/compare/diff/files.h"
 #include "tests/core/image/rain_picture.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 #include "tests/tools/process/printed.h"
 
-static char folder[] = "/tmp/raingauge-diff-XXXXXX";
 static char a[64], b[64], background[64], small[64], three[64], prefix[64];
 static const char *text;
 static char last_error[1024];
@@ -287,9 +287,8 @@ static void heat_colours_are_magma(void **state)
 
 static int make_files(void **state)
 {
-    (void)state;
     rg_log_listen(listen, NULL);
-    if (!mkdtemp(folder))
+    if (make_folder(state))
         return -1;
     snprintf(a, sizeof(a), "%s/a.exr", folder);
     snprintf(b, sizeof(b), "%s/b.exr", folder);
@@ -307,12 +306,11 @@ static int make_files(void **state)
 
 static int remove_files(void **state)
 {
-    (void)state;
     rg_log_listen(NULL, NULL);
     const char *const files[] = {a, b, background, small, three};
     for (int i = 0; i < 5; i++)
         unlink(files[i]);
-    return rmdir(folder); // empty: nothing else is left
+    return remove_folder(state);
 }
 
 int main(void)

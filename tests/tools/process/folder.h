@@ -1,5 +1,5 @@
-// A folder of a test's or a group's own; make_folder and one of the two that remove it are setup and
-// teardown.
+// A folder of a test's or a group's own; make_folder and one of the two that remove it are setup
+// and teardown.
 #ifndef RG_TESTS_TOOLS_PROCESS_FOLDER_H
 #define RG_TESTS_TOOLS_PROCESS_FOLDER_H
 

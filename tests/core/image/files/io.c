@@ -20,7 +20,7 @@ static void assert_refused(const char *name, const char *word)
 {
     struct rg_picture picture = {.width = 1, .height = 1, .channels = 1, .texels = (float *)1};
     error_count = 0;
-    assert_false(rg_picture_read(path_of(name), &picture));
+    assert_false(rg_picture_read(in_folder(name), &picture));
     if (error_count != 1 || !strstr(errors, word) || !strstr(errors, name))
         fail_msg("%d lines, the last: %s", error_count, errors);
     assert_null(picture.texels);
@@ -30,8 +30,8 @@ static void floats_come_back(const char *name, int channels, bool full_float, fl
 {
     struct rg_picture picture = noise_picture(channels), back;
     const struct rg_write_options options = {.full_float = full_float};
-    assert_true(rg_picture_write(path_of(name), &picture, &options));
-    assert_true(rg_picture_read(path_of(name), &back));
+    assert_true(rg_picture_write(in_folder(name), &picture, &options));
+    assert_true(rg_picture_read(in_folder(name), &back));
     assert_int_equal(back.width, WIDTH);
     assert_int_equal(back.height, HEIGHT);
     assert_int_equal(back.channels, channels);
@@ -41,7 +41,7 @@ static void floats_come_back(const char *name, int channels, bool full_float, fl
                      (double)picture.texels[i]);
     rg_picture_destroy(&picture);
     rg_picture_destroy(&back);
-    unlink(path_of(name));
+    unlink(in_folder(name));
 }
 
 static void exr_keeps_floats(void **state)
@@ -74,14 +74,14 @@ static void png_keeps_codes(void **state)
                                     ? (float)(i / channels) / 255.0f
                                     : (float)rg_srgb_decode((255 - i / channels) / 255.0);
         assert_true(
-            rg_picture_write(path_of("codes.png"), &picture, &(struct rg_write_options){0}));
-        assert_true(rg_picture_read(path_of("codes.png"), &back));
+            rg_picture_write(in_folder("codes.png"), &picture, &(struct rg_write_options){0}));
+        assert_true(rg_picture_read(in_folder("codes.png"), &back));
         assert_int_equal(back.channels, channels);
         assert_memory_equal(back.texels, picture.texels, (size_t)(256 * channels) * 4);
         rg_picture_destroy(&picture);
         rg_picture_destroy(&back);
     }
-    unlink(path_of("codes.png"));
+    unlink(in_folder("codes.png"));
 }
 
 // The exposure multiplies linear light before it is encoded.
@@ -93,13 +93,13 @@ static void png_is_exposed(void **state)
     for (int c = 0; c < 3; c++)
         picture.texels[c] = 0.1f;
     const struct rg_write_options options = {.exposure = 3};
-    assert_true(rg_picture_write(path_of("grey.png"), &picture, &options));
-    assert_true(rg_picture_read(path_of("grey.png"), &back));
+    assert_true(rg_picture_write(in_folder("grey.png"), &picture, &options));
+    assert_true(rg_picture_read(in_folder("grey.png"), &back));
     int code = (int)floor(255 * rg_srgb_encode(0.1 * 3) + 0.5);
     assert_equals(back.texels[0], (float)rg_srgb_decode(code / 255.0));
     rg_picture_destroy(&picture);
     rg_picture_destroy(&back);
-    unlink(path_of("grey.png"));
+    unlink(in_folder("grey.png"));
 }
 
 static void png_of_16_bits_is_decoded(void **state)
@@ -109,21 +109,21 @@ static void png_of_16_bits_is_decoded(void **state)
     png_image image = {.version = PNG_IMAGE_VERSION, .width = 4, .height = 1};
     image.format = PNG_FORMAT_LINEAR_Y;
     // The simplified writer stores linear 16-bit values as they are, and says so (gAMA 100000).
-    assert_true(png_image_write_to_file(&image, path_of("deep.png"), 0, codes, 0, NULL));
+    assert_true(png_image_write_to_file(&image, in_folder("deep.png"), 0, codes, 0, NULL));
     struct rg_picture back;
-    assert_true(rg_picture_read(path_of("deep.png"), &back));
+    assert_true(rg_picture_read(in_folder("deep.png"), &back));
     for (int i = 0; i < 4; i++)
         assert_equals(back.texels[i], (float)(codes[i] / 65535.0));
     assert_true(back.decoded);
     assert_equals(back.gamma, 1);
     rg_picture_destroy(&back);
     struct rg_why why;
-    assert_true(rg_png_read_codes(path_of("deep.png"), 1000, &back, &why));
+    assert_true(rg_png_read_codes(in_folder("deep.png"), 1000, &back, &why));
     for (int i = 0; i < 4; i++)
         assert_equals(back.texels[i], (float)codes[i] / 65535.0f);
     assert_false(back.decoded);
     rg_picture_destroy(&back);
-    unlink(path_of("deep.png"));
+    unlink(in_folder("deep.png"));
 }
 
 static void encoding_is_the_formula(void **state)
@@ -154,18 +154,18 @@ static void what_cannot_be_read_is_refused(void **state)
     assert_refused("missing", "extension is missing");
     write_bytes("picture.jpg", "x", 1);
     assert_refused("picture.jpg", ".jpg");
-    mkdir(path_of("folder.exr"), 0777);
+    mkdir(in_folder("folder.exr"), 0777);
     assert_refused("folder.exr", "folder");
-    rmdir(path_of("folder.exr"));
+    rmdir(in_folder("folder.exr"));
     const char *const names[] = {"bad.exr", "bad.png", "bad.hdr", "bad.tif"};
     for (int i = 0; i < 4; i++) {
         write_bytes(names[i], "", 0);
         assert_refused(names[i], "empty");
         write_bytes(names[i], "this is not a picture at all, whatever its name may say", 55);
         assert_refused(names[i], "write it again");
-        unlink(path_of(names[i]));
+        unlink(in_folder(names[i]));
     }
-    unlink(path_of("picture.jpg"));
+    unlink(in_folder("picture.jpg"));
 }
 
 static void what_is_cut_short_is_refused(void **state)
@@ -175,14 +175,14 @@ static void what_is_cut_short_is_refused(void **state)
     struct rg_picture picture = noise_picture(3);
     for (int i = 0; i < 4; i++) {
         const struct rg_write_options options = {.full_float = true};
-        assert_true(rg_picture_write(path_of(names[i]), &picture, &options));
+        assert_true(rg_picture_write(in_folder(names[i]), &picture, &options));
         struct stat st;
-        assert_int_equal(stat(path_of(names[i]), &st), 0);
+        assert_int_equal(stat(in_folder(names[i]), &st), 0);
         for (int part = 1; part < 8; part++) {
-            assert_int_equal(truncate(path_of(names[i]), st.st_size * (8 - part) / 8), 0);
+            assert_int_equal(truncate(in_folder(names[i]), st.st_size * (8 - part) / 8), 0);
             assert_refused(names[i], "write it again");
         }
-        unlink(path_of(names[i]));
+        unlink(in_folder(names[i]));
     }
     rg_picture_destroy(&picture);
 }
@@ -221,11 +221,11 @@ static void absurd_sizes_are_refused(void **state)
     assert_refused("huge.png", "write it again");
     write_png_header("huge.png", 0, 7);
     assert_refused("huge.png", "write it again");
-    unlink(path_of("huge.png"));
+    unlink(in_folder("huge.png"));
     static const char header[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n";
     write_bytes("huge.hdr", header, sizeof(header) - 1);
     assert_refused("huge.hdr", "can hold");
-    unlink(path_of("huge.hdr"));
+    unlink(in_folder("huge.hdr"));
     struct rg_picture picture;
     error_count = 0;
     assert_false(rg_picture_create(&picture, 65536, 65536, 4, "huge"));
@@ -240,10 +240,10 @@ static void huge_exr_is_refused(void **state)
 {
     (void)state;
     struct rg_picture picture = noise_picture(3);
-    assert_true(rg_picture_write(path_of("huge.exr"), &picture, &(struct rg_write_options){0}));
+    assert_true(rg_picture_write(in_folder("huge.exr"), &picture, &(struct rg_write_options){0}));
     rg_picture_destroy(&picture);
     static uint8_t bytes[65536];
-    FILE *file = fopen(path_of("huge.exr"), "rb");
+    FILE *file = fopen(in_folder("huge.exr"), "rb");
     size_t size = fread(bytes, 1, sizeof(bytes), file);
     fclose(file);
     static const uint8_t far_corner[8] = {0x5f, 0xea, 0, 0, 0x5f, 0xea, 0, 0}; // 59999, 59999
@@ -252,7 +252,7 @@ static void huge_exr_is_refused(void **state)
             memcpy(bytes + i + 17 + 4 + 8, far_corner, 8);
     write_bytes("huge.exr", bytes, size);
     assert_refused("huge.exr", "write it again");
-    unlink(path_of("huge.exr"));
+    unlink(in_folder("huge.exr"));
 }
 
 static void nonfinite_texels_are_kept_and_counted(void **state)
@@ -262,9 +262,9 @@ static void nonfinite_texels_are_kept_and_counted(void **state)
     picture.texels[(5 * WIDTH + 7) * 3 + 1] = NAN;
     picture.texels[(9 * WIDTH + 2) * 3] = -INFINITY;
     const struct rg_write_options options = {.full_float = true};
-    assert_true(rg_picture_write(path_of("nan.exr"), &picture, &options));
+    assert_true(rg_picture_write(in_folder("nan.exr"), &picture, &options));
     warning_count = 0;
-    assert_true(rg_picture_read(path_of("nan.exr"), &back));
+    assert_true(rg_picture_read(in_folder("nan.exr"), &back));
     assert_int_equal(warning_count, 1);
     assert_non_null(strstr(errors, "2 values are NaN or infinite, the first at x 7, y 5"));
     assert_true(isnan(back.texels[(5 * WIDTH + 7) * 3 + 1]));
@@ -272,13 +272,13 @@ static void nonfinite_texels_are_kept_and_counted(void **state)
     rg_picture_destroy(&picture);
     rg_picture_destroy(&back);
     struct rg_picture both[2];
-    const char *const paths[] = {path_of("nan.exr"), path_of("nan.exr")};
+    const char *const paths[] = {in_folder("nan.exr"), in_folder("nan.exr")};
     warning_count = 0;
     assert_true(rg_pictures_read(paths, both, 2));
     assert_int_equal(warning_count, 1);
     rg_picture_destroy(&both[0]);
     rg_picture_destroy(&both[1]);
-    unlink(path_of("nan.exr"));
+    unlink(in_folder("nan.exr"));
 }
 
 // A tiled TIFF of signed 8-bit CMYK: OpenImageIO 2.4 writes past its memory with it.
@@ -323,7 +323,7 @@ static void a_crash_of_the_library_is_one_line(void **state)
     (void)state;
     write_signed_cmyk("cmyk.tif");
     assert_refused("cmyk.tif", "OpenImageIO");
-    unlink(path_of("cmyk.tif"));
+    unlink(in_folder("cmyk.tif"));
 }
 
 // Several bad files leave one line, about the first.
@@ -331,7 +331,7 @@ static void one_line_for_many_files(void **state)
 {
     (void)state;
     struct rg_picture picture = noise_picture(3), pictures[3];
-    assert_true(rg_picture_write(path_of("good.png"), &picture, &(struct rg_write_options){0}));
+    assert_true(rg_picture_write(in_folder("good.png"), &picture, &(struct rg_write_options){0}));
     char good[256], bad[256], worse[256];
     snprintf(good, sizeof(good), "%s/good.png", folder);
     snprintf(bad, sizeof(bad), "%s/bad.png", folder);
@@ -345,7 +345,7 @@ static void one_line_for_many_files(void **state)
     for (int i = 0; i < 3; i++)
         rg_picture_destroy(&pictures[i]);
     rg_picture_destroy(&picture);
-    unlink(path_of("good.png"));
+    unlink(in_folder("good.png"));
 }
 
 int main(void)
@@ -365,5 +365,5 @@ int main(void)
         cmocka_unit_test(a_crash_of_the_library_is_one_line),
         cmocka_unit_test(one_line_for_many_files),
     };
-    return cmocka_run_group_tests_name("picture files", tests, make_folder, remove_folder);
+    return cmocka_run_group_tests_name("picture files", tests, make_scratch, remove_scratch);
 }

@@ -11,10 +11,10 @@
 #include "core/base/log.h"
 #include "core/image/picture.h"
 #include "tests/core/image/rain_picture.h"
+#include "tests/tools/process/folder.h"
 
 enum { WIDTH = 37, HEIGHT = 23 };
 
-static char folder[] = "/tmp/raingauge-io-XXXXXX";
 static char errors[4096];
 static int error_count, warning_count;
 
@@ -24,13 +24,6 @@ static inline void listen(enum rg_log_level level, const char *line, void *user)
     error_count += level == RG_LOG_ERROR;
     warning_count += level == RG_LOG_WARNING;
     snprintf(errors, sizeof(errors), "%s", line);
-}
-
-static inline const char *path_of(const char *name)
-{
-    static char path[256];
-    snprintf(path, sizeof(path), "%s/%s", folder, name);
-    return path;
 }
 
 static inline int files_in_folder(void)
@@ -54,24 +47,22 @@ static inline struct rg_picture noise_picture(int channels)
 
 static inline void write_bytes(const char *name, const void *bytes, size_t size)
 {
-    FILE *file = fopen(path_of(name), "wb");
+    FILE *file = fopen(in_folder(name), "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
     fclose(file);
 }
 
-static inline int make_folder(void **state)
+static inline int make_scratch(void **state)
 {
-    (void)state;
     rg_log_listen(listen, NULL);
-    return mkdtemp(folder) ? 0 : -1;
+    return make_folder(state);
 }
 
-static inline int remove_folder(void **state)
+static inline int remove_scratch(void **state)
 {
-    (void)state;
     rg_log_listen(NULL, NULL);
-    return rmdir(folder); // empty: every test removed what it made
+    return remove_folder(state); // every test removed what it made
 }
 
 #endif

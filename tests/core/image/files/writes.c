@@ -25,7 +25,7 @@ static void assert_not_written(const char *name, const struct rg_picture *pictur
     int before = files_in_folder();
     error_count = 0;
     const struct rg_write_options options = {.full_float = true};
-    assert_false(rg_picture_write(path_of(name), picture, &options));
+    assert_false(rg_picture_write(in_folder(name), picture, &options));
     if (error_count != 1 || !strstr(errors, word))
         fail_msg("%d lines, the last: %s", error_count, errors);
     assert_int_equal(files_in_folder(), before);
@@ -37,9 +37,9 @@ static void what_cannot_be_written_leaves_nothing(void **state)
     struct rg_picture picture = noise_picture(3);
     assert_not_written("none/a.png", &picture, "folder is not there");
     assert_not_written("a.xyz", &picture, ".xyz");
-    mkdir(path_of("a.png"), 0777);
+    mkdir(in_folder("a.png"), 0777);
     assert_not_written("a.png", &picture, "is a folder");
-    rmdir(path_of("a.png"));
+    rmdir(in_folder("a.png"));
     struct rg_picture four = noise_picture(4);
     assert_not_written("a.hdr", &four, "3 channels");
     rg_picture_destroy(&four);
@@ -56,7 +56,7 @@ static void a_full_disk_leaves_the_old_file(void **state)
     for (int64_t i = 0; i < rg_picture_values(&picture); i++)
         picture.texels[i] = (float)(rain_noise((uint32_t)i) >> 8) * 0x1p-24f;
     for (int i = 0; i < 4; i++) // loads the writers before the limit holds
-        assert_true(rg_picture_write(path_of(names[i]), &picture, &(struct rg_write_options){0}));
+        assert_true(rg_picture_write(in_folder(names[i]), &picture, &(struct rg_write_options){0}));
     signal(SIGXFSZ, SIG_IGN);
     struct rlimit before, small;
     getrlimit(RLIMIT_FSIZE, &before);
@@ -68,10 +68,10 @@ static void a_full_disk_leaves_the_old_file(void **state)
     setrlimit(RLIMIT_FSIZE, &before);
     for (int i = 0; i < 4; i++) {
         struct rg_picture back;
-        assert_true(rg_picture_read(path_of(names[i]), &back));
+        assert_true(rg_picture_read(in_folder(names[i]), &back));
         assert_int_equal(back.width, 300);
         rg_picture_destroy(&back);
-        unlink(path_of(names[i]));
+        unlink(in_folder(names[i]));
     }
     rg_picture_destroy(&picture);
 }
@@ -102,7 +102,7 @@ static void end_with_a_name(int number)
     struct rg_temporary temporary;
     if (!hide_proc())
         _exit(77);
-    if (rg_temporary_make(path_of("new.png"), &temporary, &why) && temporary.is_named &&
+    if (rg_temporary_make(in_folder("new.png"), &temporary, &why) && temporary.is_named &&
         files_in_folder() == 1)
         raise(number);
 }
@@ -125,7 +125,7 @@ static void end_within(int number)
 {
     struct rg_why why;
     struct rg_temporary temporary;
-    if (rg_temporary_make(path_of("kept.png"), &temporary, &why) &&
+    if (rg_temporary_make(in_folder("kept.png"), &temporary, &why) &&
         write(temporary.fd, "new", 3) == 3)
         raise(number);
 }
@@ -140,7 +140,7 @@ static void a_signal_leaves_nothing(void **state)
         assert_true(WIFSIGNALED(status_of(end_within, signals[i])));
         assert_int_equal(files_in_folder(), 1);
     }
-    unlink(path_of("kept.png"));
+    unlink(in_folder("kept.png"));
 }
 
 // A shell's redirection follows links, too.
@@ -150,8 +150,8 @@ static void a_link_is_followed(void **state)
     struct rg_picture picture = noise_picture(3);
     struct stat st;
     char target[256], link[256];
-    snprintf(target, sizeof(target), "%s", path_of("target.png"));
-    snprintf(link, sizeof(link), "%s", path_of("link.png"));
+    snprintf(target, sizeof(target), "%s", in_folder("target.png"));
+    snprintf(link, sizeof(link), "%s", in_folder("link.png"));
     assert_int_equal(symlink(target, link), 0);
     assert_not_written("link.png", &picture, "a link to nothing");
     write_bytes("target.png", "old", 3);
@@ -178,10 +178,10 @@ static void a_full_disk_is_noticed_at_the_close(void **state)
     struct rlimit before, small;
     getrlimit(RLIMIT_FSIZE, &before);
     for (int i = 0; i < 4; i++) {
-        assert_true(rg_picture_write(path_of(names[i]), &picture, &(struct rg_write_options){0}));
+        assert_true(rg_picture_write(in_folder(names[i]), &picture, &(struct rg_write_options){0}));
         struct stat st;
-        stat(path_of(names[i]), &st);
-        unlink(path_of(names[i]));
+        stat(in_folder(names[i]), &st);
+        unlink(in_folder(names[i]));
         small = before;
         small.rlim_cur = (rlim_t)st.st_size - 1;
         setrlimit(RLIMIT_FSIZE, &small);
@@ -201,6 +201,6 @@ int main(void)
         cmocka_unit_test(a_link_is_followed),
         cmocka_unit_test(a_full_disk_is_noticed_at_the_close),
     };
-    return cmocka_run_group_tests_name("picture files that are written", tests, make_folder,
-                                       remove_folder);
+    return cmocka_run_group_tests_name("picture files that are written", tests, make_scratch,
+                                       remove_scratch);
 }

@@ -18,8 +18,8 @@
 #include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/cube.h"
 #include "kernels/dialect/image/memory.h"
-#include "tests/core/folder.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 static void write_file(const char *path, const void *data, size_t bytes)
 {

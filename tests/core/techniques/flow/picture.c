@@ -13,10 +13,10 @@
 #include "core/image/files/io.h"
 #include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/memory.h"
-#include "tests/core/folder.h"
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/oracle/flow/picture.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 enum { WIDTH = 132, HEIGHT = 100, PIXELS = WIDTH * HEIGHT, STEPS = 12 };
 

@@ -9,8 +9,8 @@
 #include "kernels/dialect/image/format.h"
 #include "tests/core/techniques/shower/rig.h"
 
-#include "tests/core/folder.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 enum { WIDTH = 64, HEIGHT = 36, MAP_PX = 128, PLACES = 500 };
 

@@ -14,6 +14,7 @@
 
 #include "core/base/log.h"
 #include "harness/devices/frames/messages.h"
+#include "tests/tools/process/folder.h"
 
 static char logged[2048];
 
@@ -180,13 +181,10 @@ static const struct rg_technique filed = {.name = "filed", .params = &filed_para
 
 // A folder with files, one of them named as a number, and a folder "b.d", in which this process
 // works.
-static char folder[] = "/tmp/raingauge-subjects-XXXXXX";
-
 static int enter_folder(void **state)
 {
     static const char *const names[] = {"bunny", "a.obj", "c.obj", "0.5"};
-    strcpy(strrchr(folder, '-'), "-XXXXXX");
-    if (!mkdtemp(folder) || chdir(folder) || mkdir("b.d", 0700))
+    if (make_folder(state) || chdir(folder) || mkdir("b.d", 0700))
         return -1;
     for (int i = 0; i < 4; i++) {
         FILE *file = fopen(names[i], "w");
@@ -198,10 +196,7 @@ static int enter_folder(void **state)
 
 static int leave_folder(void **state)
 {
-    char command[64];
-    (void)state;
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    return chdir("/") || system(command);
+    return chdir("/") || remove_whole_folder(state);
 }
 
 static void a_file_is_the_user_s_if_it_is_there(void **state)

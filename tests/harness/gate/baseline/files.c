@@ -10,8 +10,9 @@
 #include "harness/record/disk/seal.h"
 #include "tests/harness/gate/baseline/made.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
-static char logged[2048], folder[] = "/tmp/raingauge-baseline-XXXXXX", path[64];
+static char logged[2048], path[64];
 static int logged_lines;
 
 static void listen(enum rg_log_level level, const char *line, void *user)
@@ -24,8 +25,7 @@ static void listen(enum rg_log_level level, const char *line, void *user)
 
 static int set_up(void **state)
 {
-    (void)state;
-    if (!mkdtemp(folder))
+    if (make_folder(state))
         return -1;
     snprintf(path, sizeof(path), "%s/b.json", folder);
     return 0;
@@ -33,9 +33,8 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    (void)state;
     unlink(path);
-    return rmdir(folder);
+    return remove_folder(state);
 }
 
 // --- reading what was written ---

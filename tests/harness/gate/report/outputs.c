@@ -16,9 +16,10 @@
 #include "harness/commands/comparing/outputs.h"
 #include "harness/compare/gate/text/date.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 #include "tests/tools/process/printed.h"
 
-static char folder[64], logged[1024];
+static char logged[1024];
 static int log_count;
 
 static void hear(enum rg_log_level level, const char *line, void *user)
@@ -31,21 +32,16 @@ static void hear(enum rg_log_level level, const char *line, void *user)
 
 static int begin(void **state)
 {
-    (void)state;
     unsetenv("GITHUB_STEP_SUMMARY");
     rg_log_listen(hear, NULL);
     log_count = *logged = 0;
-    strcpy(folder, "/tmp/raingauge-outputs-XXXXXX");
-    return mkdtemp(folder) ? chdir(folder) : -1;
+    return make_folder(state) || chdir(folder);
 }
 
 static int end(void **state)
 {
-    (void)state;
-    char command[128];
     rg_log_listen(NULL, NULL);
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    return chdir("/") || system(command);
+    return chdir("/") || remove_whole_folder(state);
 }
 
 // --- googletest's flags ---

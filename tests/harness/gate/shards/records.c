@@ -11,8 +11,9 @@
 #include "harness/compare/gate/shards/shards.h"
 #include "harness/console/exit.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
-static char logged[2048], folder[] = "/tmp/raingauge-shards-XXXXXX";
+static char logged[2048];
 static int logged_lines;
 
 static void listen(enum rg_log_level level, const char *line, void *user)
@@ -39,8 +40,7 @@ static const struct rg_gate_inputs inputs = {"b", "e", "t"};
 
 static int set_up(void **state)
 {
-    (void)state;
-    return !mkdtemp(folder) ||
+    return make_folder(state) ||
            !rg_gate_cells_of("cells", text_of_cells, strlen(text_of_cells), &cells);
 }
 
@@ -60,10 +60,9 @@ static void forget(void)
 
 static int tear_down(void **state)
 {
-    (void)state;
     forget();
     rg_gate_cells_free(&cells);
-    return rmdir(folder);
+    return remove_folder(state);
 }
 
 // --- a gate ---

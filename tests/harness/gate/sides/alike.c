@@ -14,6 +14,7 @@
 #include "harness/compare/gate/sides/alike.h"
 #include "harness/devices/frames/frame.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 static int logged_lines;
 
@@ -92,9 +93,9 @@ static bool compare(int strictest, enum rg_tier of_a, enum rg_tier of_b, int64_t
         found.tiers.of[tier].holds = tier >= strictest;
         snprintf(found.tiers.of[tier].why, sizeof(found.tiers.of[0].why), "why T%d", tier);
     }
-    const char *folder = agreement.folder;
+    const char *to = agreement.folder;
     agreement = (struct rg_agreement){.outcome = RG_OK,
-                                      .folder = folder,
+                                      .folder = to,
                                       .name = "rain.b",
                                       .would_hold = -1,
                                       .pixels = NAN,
@@ -171,23 +172,23 @@ static void what_cannot_be_compared_fails_on_its_side(void **state)
 
 // --- files ---
 
-static void remove_all(const char *folder)
+static void remove_all(const char *from)
 {
     static const char *const ends[] = {"a.png", "b.png", "a.exr", "b.exr"};
     char path[PATH_MAX];
     for (int i = 0; i < 4; i++) {
-        snprintf(path, sizeof(path), "%.200s/rain.b-%s", folder, ends[i]);
+        snprintf(path, sizeof(path), "%.200s/rain.b-%s", from, ends[i]);
         if (unlink(path))
             fail_msg("%s is not there", path);
     }
 }
 
 // Reads the first value of a side's picture again.
-static float value_of(const char *folder, const char *end)
+static float value_of(const char *from, const char *end)
 {
     char path[PATH_MAX];
     struct rg_picture read = {0};
-    snprintf(path, sizeof(path), "%.200s/rain.b-%s", folder, end);
+    snprintf(path, sizeof(path), "%.200s/rain.b-%s", from, end);
     assert_true(rg_picture_read(path, &read));
     const float value = read.texels[0];
     rg_picture_destroy(&read);
@@ -196,9 +197,7 @@ static float value_of(const char *folder, const char *end)
 
 static void pictures_that_differ_are_written(void **state)
 {
-    (void)state;
-    char folder[] = "/tmp/raingauge-alike-XXXXXX";
-    assert_non_null(mkdtemp(folder));
+    assert_int_equal(make_folder(state), 0);
     assert_true(rg_picture_create(&a.picture, 2, 2, 4, "a"));
     assert_true(rg_picture_create(&b.picture, 2, 2, 4, "b"));
     for (int i = 0; i < 16; i++) {
@@ -218,7 +217,7 @@ static void pictures_that_differ_are_written(void **state)
     assert_false(agreement.has_pictures);
     assert_int_equal(agreement.outcome, RG_FAIL);
     remove_all(folder);
-    assert_int_equal(rmdir(folder), 0);
+    assert_int_equal(remove_folder(state), 0);
     rg_picture_destroy(&a.picture);
     rg_picture_destroy(&b.picture);
 }
@@ -237,10 +236,10 @@ static void a_picture_has_a_name_that_file_systems_take(void **state)
     rg_gate_picture_path("out", "a_b.gl", 0, other);
     assert_ptr_equal(strstr(path, "out/a_b.gl_"), path);
     assert_string_not_equal(path, other);
-    char folder[PATH_MAX];
-    memset(folder, 'f', sizeof(folder));
-    folder[PATH_MAX / 2 + 1] = 0;
-    assert_false(rg_gate_pictures_can_be_written(folder, 1));
+    char long_name[PATH_MAX];
+    memset(long_name, 'f', sizeof(long_name));
+    long_name[PATH_MAX / 2 + 1] = 0;
+    assert_false(rg_gate_pictures_can_be_written(long_name, 1));
     assert_non_null(strstr(rg_last_error(), "...: is too long a name for a folder"));
     assert_true(rg_gate_pictures_can_be_written("/tmp", 1));
     assert_false(rg_gate_pictures_can_be_written("/nonexistent/out", 1));

@@ -10,8 +10,9 @@
 #include "harness/compare/gate/sides/journal.h"
 #include "harness/record/disk/seal.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
-static char logged[2048], folder[] = "/tmp/raingauge-journal-XXXXXX";
+static char logged[2048];
 static int logged_lines;
 
 static void listen(enum rg_log_level level, const char *line, void *user)
@@ -36,17 +37,10 @@ static void forget(void)
     unlink(path);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    return !mkdtemp(folder);
-}
-
 static int tear_down(void **state)
 {
-    (void)state;
     forget();
-    return rmdir(folder);
+    return remove_folder(state);
 }
 
 static bool is_there(const char *name)
@@ -301,5 +295,5 @@ int main(void)
         cmocka_unit_test(what_is_no_journal_is_told_and_left_out),
         cmocka_unit_test(a_damaged_journal_is_told_and_left_out),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, make_folder, tear_down);
 }

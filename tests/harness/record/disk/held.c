@@ -10,8 +10,8 @@
 #include "harness/record/disk/stored.h"
 #include "tests/harness/record/made.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
-static char folder[64];
 static int lines;
 
 static void count_line(enum rg_log_level level, const char *line, void *user)
@@ -24,20 +24,15 @@ static void count_line(enum rg_log_level level, const char *line, void *user)
 
 static int setup(void **state)
 {
-    (void)state;
-    snprintf(folder, sizeof(folder), "/tmp/raingauge-held-XXXXXX");
     rg_log_listen(count_line, NULL);
     lines = 0;
-    return mkdtemp(folder) ? 0 : -1;
+    return make_folder(state);
 }
 
 static int teardown(void **state)
 {
-    (void)state;
-    char command[128];
     rg_log_listen(NULL, NULL);
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    return system(command);
+    return remove_whole_folder(state);
 }
 
 // Rows 1 to 3, counted from 0, of devices with limits, all without errors.

@@ -22,6 +22,7 @@
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/measuring/measure.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 #include "tests/tools/process/interrupt.h"
 
 #define CHEAP                                                                                      \
@@ -51,7 +52,6 @@ static const struct rg_table table = {
 };
 
 struct rig {
-    char folder[64];
     struct rg_devices devices;
     struct rg_kept kept;
     int messages;
@@ -62,12 +62,11 @@ struct rig {
 static int setup(void **state)
 {
     struct rig *rig = calloc(1, sizeof(*rig));
-    snprintf(rig->folder, sizeof(rig->folder), "/tmp/raingauge-test-XXXXXX");
     rig->devices = (struct rg_devices){.count = 1, .devices = {rg_device_open("cpu")}};
     rig->kept.devices = &rig->devices;
     rg_interrupt_watch();
     *state = rig;
-    return mkdtemp(rig->folder) && rig->devices.devices[0] ? 0 : -1;
+    return rig->devices.devices[0] ? make_folder(NULL) : -1;
 }
 
 static int teardown(void **state)
@@ -75,9 +74,9 @@ static int teardown(void **state)
     struct rig *rig = *state;
     const bool clean = rg_kept_free(&rig->kept) && rg_device_close(rig->devices.devices[0]);
     char path[128];
-    snprintf(path, sizeof(path), "%s/test-quick.journal", rig->folder);
+    snprintf(path, sizeof(path), "%s/test-quick.journal", folder);
     unlink(path);
-    const bool empty = rmdir(rig->folder) == 0;
+    const bool empty = remove_folder(NULL) == 0;
     free(rig);
     return clean && empty ? 0 : -1;
 }
@@ -106,7 +105,7 @@ static json_t *run_table(struct rig *rig, struct rg_result *result, bool fresh)
     rig->messages = 0;
     rg_interrupt_watch();
     rg_log_listen(hear, rig);
-    struct rg_journal *journal = rg_journal_open(result, rig->folder, fresh, !rig->is_last);
+    struct rg_journal *journal = rg_journal_open(result, folder, fresh, !rig->is_last);
     assert_true(rg_table_measure(result, &table, &rig->kept, journal, NULL, NULL));
     rg_log_listen(NULL, NULL);
     rg_journal_close(journal);
@@ -181,7 +180,7 @@ static void test_goes_on(void **state)
     rg_result_free(&result);
     json_decref(first);
 
-    snprintf(path, sizeof(path), "%s/test-quick.journal", rig->folder);
+    snprintf(path, sizeof(path), "%s/test-quick.journal", folder);
     json_t *kept = json_load_file(path, 0, NULL);
     assert_int_equal(json_array_size(json_object_get(kept, "cells")), 2);
     struct rg_stored stored = {0};
@@ -189,7 +188,7 @@ static void test_goes_on(void **state)
     assert_int_equal(rg_result_first_missing(&stored.results[0]), 0);
     rg_stored_free(&stored);
     begin(rig, &result, 1);
-    struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, true);
+    struct rg_journal *journal = rg_journal_open(&result, folder, false, true);
     assert_true(rg_journal_has_part(journal, 0) && !rg_journal_has(journal, 0));
     assert_false(rg_journal_has_part(journal, 1));
     rg_journal_close(journal);
@@ -238,7 +237,7 @@ static json_t *make_journal(struct rig *rig, char path[128])
     struct rg_result result;
     json_t *printed = run_table(rig, &result, true);
     rg_result_free(&result);
-    snprintf(path, 128, "%s/test-quick.journal", rig->folder);
+    snprintf(path, 128, "%s/test-quick.journal", folder);
     json_t *json = json_load_file(path, 0, NULL);
     // A cell in it is the same as in the printed result.
     char *text = json_dumps(cell_at(printed, 1), RG_JSON_FLAGS);
@@ -258,7 +257,7 @@ static int taken(struct rig *rig, int last_row, int messages)
     begin(rig, &result, last_row);
     rig->messages = 0;
     rg_log_listen(hear, rig);
-    struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, false);
+    struct rg_journal *journal = rg_journal_open(&result, folder, false, false);
     for (int row = 0; row <= last_row; row++) {
         assert_true(rg_table_add_row(&result, &table, row));
         count += rg_journal_take(journal, &result, row);
@@ -275,7 +274,7 @@ static bool is_of_others(struct rig *rig, int last_row)
     struct rg_result result;
     begin(rig, &result, last_row);
     rg_log_listen(hear, rig);
-    struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, false);
+    struct rg_journal *journal = rg_journal_open(&result, folder, false, false);
     rg_log_listen(NULL, NULL);
     const bool is_others = rg_journal_is_of_others(journal);
     rg_journal_close(journal);
@@ -334,7 +333,7 @@ static void test_rows_stay_apart(void **state)
     struct rg_result first, second;
     begin(rig, &first, 1);
     begin(rig, &second, 1);
-    struct rg_journal *journal = rg_journal_open(&first, rig->folder, true, true);
+    struct rg_journal *journal = rg_journal_open(&first, folder, true, true);
     double ms = 0;
     for (int row = 0; row < 2; row++) {
         assert_true(rg_table_add_row(&first, &table, row));
@@ -371,7 +370,7 @@ static void test_other_values(void **state)
         memcpy(others[0].values, changed[i], sizeof(changed[i]));
         other.rows = others;
         begin(rig, &result, 1);
-        struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, false);
+        struct rg_journal *journal = rg_journal_open(&result, folder, false, false);
         assert_true(rg_table_add_row(&result, &other, 0));
         assert_int_equal(rg_journal_take(journal, &result, 0), i == 0);
         rg_result_free(&result);
@@ -426,9 +425,9 @@ static void test_damage(void **state)
 
 // --- the journal's file ---
 
-static int files_in(const char *folder)
+static int files_in(const char *path)
 {
-    DIR *dir = opendir(folder);
+    DIR *dir = opendir(path);
     int count = 0;
     for (struct dirent *entry = dir ? readdir(dir) : NULL; entry; entry = readdir(dir))
         count += entry->d_name[0] != '.';
@@ -461,12 +460,12 @@ static void test_leaves_nothing(void **state)
     for (int is_followed = 0; is_followed < 2; is_followed++) {
         struct rg_result result;
         begin(rig, &result, 0);
-        struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, is_followed);
+        struct rg_journal *journal = rg_journal_open(&result, folder, false, is_followed);
         assert_true(rg_table_measure(&result, &table, &rig->kept, journal, NULL, NULL));
-        assert_int_equal(files_in(rig->folder), is_followed);
+        assert_int_equal(files_in(folder), is_followed);
         assert_int_equal(rg_journal_path(journal) != NULL, is_followed);
         rg_journal_remove(journal);
-        assert_int_equal(files_in(rig->folder), 0);
+        assert_int_equal(files_in(folder), 0);
         rg_journal_close(journal);
         rg_result_free(&result);
     }

@@ -15,6 +15,7 @@
 #include "harness/record/disk/document.h"
 #include "harness/record/disk/parts.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // --- shards ---
 
@@ -72,7 +73,7 @@ static void numbers_are_written_as_slurm_takes_them(void **state)
 
 // --- records ---
 
-static char folder[64], told[4096];
+static char told[4096];
 static int errors, warnings, notes;
 
 static void hear(enum rg_log_level level, const char *line, void *user)
@@ -86,20 +87,15 @@ static void hear(enum rg_log_level level, const char *line, void *user)
 
 static int make(void **state)
 {
-    (void)state;
-    snprintf(folder, sizeof(folder), "/tmp/raingauge-parts-XXXXXX");
     rg_log_listen(hear, NULL);
     errors = warnings = notes = 0;
-    return mkdtemp(folder) ? 0 : -1;
+    return make_folder(state);
 }
 
 static int clear(void **state)
 {
-    (void)state;
-    char command[128];
     rg_log_listen(NULL, NULL);
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    return system(command);
+    return remove_whole_folder(state);
 }
 
 static const char *path_of(const char *name)

@@ -5,7 +5,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +16,9 @@
 #include "harness/tables/print.h"
 #include "tests/harness/results/forms/rig.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
-static char folder[64], heard[1024];
+static char heard[1024];
 
 static void hear(enum rg_log_level level, const char *line, void *user)
 {
@@ -27,43 +27,23 @@ static void hear(enum rg_log_level level, const char *line, void *user)
     snprintf(heard, sizeof(heard), "%s", line);
 }
 
-static int remove_one(const char *path, const struct stat *st, int type, struct FTW *ftw)
-{
-    (void)st;
-    (void)type;
-    (void)ftw;
-    return remove(path);
-}
-
 static int begin(void **state)
 {
-    (void)state;
-    snprintf(folder, sizeof(folder), "/tmp/raingauge-written-XXXXXX");
-    assert_non_null(mkdtemp(folder));
     *heard = 0;
     rg_log_listen(hear, NULL);
-    return 0;
+    return make_folder(state);
 }
 
 static int end(void **state)
 {
-    (void)state;
     rg_log_listen(NULL, NULL);
-    nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    remove_whole_folder(state);
     return 0;
-}
-
-// The path of a file in the folder, until the next call.
-static const char *path_of(const char *name)
-{
-    static char path[256];
-    snprintf(path, sizeof(path), "%s/%s", folder, name);
-    return path;
 }
 
 static void write_text(const char *name, const char *text)
 {
-    FILE *file = fopen(path_of(name), "w");
+    FILE *file = fopen(in_folder(name), "w");
     assert_non_null(file);
     fputs(text, file);
     assert_int_equal(fclose(file), 0);
@@ -72,7 +52,7 @@ static void write_text(const char *name, const char *text)
 static bool holds(const char *name, const char *text)
 {
     char found[16] = "";
-    FILE *file = fopen(path_of(name), "r");
+    FILE *file = fopen(in_folder(name), "r");
     assert_non_null(file);
     found[fread(found, 1, sizeof(found) - 1, file)] = 0;
     fclose(file);
@@ -160,9 +140,9 @@ static void files_stay_where_nothing_was_measured(void **state)
     assert_true(holds("names.json", "earlier") && holds("names.md", "as well"));
     char due[512];
     snprintf(due, sizeof(due), "%s: is kept, for no cell of names was measured now",
-             path_of("names.json"));
+             in_folder("names.json"));
     assert_string_equal(heard, due);
-    assert_int_equal(unlink(path_of("names.json")), 0);
+    assert_int_equal(unlink(in_folder("names.json")), 0);
     assert_true(rg_result_write(&rig.result, folder));
     assert_false(holds("names.json", "earlier") || holds("names.md", "as well"));
     rg_result_free(&rig.result);
@@ -174,7 +154,7 @@ static void files_stay_where_nothing_was_measured(void **state)
     for (int i = 0; rg_result_formats[i]; i++) {
         char name[32];
         snprintf(name, sizeof(name), "names.%s", rg_result_formats[i]);
-        assert_int_equal(unlink(path_of(name)), 0);
+        assert_int_equal(unlink(in_folder(name)), 0);
     }
     assert_int_equal(rmdir(folder), 0); // no other file
     rg_result_free(&rig.result);
@@ -199,10 +179,10 @@ static void files_that_are_read_are_spared(void **state)
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         write_text(cases[i].name, "read");
         *heard = 0;
-        assert_int_equal(rg_result_spares(&sheet_names_table, folder, path_of(cases[i].name)),
+        assert_int_equal(rg_result_spares(&sheet_names_table, folder, in_folder(cases[i].name)),
                          cases[i].is_spared);
         assert_int_equal(!*heard, cases[i].is_spared);
-        assert_int_equal(unlink(path_of(cases[i].name)), 0);
+        assert_int_equal(unlink(in_folder(cases[i].name)), 0);
     }
 }
 
@@ -215,11 +195,11 @@ static void files_that_cannot_be_written_are_told(void **state)
     static const char *const names[] = {"names.md", "names.tex", "axis.csv", "axis.tex"};
     assert_true(rg_results_can_be_written(tables, 2, folder));
     for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
-        assert_int_equal(mkdir(path_of(names[i]), 0777), 0);
+        assert_int_equal(mkdir(in_folder(names[i]), 0777), 0);
         assert_false(rg_results_can_be_written(tables, 2, folder));
         assert_non_null(strstr(heard, names[i]));
         assert_true(rg_results_can_be_written(&tables[1], i < 2, folder));
-        assert_int_equal(rmdir(path_of(names[i])), 0);
+        assert_int_equal(rmdir(in_folder(names[i])), 0);
     }
 }
 
@@ -234,7 +214,7 @@ static void a_table_whose_files_are_lost(void **state)
     assert_int_equal(rg_result_finish(&rig.result, RG_RESULT_CSV, folder), RG_EXIT_PASS);
     assert_false(holds("names.csv", ""));
     assert_int_equal(rg_result_finish(&rig.result, RG_RESULT_CSV, NULL), RG_EXIT_PASS);
-    assert_int_equal(rg_result_finish(&rig.result, RG_RESULT_CSV, path_of("none/of/these")),
+    assert_int_equal(rg_result_finish(&rig.result, RG_RESULT_CSV, in_folder("none/of/these")),
                      RG_EXIT_USAGE);
     sheet_record_at(&rig, 1, 0)->outcome = RG_FAIL;
     assert_int_equal(rg_result_finish(&rig.result, RG_RESULT_CSV, folder), RG_EXIT_FAIL);

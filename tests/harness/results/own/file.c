@@ -16,8 +16,9 @@
 #include "harness/tables/own/file.h"
 #include "harness/tables/papers/papers.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
-static char folder[] = "/tmp/raingauge-own-XXXXXX", path[64], last_line[1024];
+static char path[64], last_line[1024];
 
 static void keep_line(enum rg_log_level level, const char *line, void *user)
 {
@@ -36,20 +37,18 @@ static const struct rg_table *read_text(const char *text)
     return rg_own_read(path);
 }
 
-static int make_folder(void **state)
+static int set_up(void **state)
 {
-    (void)state;
     rg_log_listen(keep_line, NULL);
-    if (!mkdtemp(folder))
+    if (make_folder(state))
         return -1;
     snprintf(path, sizeof(path), "%s/own.table", folder);
     return 0;
 }
 
-static int remove_folder(void **state)
+static int tear_down(void **state)
 {
-    (void)state;
-    return remove(path) || rmdir(folder);
+    return remove(path) || remove_folder(state);
 }
 
 // --- what lines become ---
@@ -378,5 +377,5 @@ int main(void)
         cmocka_unit_test(each_line_has_its_limit),
         cmocka_unit_test(names_of_files_have_a_slash_or_end_so),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -24,6 +24,7 @@
 #include "harness/tables/runs/compile.h"
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // --- tables and devices that have only names ---
 
@@ -42,7 +43,7 @@ static const struct rg_devices devices = {.count = 3, .devices = {&named[0], &na
 
 // --- a script that replaces the program ---
 
-static char folder[] = "/tmp/raingauge-compile-XXXXXX", script[64], told[64], heard[1024];
+static char script[64], told[64], heard[1024];
 
 // Writes a script that logs when it begins and ends, and runs `does` in between.
 static void write_script(const char *does)
@@ -233,22 +234,20 @@ static void one_cell_is_opened_here(void **state)
     slow_end(&rig);
 }
 
-static int make_folder(void **state)
+static int set_up(void **state)
 {
-    (void)state;
-    if (!mkdtemp(folder))
+    if (make_folder(state))
         return -1;
     snprintf(script, sizeof(script), "%s/program", folder);
     snprintf(told, sizeof(told), "%s/told", folder);
     return 0;
 }
 
-static int remove_folder(void **state)
+static int tear_down(void **state)
 {
-    (void)state;
     remove(script);
     remove(told);
-    return rmdir(folder);
+    return remove_folder(state);
 }
 
 int main(void)
@@ -261,5 +260,5 @@ int main(void)
         cmocka_unit_test(an_interruption_ends_it),
         cmocka_unit_test(one_cell_is_opened_here),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -18,6 +18,7 @@
 #include "harness/tables/runs/regenerate.h"
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 enum { MOST_ROWS = 40, MOST_LINES = 64, MOST_TABLES = 3, RUNS = 24 };
 
@@ -120,9 +121,8 @@ static int print(const struct rg_result *result, const void *user)
 // Measures tables, keeps the announced times, and returns when the run ended.
 static double run(const struct rg_table *const tables[], int count)
 {
-    char folder[] = "/tmp/raingauge-left-XXXXXX", command[64];
     struct slow_rig rig;
-    assert_non_null(mkdtemp(folder));
+    assert_int_equal(make_folder(NULL), 0);
     slow_begin(&rig);
     told.count = 0;
     told.start_ms = rg_now_ms();
@@ -132,8 +132,7 @@ static double run(const struct rg_table *const tables[], int count)
     rg_log_listen(NULL, NULL);
     const double end_ms = rg_now_ms();
     slow_end(&rig);
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    assert_int_equal(remove_whole_folder(NULL), 0);
     return end_ms;
 }
 

@@ -19,6 +19,7 @@
 #include "harness/tables/runs/regenerate.h"
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 static const struct rg_table_row rows[] = {
     {"", {1}, NULL}, {"", {2}, NULL}, {"", {3}, NULL}, {"", {4}, NULL}};
@@ -32,7 +33,7 @@ static const struct rg_table_row rows[] = {
 static const struct rg_table one = TABLE("slow-1"), two = TABLE("slow-2");
 static const struct rg_table *const tables[] = {&one, &two};
 
-static char folder[] = "/tmp/raingauge-resumed-XXXXXX", told[2048];
+static char told[2048];
 static int resumed_rows, opened; // of the last run
 
 static void hear(enum rg_log_level level, const char *line, void *user)
@@ -193,21 +194,9 @@ static void what_cannot_be_printed_is_kept(void **state)
     }
 }
 
-static int make_folder(void **state)
-{
-    (void)state;
-    setenv("RG_LONG_S", "1e9", 1); // lines are counted
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
-}
-
 int main(void)
 {
+    setenv("RG_LONG_S", "1e9", 1); // lines are counted
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_interrupted_table_goes_on),
         cmocka_unit_test(tables_before_it_are_kept),

@@ -17,8 +17,9 @@
 #include "harness/compare/shrink/files.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/instance.h"
+#include "tests/tools/process/folder.h"
 
-static char folder[] = "/tmp/raingauge-cases-XXXXXX", path[64];
+static char path[64];
 
 static const struct rg_case other_bits = {.run.frames = 3,
                                           .stages_run = 17,
@@ -344,23 +345,21 @@ static void a_file_is_loaded_whole(void **state)
     rg_log_hold(false);
 }
 
-static int make_folder(void **state)
+static int set_up(void **state)
 {
-    (void)state;
-    if (!mkdtemp(folder))
+    if (make_folder(state))
         return -1;
     snprintf(path, sizeof(path), "%s/case.txt", folder);
     return 0;
 }
 
-static int remove_folder(void **state)
+static int tear_down(void **state)
 {
-    (void)state;
     char files[80];
     snprintf(files, sizeof(files), "%s.files", path);
     unlink(path);
     rmdir(files);
-    return rmdir(folder);
+    return remove_folder(state);
 }
 
 int main(void)
@@ -376,5 +375,5 @@ int main(void)
         cmocka_unit_test(endings_are_of_letters_and_digits),
         cmocka_unit_test(a_file_is_loaded_whole),
     };
-    return cmocka_run_group_tests_name("cases", tests, make_folder, remove_folder);
+    return cmocka_run_group_tests_name("cases", tests, set_up, tear_down);
 }

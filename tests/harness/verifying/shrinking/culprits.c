@@ -16,6 +16,7 @@
 #include "harness/compare/shrink/folder.h"
 #include "tests/harness/verifying/shrinking/made.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // --- the kernel, its items and inputs ---
 
@@ -189,7 +190,7 @@ static const struct rg_slot_info slots[] = {
 static const struct rg_kernel kernel = {
     .name = "rain_step", .params_size = 12, .slot_count = 5, .slots = slots};
 
-static char parent[] = "/tmp/raingauge-culprits-XXXXXX", path[64], folder[80];
+static char path[64], kernel_folder[80];
 // Contents of slots before and after: patterns with gaps.
 static unsigned char before[6][80], after[6][80];
 
@@ -223,7 +224,7 @@ static struct rg_culprit culprit_of_all_slots(void)
 static char *load(const char *name, size_t *size)
 {
     char file_path[160];
-    snprintf(file_path, sizeof(file_path), "%s/%s", folder, name);
+    snprintf(file_path, sizeof(file_path), "%s/%s", kernel_folder, name);
     FILE *file = fopen(file_path, "rb");
     if (!file)
         fail_msg("%s is not there", file_path);
@@ -337,7 +338,7 @@ static void files_hold_code_and_what_it_is(void **state)
 static void touch(const char *name)
 {
     char file_path[160];
-    snprintf(file_path, sizeof(file_path), "%s/%s", folder, name);
+    snprintf(file_path, sizeof(file_path), "%s/%s", kernel_folder, name);
     FILE *file = fopen(file_path, "w");
     assert_non_null(file);
     fclose(file);
@@ -346,7 +347,7 @@ static void touch(const char *name)
 static int count_files(void)
 {
     int count = 0;
-    DIR *all = opendir(folder);
+    DIR *all = opendir(kernel_folder);
     assert_non_null(all);
     for (struct dirent *entry; (entry = readdir(all));)
         count += *entry->d_name != '.';
@@ -373,29 +374,27 @@ static void files_of_an_earlier_case_go(void **state)
     rg_kernel_folder_remove(path);
     assert_int_equal(count_files(), 5);
     for (int i = 0; i < 5; i++) {
-        snprintf(file_path, sizeof(file_path), "%s/%s", folder, strange[i]);
+        snprintf(file_path, sizeof(file_path), "%s/%s", kernel_folder, strange[i]);
         assert_int_equal(unlink(file_path), 0);
     }
     rg_kernel_folder_remove(path);
-    assert_int_equal(access(folder, F_OK), -1);
+    assert_int_equal(access(kernel_folder, F_OK), -1);
     rg_kernel_folder_remove(path); // nothing is there
 }
 
 static int make_parent(void **state)
 {
-    (void)state;
-    if (!mkdtemp(parent))
+    if (make_folder(state))
         return -1;
-    snprintf(path, sizeof(path), "%s/case", parent);
-    snprintf(folder, sizeof(folder), "%s.kernel", path);
+    snprintf(path, sizeof(path), "%s/case", folder);
+    snprintf(kernel_folder, sizeof(kernel_folder), "%s.kernel", path);
     return 0;
 }
 
 static int remove_parent(void **state)
 {
-    (void)state;
     rg_kernel_folder_remove(path);
-    return rmdir(parent);
+    return remove_folder(state);
 }
 
 int main(void)

@@ -17,6 +17,7 @@
 #include "harness/console/exit.h"
 #include "tests/harness/verifying/shrinking/made.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 static char told[1024]; // the last line of the log
 static int lines;
@@ -33,7 +34,6 @@ static void listen(enum rg_log_level level, const char *line, void *user)
 static struct rg_case found;
 static struct rg_blame blame;
 static int tried;
-static char folder[] = "/tmp/raingauge-searches-XXXXXX";
 
 static int search(const char *assignments, int frames, int seconds)
 {
@@ -339,12 +339,6 @@ static void elements_that_do_not_matter_go(void **state)
     free(left);
 }
 
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
 // Files of attempts that failed were removed: those that are left have the difference.
 static void attempts_leave_no_files(void **state)
 {
@@ -364,16 +358,6 @@ static void attempts_leave_no_files(void **state)
     assert_above(count, 3);
 }
 
-static int remove_folder(void **state)
-{
-    (void)state;
-    DIR *all = opendir(folder);
-    for (struct dirent *entry; all && (entry = readdir(all));)
-        unlinkat(dirfd(all), entry->d_name, 0);
-    closedir(all);
-    return rmdir(folder);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -388,5 +372,5 @@ int main(void)
         cmocka_unit_test_setup(elements_that_do_not_matter_go, made_reset),
         cmocka_unit_test(attempts_leave_no_files),
     };
-    return cmocka_run_group_tests_name("searches", tests, make_folder, remove_folder);
+    return cmocka_run_group_tests_name("searches", tests, make_folder, remove_whole_folder);
 }

@@ -20,6 +20,7 @@
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/passport.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 #include "tests/tools/process/printed.h"
 
 // --- stand-ins ---
@@ -319,12 +320,11 @@ static void a_pair_has_a_machine_form(void **state)
 
 static void pictures_are_written_beside_heat_maps(void **state)
 {
-    (void)state;
     static const char *const names[] = {"cpu_reference.exr", "gl.exr", "cpu_reference-gl-flip.png",
                                         "cpu_reference-gl-difference.png"};
-    char folder[] = "/tmp/raingauge-devices-XXXXXX", prefix[64], path[128], due[256];
+    char prefix[64], path[128], due[256];
     int exit;
-    assert_non_null(mkdtemp(folder));
+    assert_int_equal(make_folder(state), 0);
     reference.red = gl.red = 0.5f;
     for (int is_folder = 0; is_folder < 2; is_folder++) {
         OPEN(&reference, &gl);
@@ -343,7 +343,7 @@ static void pictures_are_written_beside_heat_maps(void **state)
             assert_int_equal(unlink(path), 0);
         }
     }
-    assert_int_equal(rmdir(folder), 0); // nothing else was written
+    assert_int_equal(remove_folder(state), 0); // nothing else was written
 }
 
 // --- devices without a picture ---

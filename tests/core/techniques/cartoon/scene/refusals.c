@@ -11,10 +11,10 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "tests/core/folder.h"
 #include "tests/core/techniques/cartoon/rig.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/instance.h"
+#include "tests/tools/process/folder.h"
 
 static int lines;
 

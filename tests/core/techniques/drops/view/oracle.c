@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "tests/core/folder.h"
 #include "tests/core/techniques/drops/view/rig.h"
+#include "tests/tools/process/folder.h"
 
 #define RAINY                                                                                      \
     "columns=96 rows=64 drops_s=150 max_drops=300 environment=sky environment_px=64 "              \

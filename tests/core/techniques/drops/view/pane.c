@@ -10,9 +10,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "tests/core/folder.h"
 #include "tests/core/techniques/drops/view/rig.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 // A pane of 80 x 60 mm in a picture of 160 x 120 pixels, each half a mm.
 #define DRY "columns=80 rows=60 cell_mm=1 drops_s=0 environment=sky environment_px=16 rays_px=2 "

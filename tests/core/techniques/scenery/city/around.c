@@ -9,10 +9,10 @@
 #include "core/scene/environment/cube.h"
 #include "core/techniques/scenery/environment.h"
 #include "core/techniques/stages/assets.h"
-#include "tests/core/folder.h"
 #include "tests/core/techniques/scenery/city/stage.h"
 #include "tests/oracle/flow/light.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 enum { FACE_PX = 512, TILE = 10 };
 
