@@ -17,6 +17,7 @@
 #include "tests/core/device/draws/quads.h"
 #include "tests/kernels/image_copy_params.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 static int open_device(void **state)
 {
@@ -276,16 +277,6 @@ static void little_memory_takes_rounds(void **state)
     release(&parts);
 }
 
-static int lines;
-
-static void count_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    (void)line;
-    lines++;
-}
-
 // listen_to_stderr collects stderr; stop_listening restores it and returns the bytes.
 static int own_stderr;
 static FILE *heard;
@@ -322,8 +313,8 @@ static void a_broken_kernel_is_one_line(void **state)
     fputs("__kernel void rg_grid(void)\n{\n    this_is_missing = 1;\n}\n", file);
     fclose(file);
     setenv("RG_KERNEL_DIR", folder, 1);
-    lines = 0;
-    rg_log_listen(count_line, NULL);
+    logged_lines = 0;
+    rg_log_listen(log_last, NULL);
     listen_to_stderr();
     struct rg_pass *pass = rg_pass_create(device, "probe_copy");
     assert_int_equal(stop_listening(), 0);
@@ -332,7 +323,7 @@ static void a_broken_kernel_is_one_line(void **state)
     unlink(path);
     rmdir(folder);
     assert_null(pass);
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     assert_non_null(strstr(rg_last_error(), "kernel 'probe_copy'"));
     assert_non_null(strstr(rg_last_error(), "CL_BUILD_PROGRAM_FAILURE"));
     assert_non_null(strstr(rg_last_error(), "this_is_missing"));
@@ -357,13 +348,13 @@ static void absence_is_explained(void **state)
             why = list.missing[i].why;
     assert_non_null(why);
     assert_non_null(strstr(why, expected_code));
-    lines = 0;
-    rg_log_listen(count_line, NULL);
+    logged_lines = 0;
+    rg_log_listen(log_last, NULL);
     listen_to_stderr();
     assert_null(rg_device_open("opencl"));
     assert_int_equal(stop_listening(), 0);
     rg_log_listen(NULL, NULL);
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     assert_int_equal(rg_failure_take().fault, RG_FAULT_NONE);
 }
 

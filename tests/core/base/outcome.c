@@ -8,6 +8,7 @@
 
 #include "core/base/log.h"
 #include "core/base/outcome.h"
+#include "tests/tools/process/logged.h"
 
 static void outcomes_are_found_by_their_names(void **state)
 {
@@ -40,17 +41,10 @@ static void what_kept_work_from_being_done_is_broken(void **state)
         assert_int_equal(rg_outcome_is_broken((enum rg_outcome)i), due[i]);
 }
 
-static void ignore(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 static void errors_are_of_a_kind(void **state)
 {
     (void)state;
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     assert_false(rg_driver_error("the driver's %d", 1));
     assert_int_equal(rg_failure_take().fault, RG_FAULT_DRIVER);
     assert_int_equal(rg_failure_take().outcome, RG_ERROR);

@@ -10,6 +10,7 @@
 #include "core/device/device.h"
 #include "core/device/limits.h"
 #include "kernels/probe/copy_params.h"
+#include "tests/tools/process/logged.h"
 
 enum { WIDTH = 21, HEIGHT = 5, DEPTH = 3 };
 
@@ -93,13 +94,6 @@ static void test_bytes(void **state)
     assert_true(rg_device_close(device));
 }
 
-static void ignore(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 // A device that says it has no room for a work group, or for an item in one, would be asked for
 // ever.
 static void test_no_room_for_work(void **state)
@@ -111,7 +105,7 @@ static void test_no_room_for_work(void **state)
     int *const numbers[] = {&info.limits.max_groups[0], &info.limits.max_groups[1],
                             &info.limits.max_groups[2], &info.limits.group_items};
     assert_true(rg_limits_are_sound(&info));
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     for (int i = 0; i < 4; i++) {
         const int right = *numbers[i];
         for (*numbers[i] = 0; *numbers[i] > -2; --*numbers[i])
@@ -133,7 +127,7 @@ static void test_names(void **state)
     assert_non_null(device);
     assert_string_equal(device->info.name, "cpu:reference");
     assert_true(rg_device_close(device));
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     for (size_t i = 0; i < sizeof(absent) / sizeof(absent[0]); i++)
         if (rg_device_open(absent[i]))
             fail_msg("%s is opened", absent[i]);

@@ -11,22 +11,16 @@
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 enum { WIDTH = 320, HEIGHT = 240, CHANNELS = 4 };
 
 static struct rg_picture honest, background, mutant;
 
-static void quiet(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 static int make_pictures(void **state)
 {
     (void)state;
-    rg_log_listen(quiet, NULL);
+    rg_log_listen(log_last, NULL);
     if (!rg_picture_create(&honest, WIDTH, HEIGHT, CHANNELS, "honest") ||
         !rg_picture_create(&background, WIDTH, HEIGHT, CHANNELS, "background") ||
         !rg_picture_create(&mutant, WIDTH, HEIGHT, CHANNELS, "mutant"))

@@ -15,6 +15,7 @@
 #include "core/techniques/params.h"
 #include "core/techniques/technique.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 struct settings {
     int drops, look, size;
@@ -36,17 +37,10 @@ static const char *const presets[] = {"slope=0.5 drops=7", "slope=1.5"};
 static const struct rg_param_table table = {"fake", rows,   5, sizeof(struct settings),
                                             "look", presets};
 
-static void ignore(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 static int setup(void **state)
 {
     (void)state;
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     return 0;
 }
 

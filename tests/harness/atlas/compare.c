@@ -19,19 +19,12 @@
 #include "tests/core/scene/atlas/codes.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 
 // Widths 8 and 4 are levels 2 and 3, the first two of the small atlas.
 enum { LEVEL = 2, WIDTH = 8, MOST = WIDTH * 400 };
 
 static struct rg_atlas *atlas;
-static char last_line[2048];
-
-static void keep_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(last_line, sizeof(last_line), "%s", line);
-}
 
 static double uniform(uint32_t a, uint32_t b)
 {
@@ -308,10 +301,10 @@ static void an_even_picture_has_no_correlation(void **state)
 static void expect_refused(const char *database, const char *words)
 {
     struct rg_cave_comparison comparison;
-    last_line[0] = 0;
+    logged[0] = 0;
     assert_false(rg_cave_compare(database, atlas, NULL, &comparison));
-    if (!strstr(last_line, words))
-        fail_msg("'%s' lacks '%s'", last_line, words);
+    if (!strstr(logged, words))
+        fail_msg("'%s' lacks '%s'", logged, words);
 }
 
 static void what_is_no_picture_is_refused(void **state)
@@ -350,6 +343,6 @@ int main(void)
         cmocka_unit_test(an_even_picture_has_no_correlation),
         cmocka_unit_test(what_is_no_picture_is_refused),
     };
-    rg_log_listen(keep_line, NULL);
+    rg_log_listen(log_last, NULL);
     return cmocka_run_group_tests(tests, make_atlas, free_atlas);
 }

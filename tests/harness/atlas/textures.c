@@ -17,6 +17,7 @@
 #include "tests/tools/expect.h"
 #include "tests/tools/instance.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 
 static struct rg_texture_rows rows;
 static struct rg_device *device;
@@ -220,15 +221,6 @@ static bool make_dots(rg_take_texture *take, void *user)
     return true;
 }
 
-static char last_line[256];
-
-static void keep_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(last_line, sizeof(last_line), "%s", line);
-}
-
 // Lists hold 64 textures, and sheets have 8 rows of 6 cells of 256 pixels.
 static void what_does_not_fit_is_refused(void **state)
 {
@@ -248,19 +240,19 @@ static void what_does_not_fit_is_refused(void **state)
         {1, 0, 6, 1, true, beyond},
         {1, 0, 0, 257, true, beyond}};
     struct rg_texture_rows of;
-    rg_log_listen(keep_line, NULL);
+    rg_log_listen(log_last, NULL);
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         made.count = cases[i].count, made.row = cases[i].row;
         made.column = cases[i].column, made.side_px = cases[i].side_px;
-        *last_line = 0;
+        *logged = 0;
         assert_int_equal(
             rg_textures_make(&dots, cases[i].is_written ? in_folder("dots") : NULL, &of),
             !cases[i].says);
-        assert_string_equal(last_line, cases[i].says ? cases[i].says : "");
+        assert_string_equal(logged, cases[i].says ? cases[i].says : "");
         assert_true(cases[i].says || of.count == cases[i].count);
     }
     assert_false(rg_textures_make(&none, NULL, &of));
-    assert_string_equal(last_line,
+    assert_string_equal(logged,
                         "technique 'none': it generates no textures; `raingauge atlas --help`");
     rg_log_listen(NULL, NULL);
 }

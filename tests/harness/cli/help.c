@@ -13,6 +13,7 @@
 #include "harness/commands/cli/subject.h"
 #include "harness/commands/commands.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 #include "tests/tools/process/printed.h"
 
 struct values {
@@ -142,22 +143,11 @@ static void each_command_is_found_by_its_name(void **state)
 
 // --- subjects ---
 
-static char logged[1024];
-static int log_count;
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(logged, sizeof(logged), "%s", line);
-    log_count++;
-}
-
 static int listen(void **state)
 {
     (void)state;
-    rg_log_listen(hear, NULL);
-    return log_count = *logged = 0;
+    rg_log_listen(log_last, NULL);
+    return logged_lines = *logged = 0;
 }
 
 static int listen_no_more(void **state)
@@ -208,14 +198,14 @@ static void settings_are_those_of_set(void **state)
     assert_string_equal(value_of(technique, settings, "drops"), "9");
     assert_string_equal(value_of(technique, settings, "view"), "pane");
     free(settings);
-    assert_int_equal(log_count, 0);
+    assert_int_equal(logged_lines, 0);
     sets.items[2] = "drops=many";
     assert_null(rg_subject_find(&words, &sets, &settings));
     assert_null(settings);
     assert_non_null(strstr(logged, "parameter 'drops': "));
     assert_null(rg_subject_find(&none, &none, &settings));
     assert_string_equal(logged, "no technique named; `raingauge list techniques` prints them");
-    assert_int_equal(log_count, 2);
+    assert_int_equal(logged_lines, 2);
 }
 
 // Tables by name, a length or a budget: one of them is enough.
@@ -238,7 +228,7 @@ static void lengths_are_asked_for(void **state)
     }
     assert_string_equal(logged, "claims: all tables take hours; name some, as `raingauge list "
                                 "tables` prints them, or add --budget 4m, --quick or --full");
-    assert_int_equal(log_count, 1);
+    assert_int_equal(logged_lines, 1);
 }
 
 static void words_are_found(void **state)

@@ -12,6 +12,7 @@
 #include "core/base/log.h"
 #include "harness/commands/cli/command.h"
 #include "harness/commands/cli/shared.h"
+#include "tests/tools/process/logged.h"
 
 struct sample_options {
     struct rg_words sets;
@@ -97,17 +98,6 @@ static const struct rg_command sample = {
     .run = see,
 };
 
-static char logged[1024];
-static int log_count;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(logged, sizeof(logged), "%s", line);
-    log_count++;
-}
-
 // Runs the command with the words of a line.
 static int run(const char *line)
 {
@@ -118,8 +108,8 @@ static int run(const char *line)
     for (char *word; (word = strtok_r(rest, " ", &rest));)
         argv[argc++] = word;
     seen[0] = logged[0] = 0;
-    log_count = 0;
-    rg_log_listen(listen, NULL);
+    logged_lines = 0;
+    rg_log_listen(log_last, NULL);
     const int exit = rg_command_run(&sample, argc, argv);
     rg_log_listen(NULL, NULL);
     return exit;
@@ -129,14 +119,14 @@ static void expect_run(const char *line, const char *values)
 {
     assert_int_equal(run(line), RG_EXIT_INCONCLUSIVE);
     assert_string_equal(seen, values);
-    assert_int_equal(log_count, 0);
+    assert_int_equal(logged_lines, 0);
 }
 
 static void expect_refusal(const char *line, const char *message)
 {
     assert_int_equal(run(line), RG_EXIT_USAGE);
     assert_string_equal(logged, message);
-    assert_int_equal(log_count, 1);
+    assert_int_equal(logged_lines, 1);
     assert_string_equal(seen, "");
 }
 
@@ -174,7 +164,7 @@ static void asking_for_help_is_no_error(void **state)
     assert_int_equal(run("--quick --help one"), RG_EXIT_PASS);
     assert_int_equal(run("-h"), RG_EXIT_PASS);
     assert_string_equal(seen, "");
-    assert_int_equal(log_count, 0);
+    assert_int_equal(logged_lines, 0);
 }
 
 static void what_is_wrong_is_refused_in_one_line(void **state)
@@ -259,7 +249,7 @@ static void flags_can_have_values(void **state)
         expect_run(line, "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 01");
         snprintf(line, sizeof(line), "--quick=%s", wrong[i]);
         assert_int_equal(run(line), RG_EXIT_USAGE);
-        assert_int_equal(log_count, 1);
+        assert_int_equal(logged_lines, 1);
     }
     expect_run("-- --quick=1", "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 00 '--quick=1'");
     expect_run("--rows=1", "512x512 1-1 -1--1 60 1 1 -1 0 1 cpu none 00");

@@ -9,6 +9,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/exit.h"
+#include "tests/tools/process/logged.h"
 
 static void each_outcome_has_one(void **state)
 {
@@ -56,17 +57,10 @@ static void what_proves_nothing_is_no_pass(void **state)
     assert_int_equal(rg_exit_with(RG_EXIT_UNSUPPORTED, 0), RG_EXIT_UNSUPPORTED);
 }
 
-static void ignore(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 static void only_users_make_bad_usage(void **state)
 {
     (void)state;
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     rg_driver_error("the driver's");
     assert_int_equal(rg_exit_of_error(), RG_EXIT_FAIL);
     rg_unsupported("nobody's");
@@ -116,7 +110,7 @@ static void a_records_status_is_one_of_ours(void **state)
 static void output_that_is_lost_is_no_users_fault(void **state)
 {
     (void)state;
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     assert_false(rg_stdout_error());
     rg_log_listen(NULL, NULL);
     assert_int_equal(rg_exit_of_error(), RG_EXIT_HARNESS);

@@ -10,6 +10,7 @@
 
 #include "core/base/log.h"
 #include "harness/devices/frames/numbered.h"
+#include "tests/tools/process/logged.h"
 
 static void places_are_counted_in_the_name_alone(void **state)
 {
@@ -46,21 +47,12 @@ static void numbers_stand_in_their_places(void **state)
     expect("/x%d/%s%n%09d.exr", 3, "/x%d/%s%n000000003.exr");
 }
 
-static char logged[256];
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
-
 static void a_path_that_does_not_fit_is_refused(void **state)
 {
     (void)state;
     char numbered[8];
     assert_true(rg_numbered_path("ab%d.c", 12, numbered, sizeof(numbered)));
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     assert_false(rg_numbered_path("ab%d.c", 123, numbered, 7));
     rg_log_listen(NULL, NULL);
     assert_string_equal(logged, "ab%d.c...: the path is too long; choose a shorter one");

@@ -11,6 +11,7 @@
 #include "core/base/log.h"
 #include "harness/console/sheet.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 static void add_row(struct rg_sheet *sheet, const char *first, const char *second)
 {
@@ -152,15 +153,6 @@ static void latex_is_escaped(void **state)
     rg_sheet_free(&sheet);
 }
 
-static char logged[256];
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
-
 // A column too many is an error, and the last one is in its place.
 static void there_is_room_for_so_many_columns(void **state)
 {
@@ -169,7 +161,7 @@ static void there_is_room_for_so_many_columns(void **state)
     for (int i = 0; i < RG_SHEET_COLUMNS; i++)
         assert_int_equal(rg_sheet_column(&sheet, "c%d", i), i);
     assert_false(sheet.incomplete);
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_last, NULL);
     assert_int_equal(rg_sheet_column(&sheet, "more"), RG_SHEET_COLUMNS - 1);
     rg_log_listen(NULL, NULL);
     assert_true(sheet.incomplete && sheet.column_count == RG_SHEET_COLUMNS);

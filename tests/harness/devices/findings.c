@@ -22,6 +22,7 @@
 #include "harness/measure/drawing.h"
 #include "harness/measure/serving/messages.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 // The bytes written over a struct before it is put into a reply.
 struct damage {
@@ -259,21 +260,11 @@ static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
 
 // --- in the harness ---
 
-static int lines;
-
-static void count_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-    lines++;
-}
-
 static void set_damage(int number)
 {
     const char digits[] = {(char)('0' + number / 10), (char)('0' + number % 10), 0};
     setenv("RG_TEST_DAMAGE", digits, 1);
-    lines = 0;
+    logged_lines = 0;
 }
 
 static struct rg_examination examined(int number)
@@ -309,7 +300,7 @@ static void what_is_sound_is_taken(void **state)
     assert_equals(e.timer.round_trip_us, 7);
     assert_equals(e.ceilings.memory_gb_s, 1);
     assert_equals(e.ceilings.arithmetic_gop_s, 3);
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
 }
 
 // Drawings are judged where all operations give the same bits, by the device's tier.
@@ -327,7 +318,7 @@ static void a_device_that_draws_wrongly_is_not_well(void **state)
                         "13 of 12288 pixels drawn into RGBA16F, with depth and blending, "
                         "are not what cpu:reference draws");
     unsetenv("RG_TEST_WELL");
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
 }
 
 // Only a name that no device can have is the user's error.
@@ -347,8 +338,9 @@ static void what_cannot_be_ends_an_examination(void **state)
     (void)state;
     for (int i = 0; i < NO_DAMAGE && damages[i].call <= RG_CALL_CEILINGS; i++) {
         const struct rg_examination e = examined(i);
-        if (e.status != RG_ERROR || e.measured || lines != 1 || !strstr(e.why, "is damaged"))
-            fail_msg("damage %d: status %d, %d lines, %s", i, (int)e.status, lines, e.why);
+        if (e.status != RG_ERROR || e.measured || logged_lines != 1 || !strstr(e.why, "is damaged"))
+            fail_msg("damage %d: status %d, %d lines, %s", i, (int)e.status, logged_lines,
+                     e.why);
         assert_int_equal(e.opened, damages[i].call > RG_CALL_OPEN);
         assert_int_equal(e.probed, damages[i].call > RG_CALL_PROBE);
         assert_int_equal(e.drawn, damages[i].call > RG_CALL_DRAWING);
@@ -390,8 +382,8 @@ static void what_a_session_cannot_say_is_refused(void **state)
             assert_non_null(device);
             struct rg_session *session = rg_session_open(device, &subject);
             assert_non_null(session);
-            if (ask(session, damages[i].call) != sound || lines != !sound)
-                fail_msg("damage %d, sound %d: %d lines", i, sound, lines);
+            if (ask(session, damages[i].call) != sound || logged_lines != !sound)
+                fail_msg("damage %d, sound %d: %d lines", i, sound, logged_lines);
             rg_session_close(session);
             assert_true(rg_device_close(device));
         }
@@ -411,6 +403,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(what_a_session_cannot_say_is_refused),
     };
     rg_workers.program = "/proc/self/exe";
-    rg_log_listen(count_line, NULL);
+    rg_log_listen(log_last, NULL);
     return cmocka_run_group_tests_name("findings", tests, NULL, NULL);
 }

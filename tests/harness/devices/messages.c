@@ -14,16 +14,7 @@
 #include "core/base/log.h"
 #include "harness/devices/workers/channel.h"
 #include "tests/tools/expect.h"
-
-static int lines;
-
-static void count_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-    lines++;
-}
+#include "tests/tools/process/logged.h"
 
 static void fill(struct rg_message *message)
 {
@@ -71,7 +62,7 @@ static void a_message_that_is_cut_fails_once(void **state)
         memcpy(cut.bytes, whole.bytes, (size_t)size);
         int64_t taken;
         double number = 0;
-        lines = 0;
+        logged_lines = 0;
         rg_take_int(&cut);
         rg_take_text(&cut);
         rg_take_text(&cut);
@@ -79,7 +70,7 @@ static void a_message_that_is_cut_fails_once(void **state)
         free(rg_take_block(&cut, &taken));
         RG_TAKE(&cut, number);
         assert_true(cut.failed);
-        assert_int_equal(lines, 1);
+        assert_int_equal(logged_lines, 1);
         assert_string_equal(rg_take_text(&cut), "");
         assert_int_equal(rg_take_int(&cut), 0);
         rg_message_free(&cut);
@@ -151,7 +142,7 @@ static void names_are_no_more_than_a_program_has(void **state)
     char name[512] = "";
     int taken = 0;
     (void)state;
-    lines = 0;
+    logged_lines = 0;
     for (int i = 0; i < 10000; i++) {
         struct rg_message message = {0};
         snprintf(name, sizeof(name), "name %d", i);
@@ -160,7 +151,7 @@ static void names_are_no_more_than_a_program_has(void **state)
         rg_message_free(&message);
     }
     assert_in_range(taken, 1000, 5000);
-    assert_int_equal(lines, 10000 - taken);
+    assert_int_equal(logged_lines, 10000 - taken);
     memset(name, 'n', sizeof(name) - 1);
     struct rg_message message = {0};
     rg_put_text(&message, name);
@@ -211,6 +202,6 @@ int main(void)
         cmocka_unit_test(names_are_no_more_than_a_program_has),
         cmocka_unit_test(a_message_is_bounded),
     };
-    rg_log_listen(count_line, NULL);
+    rg_log_listen(log_last, NULL);
     return cmocka_run_group_tests_name("messages", tests, NULL, NULL);
 }

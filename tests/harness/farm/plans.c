@@ -20,15 +20,9 @@
 #include "kernels/dialect/rng.h"
 #include "tests/harness/farm/made.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
-static char path[64], heard[1024];
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(heard, sizeof(heard), "%s", line);
-}
+static char path[64];
 
 static void plan_table(struct rg_farm_plan *plan, const char *id, bool full, const char *devices)
 {
@@ -165,15 +159,15 @@ static void test_devices(void **state)
 {
     (void)state;
     static const char *const wrong[] = {"all", "cpu,all", "cpu,new=cpu@A=1,cpu"};
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_last, NULL);
     for (size_t i = 0; i < 3; i++) {
         struct rg_farm_plan plan = {0};
         assert_false(rg_farm_name_devices(&plan, wrong[i]));
-        assert_non_null(strstr(heard, i < 2 ? "--device all: " : "'cpu' twice"));
+        assert_non_null(strstr(logged, i < 2 ? "--device all: " : "'cpu' twice"));
     }
     struct rg_farm_plan plan = {0};
     assert_false(rg_farm_name_devices(&plan, "cpu,fog"));
-    assert_non_null(strstr(heard, "device 'fog': unknown"));
+    assert_non_null(strstr(logged, "device 'fog': unknown"));
     rg_log_listen(NULL, NULL);
     plan = (struct rg_farm_plan){0};
     assert_true(rg_farm_name_devices(&plan, "many=cpu@B=2,cpu,cpu:reference"));
@@ -199,10 +193,10 @@ static void test_too_many_devices(void **state)
     assert_int_equal(plan.device_count, RG_MAX_DEVICES);
     plan = (struct rg_farm_plan){0};
     snprintf(names + strlen(names), sizeof(names) - strlen(names), ",more=cpu@N=more");
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_last, NULL);
     assert_false(rg_farm_name_devices(&plan, names));
     rg_log_listen(NULL, NULL);
-    assert_non_null(strstr(heard, "--device: more than "));
+    assert_non_null(strstr(logged, "--device: more than "));
 }
 
 // --- expected times ---
@@ -410,11 +404,11 @@ static void test_refused(void **state)
         struct rg_farm_plan found = {0};
         assert_true(rg_farm_plan_write(&farm.plan, path));
         replace(rows[i].from, rows[i].to);
-        rg_log_listen(hear, NULL);
+        rg_log_listen(log_last, NULL);
         assert_false(rg_farm_plan_read(&found, path));
         rg_log_listen(NULL, NULL);
-        if (!strstr(heard, rows[i].says) || !strstr(heard, path))
-            fail_msg("'%s' is not in: %s", rows[i].says, heard);
+        if (!strstr(logged, rows[i].says) || !strstr(logged, path))
+            fail_msg("'%s' is not in: %s", rows[i].says, logged);
         rg_farm_plan_free(&found);
     }
     unmake_farm(&farm);
@@ -461,12 +455,12 @@ static void test_malformed(void **state)
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         struct rg_farm_plan found = {0};
         seal_with(rows[i].text);
-        rg_log_listen(hear, NULL);
-        *heard = 0;
+        rg_log_listen(log_last, NULL);
+        *logged = 0;
         assert_int_equal(rg_farm_plan_read(&found, path), !rows[i].says);
         rg_log_listen(NULL, NULL);
-        if (rows[i].says && (!strstr(heard, rows[i].says) || !strstr(heard, path)))
-            fail_msg("'%s' is not in: %s", rows[i].says, heard);
+        if (rows[i].says && (!strstr(logged, rows[i].says) || !strstr(logged, path)))
+            fail_msg("'%s' is not in: %s", rows[i].says, logged);
         rg_farm_plan_free(&found);
     }
     unlink(path);
@@ -483,10 +477,10 @@ static void test_more_after_its_end(void **state)
     assert_non_null(file);
     fputs("\n{}", file);
     fclose(file);
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_last, NULL);
     assert_false(rg_farm_plan_read(&found, path));
     rg_log_listen(NULL, NULL);
-    assert_non_null(strstr(heard, "has more after its end"));
+    assert_non_null(strstr(logged, "has more after its end"));
     rg_farm_plan_free(&found);
     unmake_farm(&farm);
     unlink(path);

@@ -18,19 +18,12 @@
 #include "tests/harness/farm/made.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 
 enum { ROWS = 3, VARIANTS = 2 };
 
 static struct farm farm;
-static char out[80], heard[4096];
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    const size_t used = strlen(heard);
-    (void)level;
-    (void)user;
-    snprintf(heard + used, sizeof(heard) - used, "%s\n", line);
-}
+static char out[80];
 
 static int begin(void **state)
 {
@@ -176,9 +169,9 @@ static int merge(void)
 {
     const char *const folders[] = {folder};
     rg_farm_found_free(&found);
-    *heard = 0;
+    *logged = 0;
     assert_true(rg_farm_records_find(&found, &farm.plan, folders, 1));
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_all, NULL);
     const int exit = rg_farm_merge(&farm.plan, &found, out);
     rg_log_listen(NULL, NULL);
     return exit;
@@ -216,9 +209,9 @@ static void records_that_differ_make_no_table(void **state)
         write_result(2, &result);
         rg_result_free(&result);
         assert_int_equal(merge(), RG_EXIT_USAGE);
-        assert_non_null(strstr(heard, record_path(&farm, 2, folder)));
-        assert_non_null(strstr(heard, ": has other works, variants or devices than the table's "
-                                      "other records; measure its group again"));
+        assert_non_null(strstr(logged, record_path(&farm, 2, folder)));
+        assert_non_null(strstr(logged, ": has other works, variants or devices than the table's "
+                                       "other records; measure its group again"));
     }
     rg_farm_found_free(&found);
 }
@@ -230,14 +223,14 @@ static void records_that_vanish_are_told(void **state)
     const char *const folders[] = {folder};
     for (int64_t g = 0; g < ROWS; g++)
         leave_record(&farm, g, 0, folder);
-    *heard = 0;
+    *logged = 0;
     assert_true(rg_farm_records_find(&found, &farm.plan, folders, 1));
     assert_int_equal(truncate(record_path(&farm, 1, folder), 100), 0);
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_all, NULL);
     assert_int_equal(rg_farm_merge(&farm.plan, &found, out), RG_EXIT_USAGE);
     rg_log_listen(NULL, NULL);
-    assert_non_null(strstr(heard, record_path(&farm, 1, folder)));
-    assert_non_null(strstr(heard, ": was changed meanwhile; merge again"));
+    assert_non_null(strstr(logged, record_path(&farm, 1, folder)));
+    assert_non_null(strstr(logged, ": was changed meanwhile; merge again"));
     rg_farm_found_free(&found);
 }
 

@@ -23,6 +23,7 @@
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 #include "tests/tools/process/printed.h"
 
 enum { ROWS = 4, DEVICES = 3 };
@@ -45,16 +46,7 @@ static const struct rg_table table = {.id = "slow-1",
 
 static struct rg_farm_plan plan;
 static struct slow_rig rig;
-static char heard[4096];
 static const char *printed;
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    const size_t used = strlen(heard);
-    (void)level;
-    (void)user;
-    snprintf(heard + used, sizeof(heard) - used, "%s\n", line);
-}
 
 // --- a plan ---
 
@@ -101,9 +93,9 @@ static const struct rg_table *find(const char *id)
 static int measure(int number, int count)
 {
     const struct rg_shard shard = {number, count};
-    *heard = 0;
+    *logged = 0;
     slow_opened = 0;
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_all, NULL);
     printed_begin();
     const int exit = rg_farm_measure(&plan, &shard, &rig.devices, find, folder);
     printed = printed_end();
@@ -145,8 +137,8 @@ static void expect_rows(int group, const char *due)
 
 static void expect_heard(const char *words)
 {
-    if (!strstr(heard, words))
-        fail_msg("'%s' is not in: %s", words, heard);
+    if (!strstr(logged, words))
+        fail_msg("'%s' is not in: %s", words, logged);
 }
 
 // --- shards ---
@@ -197,7 +189,7 @@ static void a_shard_goes_on(void **state)
     assert_int_equal(measure(1, 1), RG_EXIT_PASS);
     assert_int_equal(measure(1, 1), RG_EXIT_PASS);
     assert_string_equal(printed, "");
-    assert_string_equal(heard, "shard 1 of 1: 3 of 3 groups were there\n");
+    assert_string_equal(logged, "shard 1 of 1: 3 of 3 groups were there\n");
     assert_int_equal(slow_opened, 0);
     rg_farm_file(&plan.groups[1], name);
     snprintf(path, sizeof(path), "%s/%s", folder, name);

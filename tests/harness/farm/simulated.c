@@ -32,6 +32,7 @@
 #include "tests/harness/farm/made.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 
 // A table has 50 rows of 10 variants on two devices.
 enum { ROWS = 50, VARIANTS = 10, ROW_CELLS = 2 * VARIANTS, TABLE_CELLS = ROWS * ROW_CELLS };
@@ -216,19 +217,12 @@ static struct left leave_records(const struct farm *farm, const char *all, const
 
 // --- merging ---
 
-static void keep_quiet(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 static double merge_farm(const struct farm *farm, const char *const folders[2], const char *out,
                          struct left left)
 {
     struct rg_farm_records found = {0};
     const struct took begin = now();
-    rg_log_listen(keep_quiet, NULL);
+    rg_log_listen(log_last, NULL);
     assert_true(rg_farm_records_find(&found, &farm->plan, folders, 2));
     rg_log_listen(NULL, NULL);
     const struct took finding = since(begin);

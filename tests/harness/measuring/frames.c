@@ -21,24 +21,14 @@
 #include "tests/harness/measuring/fake.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
-
-static char logged[1024];
-static int lines;
-
-static void keep(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 static int begin(void **state)
 {
     *state = fake_open();
     *logged = 0;
-    lines = 0;
-    rg_log_listen(keep, NULL);
+    logged_lines = 0;
+    rg_log_listen(log_last, NULL);
     rg_interrupt_watch();
     fake_forget();
     return 0;
@@ -142,7 +132,7 @@ static void a_timeline_has_a_track_for_each_clock(void **state)
     const json_t *passport = json_object_get(json_object_get(document, "otherData"), "passport");
     assert_int_equal(json_array_size(json_object_get(passport, "devices")), 2);
     json_decref(document);
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
 }
 
 // What the device did until it failed stays; an interruption leaves frames out.
@@ -226,7 +216,7 @@ static void a_sequence_has_the_wanted_frames(void **state)
     assert_near(picture.texels[0], 0.5, 0.01);
     rg_picture_destroy(&picture);
     rg_session_close(session);
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
 }
 
 // The first frame may be the one before any step.
@@ -261,7 +251,7 @@ static void what_is_written_until_a_signal_is_told(void **state)
     assert_null(rg_sequence_run(&none, &fake->pub));
     snprintf(due, sizeof(due), "%s: interrupted; nothing was written", path);
     assert_string_equal(logged, due);
-    assert_int_equal(lines, 2);
+    assert_int_equal(logged_lines, 2);
 }
 
 static void a_sequence_that_cannot_be_written_is_not_begun(void **state)
@@ -271,7 +261,7 @@ static void a_sequence_that_cannot_be_written_is_not_begun(void **state)
     const char *path = in_folder("none/%d.png");
     const struct rg_sequence wanted = sequence(&script, path, 1, 9);
     assert_null(rg_sequence_run(&wanted, &fake->pub));
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     assert_string_equal(fake_events(), "");
 }
 
@@ -401,9 +391,9 @@ static void a_frame_with_rain_is_looked_for(void **state)
     rain.from = 0;
     rg_frame_tell_dry(&lost->pub, &drizzles, 7, 1, "--frame", text);
     assert_non_null(strstr(text, "nor at 60 and 240"));
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     rg_info("what follows is told");
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     rg_device_close(&lost->pub);
 }
 

@@ -11,6 +11,7 @@
 #include "core/device/device.h"
 #include "harness/measure/timer_audit.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 static const struct rg_backend *honest;
 
@@ -34,13 +35,6 @@ static bool no_sync(struct rg_device *device)
     return rg_error("lost");
 }
 
-static void ignore_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 static bool has_clock = true; // the device says that it has one
 
 // Audits cpu with some of its functions replaced.
@@ -50,7 +44,7 @@ static bool audit(struct rg_backend backend, struct rg_timer_audit *result)
     assert_non_null(device);
     device->backend = &backend;
     device->info.limits.has_clock = has_clock;
-    rg_log_listen(ignore_line, NULL);
+    rg_log_listen(log_last, NULL);
     bool ok = rg_timer_audit(device, result);
     rg_log_listen(NULL, NULL);
     assert_int_equal(rg_device_work(device)->live_bytes, 0);

@@ -22,16 +22,7 @@
 #include "harness/record/disk/hold.h"
 #include "harness/record/output.h"
 #include "tests/tools/process/folder.h"
-
-static int messages;
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-    messages++;
-}
+#include "tests/tools/process/logged.h"
 
 static int files(void)
 {
@@ -59,7 +50,7 @@ static bool write_three(const char *third)
 {
     const struct rg_output_file set[] = {
         {"a.md", "new a", 0}, {"b.csv", "new b with more", 5}, {"c.json", third, 0}};
-    messages = 0;
+    logged_lines = 0;
     return rg_output_write_set(folder, set, 3);
 }
 
@@ -116,7 +107,7 @@ static void a_full_disk_changes_none(void **state)
     setrlimit(RLIMIT_FSIZE, &small);
     assert_false(write_three(large));
     setrlimit(RLIMIT_FSIZE, &before);
-    assert_int_equal(messages, 1);
+    assert_int_equal(logged_lines, 1);
     assert_int_equal(files(), 1);
     expect_text("a.md", "old a");
 }
@@ -129,7 +120,7 @@ static void a_name_that_is_taken_changes_none(void **state)
     assert_int_equal(mkdir(path, 0777), 0);
     assert_true(rg_output_write(folder, "a.md", "old a"));
     assert_false(write_three("new c"));
-    assert_int_equal(messages, 1);
+    assert_int_equal(logged_lines, 1);
     assert_int_equal(files(), 2);
     expect_text("a.md", "old a");
 }
@@ -225,9 +216,9 @@ static void a_set_has_its_folder_made(void **state)
     assert_int_equal(unlink(path_of("made/a.md")), 0);
     assert_true(rg_output_folder(made)); // it is there
     assert_int_equal(rmdir(made), 0);
-    messages = 0;
+    logged_lines = 0;
     assert_false(rg_output_folder(path_of("none/made")));
-    assert_int_equal(messages, 1);
+    assert_int_equal(logged_lines, 1);
 }
 
 static void a_file_is_named_by_its_path(void **state)
@@ -244,9 +235,9 @@ static void a_file_is_named_by_its_path(void **state)
     expect_text("b.csv", "here");
     memset(long_path, 'x', sizeof(long_path) - 1);
     long_path[2047] = '/';
-    long_path[sizeof(long_path) - 1] = messages = 0;
+    long_path[sizeof(long_path) - 1] = logged_lines = 0;
     assert_false(rg_output_write_file(long_path, "nowhere"));
-    assert_int_equal(messages, 1);
+    assert_int_equal(logged_lines, 1);
 }
 
 // Before any work it is found out what cannot be written, and nothing is left behind by that.
@@ -265,14 +256,14 @@ static void what_cannot_be_written_is_found_out_before(void **state)
     assert_true(rg_output_write(folder, "a.md", "old a"));
     assert_int_equal(mkfifo(path_of("fifo"), 0600), 0);
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
-        messages = 0;
+        logged_lines = 0;
         if (rg_output_can_be_written(path_of(rows[i].name), rows[i].bytes) != rows[i].is_folder_for)
             fail_msg("folder '%s'", rows[i].name);
-        assert_int_equal(messages, !rows[i].is_folder_for);
-        messages = 0;
+        assert_int_equal(logged_lines, !rows[i].is_folder_for);
+        logged_lines = 0;
         if (rg_output_file_can_be_written(path_of(rows[i].name), rows[i].bytes) != rows[i].is_file)
             fail_msg("file '%s'", rows[i].name);
-        assert_int_equal(messages, !rows[i].is_file);
+        assert_int_equal(logged_lines, !rows[i].is_file);
     }
     assert_int_equal(files(), 2);
     expect_text("a.md", "old a");
@@ -284,15 +275,15 @@ static void what_cannot_be_replaced_is_found_out(void **state)
     (void)state;
     char long_name[2100];
     memset(long_name, 'x', sizeof(long_name) - 1);
-    long_name[sizeof(long_name) - 1] = messages = 0;
+    long_name[sizeof(long_name) - 1] = logged_lines = 0;
     assert_true(rg_output_write(folder, "a.md", "old a"));
     assert_int_equal(mkdir(path_of("c.json"), 0777), 0);
     assert_true(rg_output_can_be_replaced(folder, "a.md"));
     assert_true(rg_output_can_be_replaced(folder, "b.csv")); // it is not there
-    assert_int_equal(messages, 0);
+    assert_int_equal(logged_lines, 0);
     assert_false(rg_output_can_be_replaced(folder, "c.json"));
     assert_false(rg_output_can_be_replaced(folder, long_name));
-    assert_int_equal(messages, 2);
+    assert_int_equal(logged_lines, 2);
 }
 
 // What is no letter, digit, '-' or '.' becomes '_'. A hash follows where others could become the
@@ -328,7 +319,7 @@ static void names_become_parts_of_files_names(void **state)
 
 static int make(void **state)
 {
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_last, NULL);
     return make_folder(state);
 }
 

@@ -11,6 +11,7 @@
 #include "core/base/log.h"
 #include "harness/record/record.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 enum { SAMPLES = 6 };
 
@@ -211,13 +212,6 @@ static void tallies_are_named(void **state)
     json_decref(due);
 }
 
-static void ignore(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 static void an_end_has_its_reason(void **state)
 {
     (void)state;
@@ -225,7 +219,7 @@ static void an_end_has_its_reason(void **state)
     assert_false(rg_record_end(&record, RG_FAIL, "differs"));
     assert_int_equal(record.outcome, RG_FAIL);
     assert_string_equal(record.detail, "differs");
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     rg_timeout_error("gl: %s", "does not return");
     assert_false(rg_record_end_by_error(&record));
     rg_log_listen(NULL, NULL);

@@ -13,6 +13,7 @@
 #include "core/base/log.h"
 #include "harness/report/report.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 // The JSON of a text with single quotation marks; the caller owns it.
 static json_t *json_of(const char *text)
@@ -305,15 +306,6 @@ static void badges_are_as_wide_as_their_words(void **state)
 
 // --- what a page takes ---
 
-static char last_line[512];
-
-static void keep_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(last_line, sizeof(last_line), "%s", line);
-}
-
 static void records_are_taken_by_their_kind(void **state)
 {
     (void)state;
@@ -332,14 +324,14 @@ static void records_are_taken_by_their_kind(void **state)
         {"{\"format\":7,\"gated\":[]}", NULL,
          "in/a.json: is of format 7, and this raingauge knows format 1; use the raingauge that "
          "wrote it, or a newer one"}};
-    rg_log_listen(keep_line, NULL);
+    rg_log_listen(log_last, NULL);
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         struct rg_page page = {0};
         assert_int_equal(rg_page_add_text(&page, "in/a.json", cases[i].text), !cases[i].says);
         const json_t *record = json_array_get(page.records, 0);
         assert_int_equal(json_array_size(page.records), !cases[i].says);
         if (cases[i].says)
-            assert_string_equal(last_line, cases[i].says);
+            assert_string_equal(logged, cases[i].says);
         else
             assert_true(rg_page_is(record, "kind", cases[i].kind) &&
                         rg_page_is(record, "file", "in/a.json"));

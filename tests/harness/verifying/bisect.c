@@ -17,6 +17,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 #include "tests/tools/process/printed.h"
 
 enum { LONGEST = 11 };
@@ -249,16 +250,6 @@ static void verdicts_have_names_and_a_status_for_git(void **state)
 
 // --- whole bisects ---
 
-static char told[1024]; // lines of the log
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    const size_t used = strlen(told);
-    snprintf(told + used, sizeof(told) - used, "%s\n", line);
-}
-
 // Bisects the numbers from 1 to 6. Returns what it prints, and then its JSON; the caller frees
 // both.
 static const char *bisect(const char *line, int *exit, json_t **json)
@@ -269,8 +260,8 @@ static const char *bisect(const char *line, int *exit, json_t **json)
         assert_true(rg_candidates_add(names[i], &candidates));
     const struct rg_judging judging = {.line = line, .budget_s = 1, .tries = 2};
     struct rg_bisect b = {.candidates = &candidates, .judging = &judging, .prints = true};
-    *told = 0;
-    rg_log_listen(listen, NULL);
+    *logged = 0;
+    rg_log_listen(log_all, NULL);
     printed_begin();
     *exit = rg_bisect_run(&b);
     const char *text = printed_end();
@@ -301,9 +292,9 @@ static void the_first_bad_one_is_told(void **state)
                               "good  4  (exit status 0, 0.25 s)\n"
                               "bad   5  (exit status 1, 0.25 s)\n"
                               "the first bad one is 5; 4 before it is good\n");
-    assert_string_equal(told, "4 candidates left, about 3 more to judge\n"
-                              "2 candidates left, about 2 more to judge\n"
-                              "1 candidate left, about 1 more to judge\n");
+    assert_string_equal(logged, "4 candidates left, about 3 more to judge\n"
+                                "2 candidates left, about 2 more to judge\n"
+                                "1 candidate left, about 1 more to judge\n");
     json_t *due =
         json_pack("{si ss ss ss si ss s[s] s[{ss ss si si sf} {ss ss si si sf} {ss ss si si sf}"
                   "{ss ss si si sf} {ss ss si si sf}]}",
@@ -373,7 +364,7 @@ static void ends_that_are_wrong_are_told(void **state)
         json_t *json;
         bisect(cases[i].line, &exit, &json);
         assert_int_equal(exit, cases[i].exit);
-        assert_string_equal(told, cases[i].says);
+        assert_string_equal(logged, cases[i].says);
         assert_string_equal(json_string_value(json_object_get(json, "end")), cases[i].end);
         assert_int_equal(json_array_size(json_object_get(json, "judged")), cases[i].judged);
         assert_int_equal(json_array_size(json_object_get(json, "first_bad")), 0);

@@ -11,6 +11,7 @@
 
 #include "core/base/log.h"
 #include "tests/tools/instance.h"
+#include "tests/tools/process/logged.h"
 
 const struct rg_pose rig_poses[] = {{.set = ""}, {.set = NULL}};
 const struct rg_law rig_no_laws[] = {{NULL, NULL}};
@@ -20,13 +21,6 @@ struct rg_technique rig_flow;
 enum rg_verify_length rig_length;
 int rig_steps;
 void (*rig_part)(struct rg_verify *verify);
-
-static void ignore(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
 
 int rig_setup(void **state)
 {
@@ -59,7 +53,7 @@ void rig_verify(const char *assignments, enum rg_tier tier, int width, int heigh
                           .progress = &progress};
     *checks = (struct rg_checks){0};
     rg_checks_add(checks, "another", "state", "cpu", RG_OK, "well");
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     rg_progress_start(&progress, rg_verify_device_work(&v));
     rig_part(&v);
     rg_progress_end(&progress);

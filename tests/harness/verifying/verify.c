@@ -13,13 +13,7 @@
 #include "harness/compare/verify/verify.h"
 #include "harness/console/exit.h"
 #include "tests/harness/verifying/rig.h"
-
-static void ignore(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
+#include "tests/tools/process/logged.h"
 
 // A driver that fails on one device.
 static bool fail_on_cpu(struct rg_instance *instance)
@@ -256,7 +250,7 @@ static void verify_contrasts(const char *scene, const struct rg_mutant *mutants,
                           .checks = &checks,
                           .progress = &progress};
     rig_flow.proof = &seen;
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     rg_progress_start(&progress, rg_verify_mutant_work(&v));
     rg_verify_mutants(&v);
     rg_progress_end(&progress);
@@ -378,7 +372,7 @@ static void errors_are_somebodys(void **state)
     (void)state;
     for (int is_input = 0; is_input < 2; is_input++) {
         struct rg_checks checks = {0};
-        rg_log_listen(ignore, NULL);
+        rg_log_listen(log_last, NULL);
         is_input ? rg_error("no such file") : rg_driver_error("the driver is tired");
         rg_log_listen(NULL, NULL);
         rg_checks_add_error(&checks, "flow", "state", "cpu");

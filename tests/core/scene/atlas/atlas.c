@@ -20,18 +20,11 @@
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/splash.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 static const char *published;
 static struct rg_atlas *small;
-static int calls, lines;
-
-static void count_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-    lines++;
-}
+static int calls;
 
 static void tell(void *user, int done, int total)
 {
@@ -44,7 +37,7 @@ static int setup(void **state)
 {
     (void)state;
     const struct rg_atlas_progress progress = {tell, NULL};
-    rg_log_listen(count_line, NULL);
+    rg_log_listen(log_last, NULL);
     small = rg_atlas_make(RG_ATLAS_SMALL, &progress);
     return !small || calls != RG_ATLAS_OSCILLATIONS * RG_ATLAS_VIEWS;
 }
@@ -312,12 +305,12 @@ static void test_damaged_cache(void **state)
     assert_true(rg_atlas_cache_write(small, why));
     assert_int_equal(truncate(path, 4000000), 0);
     for (int turn = 0; turn < 2; turn++) {
-        lines = 0;
+        logged_lines = 0;
         omp_set_num_threads(1);
         struct rg_atlas *atlas = rg_atlas_load(RG_ATLAS_SMALL, NULL);
         omp_set_num_threads(omp_get_num_procs());
         assert_non_null(atlas);
-        assert_int_equal(lines, 1 - turn);
+        assert_int_equal(logged_lines, 1 - turn);
         assert_int_equal(atlas->hash, small->hash);
         rg_atlas_destroy(atlas);
     }

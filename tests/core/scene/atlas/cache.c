@@ -21,23 +21,15 @@
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/levels.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 static char folder[] = "/tmp/raingauge-atlas-XXXXXX";
 static char path[RG_ATLAS_PATH_SIZE], why[256];
-static int lines;
-
-static void count_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-    lines++;
-}
 
 static int setup(void **state)
 {
     (void)state;
-    rg_log_listen(count_line, NULL);
+    rg_log_listen(log_last, NULL);
     if (!mkdtemp(folder) || setenv("XDG_CACHE_HOME", folder, 1))
         return 1;
     return !rg_atlas_cache_path(RG_ATLAS_SMALL, path, why);
@@ -308,9 +300,9 @@ static void test_writers_at_once(void **state)
 static void test_unpacked_database(void **state)
 {
     (void)state;
-    lines = 0;
+    logged_lines = 0;
     assert_null(rg_atlas_load(RG_ATLAS_CAVE, NULL));
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     assert_non_null(strstr(rg_last_error(), "streaks-cave.atlas"));
     assert_non_null(strstr(rg_last_error(), "atlas --from"));
 }

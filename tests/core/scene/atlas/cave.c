@@ -21,22 +21,14 @@
 #include "core/techniques/streaks/instance.h"
 #include "tests/core/scene/atlas/codes.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 enum { PATH_SIZE = 512 };
 
 static char root[] = "/tmp/raingauge-cave-XXXXXX";
-static int lines;
 
 // The database's own heights at width 16; at other widths in proportion.
 static const int heights[5] = {525, 494, 405, 272, 108};
-
-static void count_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-    lines++;
-}
 
 static void in_root(char path[PATH_SIZE], const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -133,7 +125,7 @@ static int setup(void **state)
 {
     (void)state;
     char path[PATH_SIZE];
-    rg_log_listen(count_line, NULL);
+    rg_log_listen(log_last, NULL);
     if (!mkdtemp(root))
         return 1;
     make_folder("point_light_database");
@@ -241,9 +233,9 @@ static void test_mirrored(void **state)
 // Packing fails with one line, which names the file and the fault.
 static void expect_refused(const char *named, const char *said)
 {
-    lines = 0;
+    logged_lines = 0;
     assert_null(rg_cave_pack(root, RG_ATLAS_CAVE_SMALL, NULL));
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     if (!strstr(rg_last_error(), named) || !strstr(rg_last_error(), said))
         fail_msg("'%s' names no %s, or says nothing of '%s'", rg_last_error(), named, said);
 }
@@ -289,9 +281,9 @@ static void test_refused(void **state)
     replace(TEXT, "cv60\nv10\nh10 1 2 3 4 5 6 7 8 9 10", 33, "no factors for v");
     replace(ENV, "cv0 1 1 1 1 1 1 1 1 1 1", 23, "no factors for cv20");
     replace(ENV, "", 0, "no factors for cv0");
-    lines = 0;
+    logged_lines = 0;
     assert_null(rg_cave_pack("/nonexistent", RG_ATLAS_CAVE, NULL));
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     assert_non_null(strstr(rg_last_error(), "/nonexistent/point_light_database/txt/dcam00"));
 }
 
@@ -338,9 +330,9 @@ static void test_drawn_with(void **state)
     assert_int_equal(setenv("XDG_CACHE_HOME", cache, 1), 0);
     struct rg_device *device = rg_device_open("cpu");
     assert_non_null(device);
-    lines = 0;
+    logged_lines = 0;
     assert_null(open_rain(device));
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     assert_non_null(strstr(rg_last_error(), "`raingauge atlas --quick --from DIR`"));
 
     struct rg_atlas *atlas = rg_cave_pack(root, RG_ATLAS_CAVE_SMALL, NULL);

@@ -15,16 +15,7 @@
 #include "core/base/log.h"
 #include "harness/devices/frames/messages.h"
 #include "tests/tools/process/folder.h"
-
-static char logged[2048];
-
-static void keep(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    const size_t used = strlen(logged);
-    snprintf(logged + used, sizeof(logged) - used, "%s\n", line);
-}
+#include "tests/tools/process/logged.h"
 
 static int begin(void **state)
 {
@@ -256,6 +247,6 @@ int main(void)
                                         leave_folder),
         cmocka_unit_test_setup_teardown(no_own_file_is_written_over, enter_folder, leave_folder),
     };
-    rg_log_listen(keep, NULL);
+    rg_log_listen(log_all, NULL);
     return cmocka_run_group_tests_name("subjects between processes", tests, NULL, NULL);
 }

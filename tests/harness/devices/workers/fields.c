@@ -15,16 +15,7 @@
 
 #include "core/base/log.h"
 #include "tests/tools/expect.h"
-
-static int lines;
-
-static void count_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-    lines++;
-}
+#include "tests/tools/process/logged.h"
 
 // --- a struct with a field of each kind ---
 
@@ -141,13 +132,13 @@ static struct sample make(void)
 static bool passes(const struct sample *put, struct sample *taken)
 {
     struct rg_message message = {0};
-    lines = 0;
+    logged_lines = 0;
     freed = 0;
     *taken = (struct sample){.flag = false};
     rg_put_fields(&message, fields, put);
     const bool ok = rg_take_fields(&message, fields, taken);
     assert_int_equal(ok && message.at == message.size, ok);
-    assert_int_equal(message.failed, lines > 0);
+    assert_int_equal(message.failed, logged_lines > 0);
     rg_message_free(&message);
     return ok;
 }
@@ -160,7 +151,7 @@ static void every_kind_comes_out_as_it_was_put(void **state)
     const struct sample put = make();
     struct sample taken;
     assert_true(passes(&put, &taken));
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     assert_int_equal(taken.own.number, 8);
     assert_int_equal(taken.flag, true);
     assert_int_equal(taken.small, -2);
@@ -276,12 +267,12 @@ static void texts_end_and_names_are_there(void **state)
     rg_free_fields(fields, &taken);
     memset(put.text, 'x', sizeof(put.text));
     assert_false(passes(&put, &taken));
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     rg_free_fields(fields, &taken);
     put = make();
     put.name = NULL;
     assert_false(passes(&put, &taken));
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     rg_free_fields(fields, &taken);
 }
 
@@ -298,9 +289,9 @@ static void a_struct_that_is_cut_is_refused_in_one_line(void **state)
         struct sample taken = {.flag = false};
         struct rg_message cut = {.bytes = malloc((size_t)size + 1), .size = size, .room = size};
         memcpy(cut.bytes, whole.bytes, (size_t)size);
-        lines = 0;
+        logged_lines = 0;
         assert_false(rg_take_fields(&cut, fields, &taken));
-        assert_int_equal(lines, 1);
+        assert_int_equal(logged_lines, 1);
         rg_free_fields(fields, &taken);
         rg_message_free(&cut);
     }
@@ -316,9 +307,9 @@ static void nothing_is_taken_of_a_message_that_failed(void **state)
     struct rg_message message = {0};
     rg_put_fields(&message, fields, &put);
     rg_message_fail(&message);
-    lines = 0;
+    logged_lines = 0;
     assert_false(rg_take_fields(&message, fields, &taken));
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     assert_int_equal(message.at, 0);
     rg_message_free(&message);
 }
@@ -333,6 +324,6 @@ int main(void)
         cmocka_unit_test(a_struct_that_is_cut_is_refused_in_one_line),
         cmocka_unit_test(nothing_is_taken_of_a_message_that_failed),
     };
-    rg_log_listen(count_line, NULL);
+    rg_log_listen(log_last, NULL);
     return cmocka_run_group_tests_name("fields", tests, NULL, NULL);
 }

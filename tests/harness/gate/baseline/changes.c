@@ -8,17 +8,7 @@
 #include "core/base/log.h"
 #include "tests/harness/gate/baseline/made.h"
 #include "tests/tools/expect.h"
-
-static char logged[2048];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 // --- changes ---
 
@@ -265,7 +255,7 @@ static void launches_have_a_median_and_a_scatter(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_change_is_told),
         cmocka_unit_test(a_new_device_has_new_rows_alone),

@@ -11,17 +11,9 @@
 #include "tests/harness/gate/baseline/made.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 
-static char logged[2048], path[64];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+static char path[64];
 
 static int set_up(void **state)
 {
@@ -215,7 +207,7 @@ static void an_older_baseline_has_no_seconds(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_comes_back),
         cmocka_unit_test(fields_have_their_names),

@@ -8,14 +8,9 @@
 #include "harness/console/clock.h"
 #include "harness/measure/serving/fixed.h"
 #include "tests/harness/gate/baseline/made.h"
+#include "tests/harness/gate/cells/read.h"
 #include "tests/tools/expect.h"
-
-static void silent(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
+#include "tests/tools/process/logged.h"
 
 // --- stand-ins ---
 
@@ -139,7 +134,6 @@ bool rg_times_take(int row, bool b_first, struct rg_quads *quads, void *user)
 // --- a baseline ---
 
 static const char text_of_cells[] = "rain raster 16x16 1\nflow raster 16x16 1\n";
-static struct rg_gate_cells cells;
 static struct rg_baseline made;
 static bool clean;
 
@@ -149,14 +143,7 @@ static int set_up(void **state)
     snprintf(devices[0].info.name, RG_DEVICE_NAME_SIZE, "gl");
     snprintf(devices[1].info.name, RG_DEVICE_NAME_SIZE, "vulkan");
     snprintf(devices[1].info.driver, sizeof(devices[1].info.driver), "Mesa 25");
-    return !rg_gate_cells_of("c", text_of_cells, strlen(text_of_cells), &cells);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    rg_gate_cells_free(&cells);
-    return 0;
+    return read_cells(text_of_cells);
 }
 
 static int begin(void **state)
@@ -290,7 +277,7 @@ static void what_closes_badly_or_fails_leaves_it_unclean(void **state)
 
 int main(void)
 {
-    rg_log_listen(silent, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(rows_are_taken_then_timed_in_turn, begin, end),
         cmocka_unit_test_setup_teardown(without_launches_nothing_is_timed, begin, end),
@@ -299,5 +286,5 @@ int main(void)
         cmocka_unit_test_setup_teardown(disturbed_launches_are_repeated, begin, end),
         cmocka_unit_test_setup_teardown(what_closes_badly_or_fails_leaves_it_unclean, begin, end),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, free_cells);
 }

@@ -8,14 +8,9 @@
 #include "harness/devices/frames/frame.h"
 #include "harness/devices/frames/session.h"
 #include "tests/harness/gate/baseline/made.h"
+#include "tests/harness/gate/cells/read.h"
 #include "tests/tools/expect.h"
-
-static void silent(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
+#include "tests/tools/process/logged.h"
 
 // --- stand-ins ---
 
@@ -104,21 +99,13 @@ bool rg_session_code(struct rg_session *session, struct rg_session_code *code)
 // --- a row ---
 
 static const char text_of_cells[] = "rain raster 16x12 5 seed=3\n";
-static struct rg_gate_cells cells;
 
 static int set_up(void **state)
 {
     (void)state;
     snprintf(device.info.name, RG_DEVICE_NAME_SIZE, "gl");
     snprintf(reference.info.name, RG_DEVICE_NAME_SIZE, "cpu:reference");
-    return !rg_gate_cells_of("c", text_of_cells, strlen(text_of_cells), &cells);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    rg_gate_cells_free(&cells);
-    return 0;
+    return read_cells(text_of_cells);
 }
 
 static void a_row_has_all_that_a_session_leaves(void **state)
@@ -204,11 +191,11 @@ static void a_cell_has_a_digest_of_all_that_makes_it(void **state)
 
 int main(void)
 {
-    rg_log_listen(silent, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_row_has_all_that_a_session_leaves),
         cmocka_unit_test(a_call_that_fails_ends_the_row),
         cmocka_unit_test(a_cell_has_a_digest_of_all_that_makes_it),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, free_cells);
 }

@@ -13,17 +13,7 @@
 #include "core/base/text/place.h"
 #include "harness/compare/gate/cells/cells.h"
 #include "tests/tools/expect.h"
-
-static char logged[2048];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 static bool read_text(const char *text, struct rg_gate_cells *cells)
 {
@@ -207,7 +197,7 @@ static void the_built_in_cells_are_of_all_techniques(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cells_have_what_their_lines_say),
         cmocka_unit_test(what_is_wrong_is_said_with_its_line),

@@ -16,17 +16,7 @@
 #include "harness/compare/gate/cells/unused.h"
 #include "harness/compare/gate/text/date.h"
 #include "harness/compare/gate/text/glob.h"
-
-static char logged[2048];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 static bool add(struct rg_known *expected, const char *text, enum rg_known_form form)
 {
@@ -491,7 +481,7 @@ static void an_expectation_of_no_device_or_driver_is_told(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(days_are_those_of_the_calendar),
         cmocka_unit_test(patterns_describe_whole_names),

@@ -11,18 +11,9 @@
 
 #include "core/base/log.h"
 #include "harness/compare/gate/expected/expected.h"
+#include "tests/tools/process/logged.h"
 
 static const char *corpus; // a file
-static char logged[2048];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
 
 static struct rg_regex *compile(const char *text)
 {
@@ -167,6 +158,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(none_takes_for_ever),
     };
     corpus = argc > 1 ? argv[1] : "";
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

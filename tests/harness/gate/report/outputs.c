@@ -17,24 +17,14 @@
 #include "harness/compare/gate/text/date.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 #include "tests/tools/process/printed.h"
-
-static char logged[1024];
-static int log_count;
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(logged, sizeof(logged), "%s", line);
-    log_count++;
-}
 
 static int begin(void **state)
 {
     unsetenv("GITHUB_STEP_SUMMARY");
-    rg_log_listen(hear, NULL);
-    log_count = *logged = 0;
+    rg_log_listen(log_last, NULL);
+    logged_lines = *logged = 0;
     return make_folder(state) || chdir(folder);
 }
 
@@ -63,9 +53,9 @@ static void gtest_names_a_file(void **state)
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         char path[PATH_MAX] = "unset";
         const struct rg_gtest_asked asked = {.output = (char *)rows[i].output};
-        log_count = 0;
+        logged_lines = 0;
         assert_int_equal(rg_gtest_output(&asked, path), rows[i].path != NULL);
-        assert_int_equal(log_count, !rows[i].path);
+        assert_int_equal(logged_lines, !rows[i].path);
         assert_string_equal(path, rows[i].path ? rows[i].path : "");
     }
     struct stat found;
@@ -170,7 +160,7 @@ static void reports_go_where_they_are_asked(void **state)
         assert_string_equal(outputs.pictures, rows[i].pictures);
         assert_int_equal(outputs.is_folder_asked, rows[i].asked.folder != NULL);
     }
-    assert_int_equal(log_count, 0);
+    assert_int_equal(logged_lines, 0);
 }
 
 static void paths_have_room_for_pictures(void **state)
@@ -183,11 +173,11 @@ static void paths_have_room_for_pictures(void **state)
     assert_true(settle(&(struct asked){.junit = path}, &outputs));
     assert_int_equal(strlen(outputs.pictures), most + strlen("-pictures"));
     assert_true(settle(&(struct asked){.folder = path}, &outputs));
-    assert_int_equal(log_count, 0);
+    assert_int_equal(logged_lines, 0);
     path[most] = 'x';
     assert_false(settle(&(struct asked){.junit = path}, &outputs));
     assert_false(settle(&(struct asked){.folder = path}, &outputs));
-    assert_int_equal(log_count, 2);
+    assert_int_equal(logged_lines, 2);
 }
 
 // --- what stays ---
@@ -215,10 +205,10 @@ static void inputs_stay(void **state)
     assert_int_equal(mkdir("out", 0777), 0);
     assert_true(settle(&asked, &outputs));
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
-        log_count = 0;
+        logged_lines = 0;
         if (rg_gate_outputs_spare(&outputs, rows[i].input) != rows[i].is_spared)
             fail_msg("%s", rows[i].input);
-        assert_int_equal(log_count, !rows[i].is_spared);
+        assert_int_equal(logged_lines, !rows[i].is_spared);
     }
     assert_false(rg_gate_outputs_spare(&outputs, "./b.xml"));
     assert_string_equal(logged, "b.xml: would be overwritten with a report, and is named as "
@@ -247,11 +237,11 @@ static void reports_can_be_written(void **state)
     assert_int_equal(mkdir("out", 0777), 0);
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         struct rg_gate_outputs outputs;
-        log_count = 0;
+        logged_lines = 0;
         assert_true(settle(&rows[i].asked, &outputs));
         if (rg_gate_outputs_can_be_written(&outputs) != rows[i].can_be)
             fail_msg("row %zu: %s", i, logged);
-        assert_int_equal(log_count, !rows[i].can_be);
+        assert_int_equal(logged_lines, !rows[i].can_be);
     }
 }
 
@@ -296,7 +286,7 @@ static bool print(bool updates, bool is_part, const char *meanwhile, const char 
     assert_true(rg_known_add(&known, "second.txt", RG_FORM_OWN));
     if (meanwhile)
         write_text("first.txt", meanwhile);
-    log_count = *logged = 0;
+    logged_lines = *logged = 0;
     printed_begin();
     const bool ok = rg_gate_outputs_print(&outputs, &known, &gate);
     *printed = printed_end();

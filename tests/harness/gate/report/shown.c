@@ -10,15 +10,7 @@
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/report/texts.h"
 #include "tests/tools/expect.h"
-
-static char logged[2048];
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 static void add(struct rg_report *report, const char *name, enum rg_ending ending,
                 const char *message)
@@ -325,7 +317,7 @@ static void a_long_name_is_cut_where_a_runner_would(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(endings_have_their_words_elements_and_statuses),
         cmocka_unit_test(a_summary_counts_each_ending_worst_first),

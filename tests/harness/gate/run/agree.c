@@ -8,6 +8,7 @@
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/gate/run/agree.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 #define SHA_A "0123456789abcdef"
 #define SHA_B "fedcba9876543210"
@@ -383,13 +384,6 @@ static void an_ending_is_held_against_that_of_the_baseline(void **state)
     }
 }
 
-static void silent(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 // No driver drew a picture, so that none is blamed for one that differs.
 static void a_side_that_does_not_open_fails_the_case(void **state)
 {
@@ -451,7 +445,7 @@ static void advice_tells_the_time_by_each_yardstick(void **state)
 
 int main(void)
 {
-    rg_log_listen(silent, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sides_that_are_alike_agree_and_have_code),
         cmocka_unit_test(a_side_that_fails_ends_the_case_under_its_name),

@@ -6,6 +6,7 @@
 
 #include "harness/compare/gate/run/cases.h"
 #include "harness/devices/names.h"
+#include "tests/harness/gate/cells/read.h"
 #include "tests/tools/expect.h"
 
 #define CELL  "rain/one"
@@ -14,21 +15,13 @@
 #define OTHER 0x9abcdef000000000u
 
 static const char text_of_cells[] = CELL " raster 64x48 3 seed=7  billboards=5\n";
-static struct rg_gate_cells cells;
 static struct rg_known known;
 static struct rg_gate_request request = {.known = &known, .pictures = "out", .today = 20500};
 
 static int set_up(void **state)
 {
     (void)state;
-    return !rg_gate_cells_of("cells", text_of_cells, strlen(text_of_cells), &cells);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    rg_gate_cells_free(&cells);
-    return 0;
+    return read_cells(text_of_cells);
 }
 
 // A case whose sides agree; the caller says what else was found.
@@ -514,5 +507,5 @@ int main(void)
         cmocka_unit_test(pictures_that_differ_are_named_in_their_order),
         cmocka_unit_test(a_case_has_the_name_and_the_devices_of_its_sides),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, free_cells);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "harness/compare/gate/run/choose.h"
+#include "tests/harness/gate/cells/read.h"
 #include "tests/tools/expect.h"
 
 // A stand-in: one device has fixed functions.
@@ -15,7 +16,6 @@ bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_
 
 static const char text_of_cells[] = "one raster 16x16 1\ntwo raster 16x16 1\n"
                                     "three raster 16x16 1\nfour raster 16x16 1\n";
-static struct rg_gate_cells cells;
 static const struct rg_gate_pairs pairs = {.count = 2,
                                            .all = {{{"cpu", "gl"}}, {{"gl", "vulkan"}}}};
 static const struct rg_gate_pairs alone = {.count = 2, .all = {{{"", "gl"}}, {{"", "vulkan"}}}};
@@ -23,14 +23,7 @@ static const struct rg_gate_pairs alone = {.count = 2, .all = {{{"", "gl"}}, {{"
 static int set_up(void **state)
 {
     (void)state;
-    return !rg_gate_cells_of("cells", text_of_cells, strlen(text_of_cells), &cells);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    rg_gate_cells_free(&cells);
-    return 0;
+    return read_cells(text_of_cells);
 }
 
 struct choice {
@@ -230,5 +223,5 @@ int main(void)
         cmocka_unit_test(shards_divide_cases_by_their_seconds),
         cmocka_unit_test(fixed_functions_go_to_one_shard),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, free_cells);
 }

@@ -12,13 +12,7 @@
 #include "harness/measure/serving/fixed.h"
 #include "shaders/fixed/fixed.h"
 #include "tests/tools/expect.h"
-
-static void silent(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
+#include "tests/tools/process/logged.h"
 
 // --- stand-ins ---
 
@@ -346,7 +340,7 @@ static void a_pair_has_a_case_of_them_if_the_baseline_has_digests(void **state)
 
 int main(void)
 {
-    rg_log_listen(silent, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(digests_of_the_baseline_are_counted),
         cmocka_unit_test(expectations_name_them),

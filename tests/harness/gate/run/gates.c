@@ -14,18 +14,9 @@
 #include "harness/console/exit.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
+#include "tests/harness/gate/cells/read.h"
 #include "tests/tools/expect.h"
-
-static char logged[2048];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 // --- stand-ins ---
 
@@ -178,7 +169,6 @@ bool rg_gate_journal_close(struct rg_gate_journal *journal, bool is_done)
 // --- a gate of two cells and two pairs ---
 
 static const char text_of_cells[] = "one raster 16x16 1\ntwo raster 16x16 1 seed=7\n";
-static struct rg_gate_cells cells;
 static struct rg_known known;
 static const struct rg_gate_pairs pairs = {.count = 2, .all = {{{"old", "gl"}}, {{"cpu", "new"}}}};
 static struct rg_gate gate;
@@ -186,14 +176,7 @@ static struct rg_gate gate;
 static int set_up(void **state)
 {
     (void)state;
-    return !rg_gate_cells_of("cells", text_of_cells, strlen(text_of_cells), &cells);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    rg_gate_cells_free(&cells);
-    return 0;
+    return read_cells(text_of_cells);
 }
 
 static void begin(void)
@@ -531,7 +514,7 @@ static void times_under_another_key_are_advice(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_cells_are_compared_then_timed_pair_by_pair),
         cmocka_unit_test(what_ends_a_gate_early_has_its_status),
@@ -544,5 +527,5 @@ int main(void)
         cmocka_unit_test(libraries_that_differ_are_told_as_now_and_then),
         cmocka_unit_test(times_under_another_key_are_advice),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, free_cells);
 }

@@ -9,17 +9,7 @@
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/exit.h"
 #include "tests/tools/expect.h"
-
-static char logged[2048];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 static void add(struct rg_report *report, const char *device, enum rg_ending ending, bool compared)
 {
@@ -238,7 +228,7 @@ static void a_shard_leaves_required_devices_to_all_together(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_gate_ends_as_its_worst_case_if_any_was_compared),
         cmocka_unit_test(a_gate_of_nothing_says_why),

@@ -10,19 +10,10 @@
 #include "harness/compare/gate/run/choose.h"
 #include "harness/compare/gate/shards/shards.h"
 #include "harness/console/exit.h"
+#include "tests/harness/gate/cells/read.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
-
-static char logged[2048];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 // A stand-in: B of both pairs has fixed functions.
 bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_pair *pair)
@@ -33,15 +24,13 @@ bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_
 }
 
 static const char text_of_cells[] = "one raster 16x16 1\ntwo raster 16x16 1\nsix raster 16x16 1\n";
-static struct rg_gate_cells cells;
 static struct rg_known known;
 static const struct rg_gate_pairs pairs = {.count = 2, .all = {{{"cpu", "gl"}}, {{"gl", "vk"}}}};
 static const struct rg_gate_inputs inputs = {"b", "e", "t"};
 
 static int set_up(void **state)
 {
-    return make_folder(state) ||
-           !rg_gate_cells_of("cells", text_of_cells, strlen(text_of_cells), &cells);
+    return make_folder(state) || read_cells(text_of_cells);
 }
 
 static void path_of(int number, char path[128])
@@ -356,7 +345,7 @@ static void times_of_an_earlier_gate_are_read_by_name(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shards_tell_what_one_gate_tells),
         cmocka_unit_test(a_shard_that_is_missing_leaves_the_others),

@@ -15,16 +15,7 @@
 #include "harness/devices/frames/frame.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
-
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-    logged_lines++;
-}
+#include "tests/tools/process/logged.h"
 
 // --- stand-ins ---
 
@@ -247,7 +238,7 @@ static void a_picture_has_a_name_that_file_systems_take(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(pictures_must_hold_the_looser_tier_of_both, set_up),
         cmocka_unit_test_setup(without_rain_nothing_is_compared, set_up),

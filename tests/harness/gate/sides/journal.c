@@ -11,17 +11,7 @@
 #include "harness/record/disk/seal.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
-
-static char logged[2048];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 static void path_of(const char *name, char path[256])
 {
@@ -285,7 +275,7 @@ static void a_damaged_journal_is_told_and_left_out(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(launches_are_found_as_they_were_taken),
         cmocka_unit_test(a_journal_of_another_gate_is_not_gone_on_with),

@@ -11,13 +11,7 @@
 #include "harness/measure/others.h"
 #include "harness/measure/sampling.h"
 #include "tests/tools/expect.h"
-
-static void silent(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
+#include "tests/tools/process/logged.h"
 
 // --- stand-ins ---
 
@@ -450,7 +444,7 @@ static void launches_of_the_journal_are_not_taken_again(void **state)
 
 int main(void)
 {
-    rg_log_listen(silent, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slots_are_long_enough_for_the_clock),
         cmocka_unit_test(blocks_alternate_and_begin_as_drawn),

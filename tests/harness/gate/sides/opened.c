@@ -10,17 +10,7 @@
 #include "harness/compare/gate/sides/sides.h"
 #include "harness/console/exit.h"
 #include "tests/tools/expect.h"
-
-static char logged[2048];
-static int logged_lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    logged_lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 // --- stand-ins ---
 
@@ -264,7 +254,7 @@ static void devices_that_are_not_gated_are_known(void **state)
 
 int main(void)
 {
-    rg_log_listen(listen, NULL);
+    rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_side_is_closed_before_it_is_opened_again),
         cmocka_unit_test(a_side_that_does_not_open_is_known_by_its_failure),

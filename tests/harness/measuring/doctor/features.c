@@ -7,24 +7,14 @@
 #include "harness/doctor/compile.h"
 #include "harness/measure/serving/fixed.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 #include "tests/tools/process/printed.h"
-
-static char logged[1024];
-static int lines;
-
-static void keep(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    lines++;
-    snprintf(logged, sizeof(logged), "%s", line);
-}
 
 static int begin(void **state)
 {
     (void)state;
     *logged = 0;
-    lines = 0;
+    logged_lines = 0;
     return 0;
 }
 
@@ -107,7 +97,7 @@ static void a_device_without_fixed_functions_says_so(void **state)
         assert_int_equal(json_array_size(json_object_get(row, "draws")), 0);
         assert_int_equal(json_array_size(json_object_get(row, "closed")), 0);
     }
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     json_decref(rows);
 }
 
@@ -146,7 +136,7 @@ static void a_device_that_fails_twice_draws_no_more(void **state)
     assert_true(rg_fixed_goes_on(&device, 0, 5));
     assert_true(rg_fixed_goes_on(&device, 1, 5));
     assert_true(rg_fixed_goes_on(&device, 2, 0));
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     assert_false(rg_fixed_goes_on(&device, 2, 5));
     assert_string_equal(
         logged, "device 'new': 2 draws of fixed functions failed, and 5 more are not tried");
@@ -208,11 +198,11 @@ static void the_named_kernels_are_compiled(void **state)
         assert_int_equal(json_array_size(json_object_get(row, "failed")), 0);
         json_decref(report);
     }
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     json_t *report = json_array();
     assert_int_equal(rg_doctor_compile("none", "probe_copy", report), RG_EXIT_USAGE);
     assert_int_equal(json_array_size(report), 0);
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     json_decref(report);
 }
 
@@ -238,6 +228,6 @@ int main(void)
         cmocka_unit_test_setup(the_named_kernels_are_compiled, begin),
         cmocka_unit_test_setup(what_compiles_is_counted_for_people, begin),
     };
-    rg_log_listen(keep, NULL);
+    rg_log_listen(log_last, NULL);
     return cmocka_run_group_tests_name("features in doctor", tests, NULL, NULL);
 }

@@ -11,21 +11,12 @@
 #include "tests/harness/record/made.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
-
-static int lines;
-
-static void count_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-    lines++;
-}
+#include "tests/tools/process/logged.h"
 
 static int setup(void **state)
 {
-    rg_log_listen(count_line, NULL);
-    lines = 0;
+    rg_log_listen(log_last, NULL);
+    logged_lines = 0;
     return make_folder(state);
 }
 
@@ -124,15 +115,15 @@ static void test_places(void **state)
     assert_int_equal(strncmp(place_with(NULL, home), "/theirs/.local/state/raingauge/", 31), 0);
     assert_int_equal(strncmp(place_with(folder, home), "/raingauge/", 11), 0);
     assert_int_equal(strncmp(place_with("relative", home), "/theirs/.local/state/", 21), 0);
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     assert_string_equal(place_with(NULL, "relative"), "");
-    assert_int_equal(lines, 1);
+    assert_int_equal(logged_lines, 1);
     // A path that is too long gives no journal, and no shortened path.
     snprintf(long_home, sizeof(long_home), "%s/", folder);
     for (size_t used = strlen(long_home); used < 1530; used += 2)
         strcpy(long_home + used, "a/");
     assert_string_equal(place_with(NULL, long_home), "");
-    assert_int_equal(lines, 2);
+    assert_int_equal(logged_lines, 2);
 }
 
 // --- folders of results ---
@@ -171,7 +162,7 @@ static void test_folder(void **state)
     assert_true(is_read);
     assert_int_equal(stored.count, 3);
     rg_stored_free(&stored);
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     // An error's line is counted from the file's beginning.
     char why[RG_WHY_SIZE];
     struct rg_result found = {0};
@@ -229,7 +220,7 @@ static void test_machines(void **state)
         assert_string_equal(stored.results[i].table, order[i]);
     rg_stored_free(&stored);
     assert_true(!stored.count && !stored.results);
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
 }
 
 // A folder without results, and one that is not there, are errors.
@@ -245,7 +236,7 @@ static void test_no_results(void **state)
     snprintf(path, sizeof(path), "%s/none", folder);
     assert_false(rg_stored_read(&stored, path));
     assert_non_null(strstr(rg_last_error(), "/none: cannot be read: No such file or directory; "));
-    assert_int_equal(lines, 2);
+    assert_int_equal(logged_lines, 2);
     rg_stored_free(&stored);
 }
 

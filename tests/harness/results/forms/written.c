@@ -17,20 +17,12 @@
 #include "tests/harness/results/forms/rig.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
-
-static char heard[1024];
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(heard, sizeof(heard), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 static int begin(void **state)
 {
-    *heard = 0;
-    rg_log_listen(hear, NULL);
+    *logged = 0;
+    rg_log_listen(log_last, NULL);
     return make_folder(state);
 }
 
@@ -141,7 +133,7 @@ static void files_stay_where_nothing_was_measured(void **state)
     char due[512];
     snprintf(due, sizeof(due), "%s: is kept, for no cell of names was measured now",
              in_folder("names.json"));
-    assert_string_equal(heard, due);
+    assert_string_equal(logged, due);
     assert_int_equal(unlink(in_folder("names.json")), 0);
     assert_true(rg_result_write(&rig.result, folder));
     assert_false(holds("names.json", "earlier") || holds("names.md", "as well"));
@@ -178,10 +170,10 @@ static void files_that_are_read_are_spared(void **state)
                  {"other.json", true}};
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         write_text(cases[i].name, "read");
-        *heard = 0;
+        *logged = 0;
         assert_int_equal(rg_result_spares(&sheet_names_table, folder, in_folder(cases[i].name)),
                          cases[i].is_spared);
-        assert_int_equal(!*heard, cases[i].is_spared);
+        assert_int_equal(!*logged, cases[i].is_spared);
         assert_int_equal(unlink(in_folder(cases[i].name)), 0);
     }
 }
@@ -197,7 +189,7 @@ static void files_that_cannot_be_written_are_told(void **state)
     for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
         assert_int_equal(mkdir(in_folder(names[i]), 0777), 0);
         assert_false(rg_results_can_be_written(tables, 2, folder));
-        assert_non_null(strstr(heard, names[i]));
+        assert_non_null(strstr(logged, names[i]));
         assert_true(rg_results_can_be_written(&tables[1], i < 2, folder));
         assert_int_equal(rmdir(in_folder(names[i])), 0);
     }

@@ -19,6 +19,7 @@
 #include "harness/tables/launching/course.h"
 #include "tests/harness/measuring/fake.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 
 #define assert_ms(value, ms) assert_near(value, ms, 1e-6)
 
@@ -80,16 +81,6 @@ static const struct rg_table four = {.id = "made-up",
                                      .rows = rows,
                                      .note = "a note"};
 
-static char heard[1024];
-
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    const size_t used = strlen(heard);
-    (void)level;
-    (void)user;
-    snprintf(heard + used, sizeof(heard) - used, "%s\n", line);
-}
-
 // The table on devices of these names; its frames have these settings.
 static void begin(struct rg_result *result, struct rg_table *table, const char *set,
                   const char *name, const char *other)
@@ -111,8 +102,8 @@ static void begin(struct rg_result *result, struct rg_table *table, const char *
         rg_record_settle(record);
     }
     taken = (struct rg_taken){0, 0};
-    *heard = 0;
-    rg_log_listen(hear, NULL);
+    *logged = 0;
+    rg_log_listen(log_all, NULL);
     fake_forget();
 }
 
@@ -290,13 +281,13 @@ static void a_launch_that_fails_is_not_kept(void **state)
     cells.cells[0].at.row = 1;
     begin(&result, &table, "draw_ms=8", "lost", NULL);
     assert_false(rg_launch_take(&result, &table, &cells, 5));
-    assert_non_null(strstr(heard, "made-up: launch 5 of row 2 on lost failed: "));
+    assert_non_null(strstr(logged, "made-up: launch 5 of row 2 on lost failed: "));
     assert_int_equal(record_at(&result, 1, 0)->launch_count, 0);
     assert_int_equal(record_at(&result, 1, 0)->outcome, RG_OK); // of its own measurement
     end(&result);
     begin(&result, &table, "draw_ms=8", "none", NULL);
     assert_false(rg_launch_take(&result, &table, &cells, 5));
-    assert_string_equal(heard, "none: is not there\n");
+    assert_string_equal(logged, "none: is not there\n");
     end(&result);
 }
 
@@ -322,7 +313,7 @@ static bool take(struct rg_result *result, const struct rg_table *table, double 
     struct rg_progress bar;
     rg_progress_start(&bar, 1);
     bar.shown = false;
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_all, NULL);
     const bool ok = rg_launches_take(result, table, claims, NULL, &bar, end_ms);
     rg_progress_end(&bar);
     return ok;

@@ -17,15 +17,9 @@
 #include "harness/tables/papers/papers.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 
-static char path[64], last_line[1024];
-
-static void keep_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(last_line, sizeof(last_line), "%s", line);
-}
+static char path[64];
 
 static const struct rg_table *read_text(const char *text)
 {
@@ -33,13 +27,13 @@ static const struct rg_table *read_text(const char *text)
     assert_non_null(file);
     assert_at_least(fputs(text, file), 0);
     assert_int_equal(fclose(file), 0);
-    *last_line = 0;
+    *logged = 0;
     return rg_own_read(path);
 }
 
 static int set_up(void **state)
 {
-    rg_log_listen(keep_line, NULL);
+    rg_log_listen(log_last, NULL);
     if (make_folder(state))
         return -1;
     snprintf(path, sizeof(path), "%s/own.table", folder);
@@ -103,7 +97,7 @@ static void lines_become_a_table(void **state)
         "row resolution_px=16 rain_drops_s=0.5 | fps=800 faces=12 fps_few=700\n"
         "row rain_drops_s=1.5 resolution_px=64 | faces=13 fps_few=600 fps=500\n"
         "row resolution_px=128 rain_drops_s=2|fps=400\n");
-    assert_string_equal(last_line, "");
+    assert_string_equal(logged, "");
     assert_non_null(table);
     assert_ptr_equal(rg_table_find("mine"), table);
     const char *const texts[][2] = {
@@ -340,16 +334,16 @@ static void each_line_has_its_limit(void **state)
         write_case(i, text, sizeof(text));
         const bool is_taken = read_text(text);
         if (is_taken != !cases[i].says)
-            fail_msg("is %s: %s\n%s", is_taken ? "taken" : "refused", text, last_line);
+            fail_msg("is %s: %s\n%s", is_taken ? "taken" : "refused", text, logged);
         if (is_taken)
             continue;
         snprintf(place, sizeof(place), "%s: ", path);
         if (cases[i].line)
             snprintf(place, sizeof(place), "%s:%d: ", path, cases[i].line);
-        const size_t length = strlen(last_line), end = strlen(cases[i].says);
-        if (strncmp(last_line, place, strlen(place)) != 0 || length < end ||
-            strcmp(last_line + length - end, cases[i].says) != 0)
-            fail_msg("'%s' is told, not '%s...%s'", last_line, place, cases[i].says);
+        const size_t length = strlen(logged), end = strlen(cases[i].says);
+        if (strncmp(logged, place, strlen(place)) != 0 || length < end ||
+            strcmp(logged + length - end, cases[i].says) != 0)
+            fail_msg("'%s' is told, not '%s...%s'", logged, place, cases[i].says);
     }
 }
 

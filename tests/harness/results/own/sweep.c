@@ -13,15 +13,7 @@
 #include "core/techniques/technique.h"
 #include "harness/tables/own/grid.h"
 #include "tests/tools/expect.h"
-
-static char last_line[512];
-
-static void keep_line(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(last_line, sizeof(last_line), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 static void expect_axis(const char *text, const char *name, const char *const *values)
 {
@@ -78,17 +70,17 @@ static void axes_have_limits(void **state)
                  {1, 1, ",3,1..3", ": 3 does not come after 3 and 1"},
                  {1, 1, ",x,2..3", ": a range goes on from a number before it, as in 5,10..40"}};
     struct rg_axis axis;
-    rg_log_listen(keep_line, NULL);
+    rg_log_listen(log_last, NULL);
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         char text[256];
         memset(text, '1', sizeof(text));
         text[cases[i].name] = '=';
         snprintf(text + cases[i].name + 1 + cases[i].value, 32, "%s", cases[i].more);
-        *last_line = 0;
+        *logged = 0;
         assert_int_equal(rg_axis_read("--axis", text, &axis), !cases[i].says);
-        if (cases[i].says && !strstr(last_line, cases[i].says))
-            fail_msg("'%s' is told of '%s'", last_line, text);
-        assert_true(!cases[i].says || strstr(last_line, "--axis 1") == last_line);
+        if (cases[i].says && !strstr(logged, cases[i].says))
+            fail_msg("'%s' is told of '%s'", logged, text);
+        assert_true(!cases[i].says || strstr(logged, "--axis 1") == logged);
     }
     rg_log_listen(NULL, NULL);
 }
@@ -178,12 +170,12 @@ static void a_preset_is_the_first_axis(void **state)
     for (int second = 0; second <= 1; second++) {
         struct rg_grid *grid = grid_of((const char *const[]){
             second ? "zoom=1,2" : "preset=car,storm", second ? "preset=car" : "zoom=1,2", NULL});
-        rg_log_listen(keep_line, NULL);
+        rg_log_listen(log_last, NULL);
         assert_int_equal(rg_grid_make(grid, rg_technique_find("cartoon")), !second);
         rg_log_listen(NULL, NULL);
         free(grid);
     }
-    assert_string_equal(last_line,
+    assert_string_equal(logged,
                         "--axis preset: stands for other parameters; name it before --axis zoom");
 }
 
@@ -201,7 +193,7 @@ static void sets_keep_the_axes(void **state)
         grid_of((const char *const[]){"scene=car", "drops_s=1,2", "seed=7", NULL});
     const struct rg_technique *cartoon = rg_technique_find("cartoon");
     assert_true(rg_grid_make(grid, cartoon));
-    rg_log_listen(keep_line, NULL);
+    rg_log_listen(log_last, NULL);
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         char due[256];
         assert_int_equal(rg_grid_keeps_axes(grid, cartoon, cases[i].sets, 2), !cases[i].axis);
@@ -210,7 +202,7 @@ static void sets_keep_the_axes(void **state)
         snprintf(due, sizeof(due),
                  "--axis %s: --set %s would give all its rows one value; leave one of the two out",
                  cases[i].axis, cases[i].sets[cases[i].by]);
-        assert_string_equal(last_line, due);
+        assert_string_equal(logged, due);
     }
     rg_log_listen(NULL, NULL);
     free(grid);

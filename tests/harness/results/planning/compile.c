@@ -25,6 +25,7 @@
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 
 // --- tables and devices that have only names ---
 
@@ -43,7 +44,7 @@ static const struct rg_devices devices = {.count = 3, .devices = {&named[0], &na
 
 // --- a script that replaces the program ---
 
-static char script[64], told[64], heard[1024];
+static char script[64], told[64];
 
 // Writes a script that logs when it begins and ends, and runs `does` in between.
 static void write_script(const char *does)
@@ -67,14 +68,6 @@ static const char *read_told(void)
     return text;
 }
 
-static void hear(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    const size_t used = strlen(heard);
-    snprintf(heard + used, sizeof(heard) - used, "%s\n", line);
-}
-
 // Compiles on this many cores, with this script, and keeps the log.
 static int compile(int cores, const char *does)
 {
@@ -91,10 +84,10 @@ static int compile(int cores, const char *does)
         skip();
     assert_int_equal(sched_setaffinity(0, sizeof(these), &these), 0);
     write_script(does);
-    *heard = 0;
+    *logged = 0;
     rg_workers.program = script;
     rg_workers.timeout_s = 7;
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_all, NULL);
     const int exit = rg_tables_compile(tables, TABLES, &devices);
     rg_log_listen(NULL, NULL);
     rg_workers.program = NULL;
@@ -111,7 +104,7 @@ static void a_technique_is_opened_once_on_each_driver(void **state)
                         "begin table fast-1 --compile --device opencl --timeout 7\nend\n"
                         "begin table slow-1 --compile --device gl --timeout 7\nend\n"
                         "begin table fast-1 --compile --device gl --timeout 7\nend\n");
-    assert_non_null(strstr(heard, "what 2 techniques draw with is compiled on 2 devices"));
+    assert_non_null(strstr(logged, "what 2 techniques draw with is compiled on 2 devices"));
 }
 
 // Each of the first two waits for the other to begin.
@@ -137,13 +130,13 @@ static void what_fails_is_told(void **state)
                                 "  *fast-1*gl*) exit 77;;\n"
                                 "esac"),
                      RG_EXIT_FAIL);
-    assert_string_equal(heard, "4 openings for drivers to compile, 1 at a time\n"
-                               "opencl: what slow needs is not compiled beforehand: it fell\n");
+    assert_string_equal(logged, "4 openings for drivers to compile, 1 at a time\n"
+                                "opencl: what slow needs is not compiled beforehand: it fell\n");
     assert_int_equal(compile(1, "case \"$*\" in\n"
                                 "  *slow-1*opencl*) echo 'out of memory' >&2; exit 71;;\n"
                                 "esac"),
                      RG_EXIT_HARNESS);
-    assert_string_equal(heard,
+    assert_string_equal(logged,
                         "4 openings for drivers to compile, 1 at a time\n"
                         "opencl: what slow needs is not compiled beforehand: out of memory\n");
     assert_non_null(
@@ -154,9 +147,9 @@ static void a_process_that_cannot_start_is_told(void **state)
 {
     (void)state;
     assert_int_equal(compile(1, ""), RG_EXIT_PASS);
-    *heard = 0;
+    *logged = 0;
     rg_workers.program = "/nonexistent/raingauge";
-    rg_log_listen(hear, NULL);
+    rg_log_listen(log_all, NULL);
     const struct rg_table *const alone[] = {&first, &other};
     const struct rg_devices gl = {.count = 1, .devices = {&named[1]}};
     assert_int_equal(rg_tables_compile(alone, 2, &gl), RG_EXIT_HARNESS);
@@ -169,7 +162,7 @@ static void a_process_that_cannot_start_is_told(void **state)
                  "\ngl: what %s needs is not compiled beforehand: no process could be started for "
                  "it: No such file or directory; ",
                  techniques[i]);
-        assert_non_null(strstr(heard, due));
+        assert_non_null(strstr(logged, due));
     }
 }
 
@@ -179,7 +172,7 @@ static void an_interruption_ends_it(void **state)
     (void)state;
     assert_int_equal(compile(1, "kill -INT $PPID; sleep 300"), RG_EXIT_SIGNALLED + SIGINT);
     assert_string_equal(read_told(), "begin table slow-1 --compile --device opencl --timeout 7\n");
-    assert_string_equal(heard, "4 openings for drivers to compile, 1 at a time\n");
+    assert_string_equal(logged, "4 openings for drivers to compile, 1 at a time\n");
     rg_interrupt_watch();
 }
 
@@ -214,19 +207,20 @@ static void one_cell_is_opened_here(void **state)
     struct rg_device *gl = rig.devices.devices[2];
     struct rg_backend backend = *gl->backend;
     const struct rg_devices alone = {.count = 1, .devices = {gl}};
-    rg_log_listen(hear, NULL);
-    *heard = 0;
+    rg_log_listen(log_all, NULL);
+    *logged = 0;
     assert_int_equal(rg_tables_compile(one, 1, &alone), RG_EXIT_NOTHING);
     assert_int_equal(slow_opened, 0);
-    assert_non_null(strstr(heard, "nothing is compiled"));
+    assert_non_null(strstr(logged, "nothing is compiled"));
     backend.package = "a-driver";
     gl->backend = &backend;
-    *heard = 0;
+    *logged = 0;
     const double start_ms = rg_now_ms(), frame_ms = 2 + 4 + 1.25e-4 * 256 * 128;
     assert_int_equal(rg_tables_compile(one, 1, &alone), RG_EXIT_PASS);
     assert_int_equal(slow_opened, 1);
     assert_near(rg_now_ms() - start_ms, 3 * (10 + 2 * frame_ms), 1e-6);
-    assert_string_equal(heard, "what 1 technique draws with is compiled on 1 device, in 0.091 s\n");
+    assert_string_equal(logged,
+                        "what 1 technique draws with is compiled on 1 device, in 0.091 s\n");
     rig.fakes[2]->waits_left = 0;
     assert_int_not_equal(rg_tables_compile(one, 1, &alone), RG_EXIT_PASS);
     rig.fakes[2]->waits_left = -1;

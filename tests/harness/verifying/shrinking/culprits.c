@@ -17,6 +17,7 @@
 #include "tests/harness/verifying/shrinking/made.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
+#include "tests/tools/process/logged.h"
 
 // --- the kernel, its items and inputs ---
 
@@ -103,17 +104,10 @@ static void a_kernel_is_found_with_what_it_needs(void **state)
     assert_false(culprit.found);
 }
 
-static void ignore(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
 static void a_kernel_that_fails_is_found_too(void **state)
 {
     (void)state;
-    rg_log_listen(ignore, NULL);
+    rg_log_listen(log_last, NULL);
     struct rg_culprit culprit;
     const struct rg_fall fall = {.outcome = RG_CRASH};
     ends = MADE_CRASH;

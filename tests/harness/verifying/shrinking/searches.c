@@ -18,17 +18,7 @@
 #include "tests/harness/verifying/shrinking/made.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
-
-static char told[1024]; // the last line of the log
-static int lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    lines++;
-    snprintf(told, sizeof(told), "%s", line);
-}
+#include "tests/tools/process/logged.h"
 
 // What a search found, and how it ended.
 static struct rg_case found;
@@ -45,9 +35,9 @@ static int search(const char *assignments, int frames, int seconds)
                                               .truth = &made_truth,
                                               .seconds = seconds,
                                               .folder = folder};
-    lines = 0;
-    *told = 0;
-    rg_log_listen(listen, NULL);
+    logged_lines = 0;
+    *logged = 0;
+    rg_log_listen(log_last, NULL);
     const int exit = rg_shrink_case(&request, &found, &blame, &tried);
     rg_log_listen(NULL, NULL);
     assert_int_equal(made_open, 0); // every session was closed
@@ -112,7 +102,7 @@ static void each_part_gets_as_small_as_it_can(void **state)
     assert_string_equal(found.truth, "trusted@B=2");
     assert_non_null(strstr(blame.text, "frame 3, stage rain_step: water[5] is 18.0000019"));
     assert_int_equal(tried, made_takes - 3); // of 1, 2 and 4 frames, before anything was tried
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     rg_case_free(&found);
 }
 
@@ -155,7 +145,7 @@ static void the_difference_stays_the_same(void **state)
     assert_int_equal(search(BEGIN, 5, 1000), RG_EXIT_PASS);
     expect_settings(JAR, 37, 77, 2.5, 3);
     assert_int_equal(found.difference, RG_DIFFERENCE_LAST_BITS);
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     rg_case_free(&found);
 }
 
@@ -174,8 +164,8 @@ static void a_device_that_fails_later_ends_it(void **state)
     made_work = work_of_all;
     made_frame = 3;
     assert_int_equal(search(BEGIN, 5, 1000), RG_EXIT_PASS);
-    assert_string_equal(told, "shrink: kernel 'rain_step': its driver is tired; the least until "
-                              "then is taken");
+    assert_string_equal(logged, "shrink: kernel 'rain_step': its driver is tired; the least until "
+                                "then is taken");
     assert_int_equal(tried, 8); // the eleventh run of the device failed
     assert_int_equal(found.run.frames, 3);
     assert_int_equal(found.run.subject.width, 24);
@@ -233,8 +223,8 @@ static void what_cannot_be_shrunk_is_told(void **state)
     for (int i = 0; i < 4; i++) {
         made_way = cases[i].way;
         assert_int_equal(search("", 2, 1000), cases[i].exit);
-        assert_string_equal(told, cases[i].says);
-        assert_int_equal(lines, 1);
+        assert_string_equal(logged, cases[i].says);
+        assert_int_equal(logged_lines, 1);
         assert_int_equal(tried, 0);
         rg_case_free(&found);
     }
@@ -268,7 +258,7 @@ static void a_failure_is_shrunk(void **state)
     assert_int_equal(found.found, 0);
     assert_string_equal(blame.text, "doubtful: its driver ended its process");
     assert_above(made_renewals, 1); // for each run that failed
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     rg_case_free(&found);
 }
 

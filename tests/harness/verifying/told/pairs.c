@@ -16,6 +16,7 @@
 #include "harness/compare/diff/beside.h"
 #include "harness/compare/diff/report.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/logged.h"
 #include "tests/tools/process/printed.h"
 
 // A comparison whose figures all differ.
@@ -327,17 +328,6 @@ static void a_document_has_what_there_is(void **state)
 
 // --- what files hold besides ---
 
-static char last[512];
-static int lines;
-
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    snprintf(last, sizeof(last), "%s", line);
-    lines++;
-}
-
 static struct rg_picture picture_with(const char *extras, float alpha, bool is_associated)
 {
     struct rg_picture picture;
@@ -353,8 +343,8 @@ static struct rg_picture picture_with(const char *extras, float alpha, bool is_a
 static struct rg_beside find(struct rg_picture a, struct rg_picture b)
 {
     struct rg_beside beside = {0};
-    lines = 0;
-    rg_log_listen(listen, NULL);
+    logged_lines = 0;
+    rg_log_listen(log_last, NULL);
     assert_true(rg_beside_find(&a, "a.png", &b, "b.png", &beside));
     rg_log_listen(NULL, NULL);
     rg_picture_destroy(&a);
@@ -379,7 +369,7 @@ static void differences_are_told_with_both_values(void **state)
                             "what", "view", "a", "v", "b", "none", "what", "profile", "a", "none",
                             "b", "p");
     assert_true(json_equal(json, due));
-    assert_int_equal(lines, 0);
+    assert_int_equal(logged_lines, 0);
     json_decref(json);
     json_decref(due);
     free(beside.items);
@@ -391,15 +381,15 @@ static void what_files_share_is_no_difference(void **state)
     static const char extras[] = "!profile\tp\nname\tx\n!colours\tc\n";
     struct rg_beside beside = find(picture_with(extras, 1, false), picture_with(extras, 1, false));
     assert_int_equal(beside.count, 0);
-    assert_int_equal(lines, 1);
-    assert_string_equal(last, "a.png and b.png: have the same profile, colours, which is not "
-                              "applied: figures of light are those of sRGB's colours");
+    assert_int_equal(logged_lines, 1);
+    assert_string_equal(logged, "a.png and b.png: have the same profile, colours, which is not "
+                                "applied: figures of light are those of sRGB's colours");
     printed_begin();
     rg_beside_print(&beside);
     const char *text = printed_end();
     assert_string_equal(text, "");
     beside = find(picture_with("name\tx\n", 1, false), picture_with("name\tx\n", 1, false));
-    assert_int_equal(beside.count + lines, 0);
+    assert_int_equal(beside.count + logged_lines, 0);
 }
 
 // Colours that were multiplied by alpha look another way, unless the alpha is 1.
