@@ -1,4 +1,4 @@
-// What is told of an atlas beside the database's pictures, from correlations that are made up: the
+// The comparison of an atlas with the database's pictures, from correlations that are made up: the
 // figures of a set, the way that fits best, brightness, and the two printed forms.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -102,7 +102,7 @@ static void brightness_is_that_of_single_lights(void **state)
 
 // --- printed ---
 
-// What is printed, until the next call.
+// Prints a comparison, and returns the text, which stays until the next call.
 static const char *printed(const struct rg_cave_comparison *comparison, bool json)
 {
     const struct rg_atlas atlas = {.hash = 0xabcdef};

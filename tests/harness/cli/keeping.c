@@ -151,7 +151,7 @@ static void a_first_baseline_is_written(void **state)
     assert_int_equal(asked_run(MADE), RG_EXIT_FAIL);
 }
 
-// What raingauge itself lacked is expected of no device.
+// A failure of raingauge itself is expected of no device.
 static void lacks_are_not_kept(void **state)
 {
     (void)state;

@@ -123,7 +123,7 @@ static void a_bar_shows_the_time_left(void **state)
     rg_progress_end(&p);
 }
 
-// Messages stand above the bar, which is drawn again below them; each error once.
+// A message takes the bar's line, and the bar is drawn again below. Each error is printed once.
 static void messages_stand_above_a_bar(void **state)
 {
     (void)state;

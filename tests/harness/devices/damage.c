@@ -327,8 +327,8 @@ static void a_list_has_each_backend_s_devices_in_order(void **state)
     assert_memory_equal(list.missing[last].why, due, strlen(due));
 }
 
-// All devices are opened, each in its backend's worker if it is the first, and those that fail are
-// left out.
+// Each device is opened in a process of its own, the first in its backend's worker. Devices that
+// fail are left out.
 static void all_devices_are_opened_but_those_that_fail(void **state)
 {
     static struct rg_devices devices;

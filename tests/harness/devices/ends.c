@@ -345,7 +345,7 @@ static void it_lives_again_when_it_is_renewed(void **state)
     assert_int_equal(rg_worker_life(*state), life + 1);
 }
 
-// What was open in a life that is over is told as lost, as that life ended.
+// Objects that were open when a process ended are told as lost, with how it ended.
 static void what_was_open_is_lost_with_its_process(void **state)
 {
     int64_t result;

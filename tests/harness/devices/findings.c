@@ -339,8 +339,7 @@ static void what_cannot_be_ends_an_examination(void **state)
     for (int i = 0; i < NO_DAMAGE && damages[i].call <= RG_CALL_CEILINGS; i++) {
         const struct rg_examination e = examined(i);
         if (e.status != RG_ERROR || e.measured || logged_lines != 1 || !strstr(e.why, "is damaged"))
-            fail_msg("damage %d: status %d, %d lines, %s", i, (int)e.status, logged_lines,
-                     e.why);
+            fail_msg("damage %d: status %d, %d lines, %s", i, (int)e.status, logged_lines, e.why);
         assert_int_equal(e.opened, damages[i].call > RG_CALL_OPEN);
         assert_int_equal(e.probed, damages[i].call > RG_CALL_PROBE);
         assert_int_equal(e.drawn, damages[i].call > RG_CALL_DRAWING);

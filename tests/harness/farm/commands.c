@@ -175,7 +175,7 @@ static void what_is_missing_is_printed(void **state)
 
 // --- merges and shards ---
 
-// What is missing is merged only on request, and nothing is nothing.
+// Records with missing cells are merged only on request, and never if all are missing.
 static void merges_are_asked_for(void **state)
 {
     (void)state;

@@ -287,7 +287,7 @@ static void test_damaged(void **state)
     end(&rig);
 }
 
-// What is of something else is refused by name.
+// Records of another plan, commit or format are refused by name, and so are other files.
 static void test_foreign(void **state)
 {
     (void)state;
@@ -371,7 +371,7 @@ static void test_two_keys(void **state)
         snprintf(own, sizeof(own), "%s/%s", rig.out, rig.found.machines[i].key);
         assert_int_equal(count_cells(&rig, own, i), 2 * VARIANTS * (i ? 2 : GROUPS - 1));
         assert_true(rg_stored_read(&stored, own));
-        // What another machine measured is left out, and not missing.
+        // Rows that another machine measured are left out, and do not count as missing.
         assert_int_equal(rg_result_first_missing(&stored.results[0]), ROWS);
         rg_stored_free(&stored);
     }

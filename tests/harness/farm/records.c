@@ -141,7 +141,7 @@ static void append(const char *path, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-// What follows a record makes it no record. Checksums count unless they were computed before.
+// A file with more after its record is no record. Checksums count unless they were computed before.
 static void records_that_were_changed_are_told(void **state)
 {
     (void)state;

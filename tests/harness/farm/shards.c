@@ -208,7 +208,7 @@ static void a_shard_without_groups_is_refused(void **state)
     expect_heard("shard 4 of 4: has none of 3 groups; cut the plan into 3 shards at most");
 }
 
-// What cannot be measured is told, and the other groups are measured.
+// A group that cannot be measured is told, and the others are measured.
 static void a_group_that_is_not_of_this_program(void **state)
 {
     (void)state;

@@ -43,7 +43,7 @@ enum { CELLS_A_NODE = 100 }; // a thousand nodes for 100,000 cells
 #define STRAGGLERS    0.03   // of the nodes, which take twice to four times as long
 #define TWICE         0.01   // of the records, a second time in another folder
 #define CUT           0.002  // of the records, cut in one folder and whole in another
-// What is promised for 100,000 cells, in seconds of a processor.
+// Most seconds of a processor for 100,000 cells, as promised.
 #define PLAN_S      10.0
 #define MERGE_S     60.0
 #define MERGE_BYTES 2e9
@@ -178,7 +178,7 @@ static void run_shards(struct rg_farm_plan *plan, const int *shard_of, int shard
            failures, 100 * lost_s / sum_s, slow, longest_s / mean_s);
 }
 
-// What a shard would write, without the sync that keeps it through a fall of the machine.
+// Writes a record as a shard does, but without the sync, which saves it if the machine falls.
 static void write_record(const struct farm *farm, int64_t group, const char *to, bool is_cut)
 {
     struct rg_result result = measure_group(farm, group, 0);

@@ -26,8 +26,7 @@
 static int begin(void **state)
 {
     *state = fake_open();
-    *logged = 0;
-    logged_lines = 0;
+    log_forget();
     rg_log_listen(log_last, NULL);
     rg_interrupt_watch();
     fake_forget();
@@ -135,7 +134,7 @@ static void a_timeline_has_a_track_for_each_clock(void **state)
     assert_int_equal(logged_lines, 0);
 }
 
-// What the device did until it failed stays; an interruption leaves frames out.
+// Events before a device's failure stay; an interruption leaves frames out.
 static void a_timeline_ends_early(void **state)
 {
     struct fake_device *fake = *state;
@@ -452,7 +451,7 @@ static struct rg_tiers compare(struct fake_device *fake, bool differ, bool has_d
 static void scenes_that_differ_are_compared_first(void **state)
 {
     struct fake_device *fake = *state;
-    // What the scenes differ by is taken from the picture, which is then equal up to rounding.
+    // The picture without the scenes' difference is equal up to rounding.
     const struct rg_tiers rains = compare(fake, true, true, 0.705f);
     assert_true(rains.of[RG_T1].holds);
     assert_int_equal(rains.mask_pixels, SIDE);

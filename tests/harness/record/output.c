@@ -286,8 +286,8 @@ static void what_cannot_be_replaced_is_found_out(void **state)
     assert_int_equal(logged_lines, 2);
 }
 
-// What is no letter, digit, '-' or '.' becomes '_'. A hash follows where others could become the
-// same; a device's ':' needs none.
+// Characters other than letters, digits, '-' and '.' become '_'. A hash follows where others could
+// become the same; a device's ':' needs none.
 static void names_become_parts_of_files_names(void **state)
 {
     (void)state;

@@ -98,7 +98,8 @@ static void pictures_are_kept_to_the_last_code(void **state)
     }
 }
 
-// What has no room is counted, and is no file of the page; what is there already takes none.
+// Pictures without room are counted, and are no files of the page; one that the page has already
+// takes no room.
 static void a_page_has_room_for_so_many(void **state)
 {
     (void)state;

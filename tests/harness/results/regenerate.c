@@ -192,7 +192,7 @@ static void test_no_rain(void **state)
     finish(&rig);
 }
 
-// What the table shows restores what its rows omit, and the truth goes over it; without both, the
+// The table's `shown` sets again what its rows omit, and `truth` is set after it. Without both, the
 // first row has other drops than its truth.
 static void test_shown(void **state)
 {

@@ -183,7 +183,7 @@ static void a_library_is_of_a_processor(void **state)
     assert_false(rg_library_is_foreign("/proc/self/exe"));
     assert_true(rg_library_is_foreign(put_library("a.so", machine, EM_RISCV)));
     assert_true(rg_library_is_foreign(put_library("b.so", EI_CLASS, ELFCLASS32)));
-    // What is no library at all is told by the dynamic linker.
+    // The dynamic linker tells of files that are no libraries.
     assert_false(rg_library_is_foreign(put_library("c.so", EI_MAG0, 'x')));
     unsigned char noise[256];
     memset(noise, 'x', sizeof(noise));

@@ -112,8 +112,8 @@ static void only_sides_have_folders(void **state)
     assert_string_equal(opened_in("toy", 1), "");
     assert_string_equal(opened_in("cpu@A=1", 1), "");
     assert_string_equal(opened_in("toy@MESA_SHADER_CACHE_DIR=/mine", 2), "/mine");
-    // What changes a driver's code, without being in its key, makes all of them sides, unless the
-    // user says where code is kept.
+    // Variables that change a driver's code, and are not in its key, make all of them sides, unless
+    // the user says where code is kept.
     for (int i = 0; i < 4; i++) {
         setenv(changing[i], "1", 1);
         assert_memory_equal(opened_in("toy", 2), "/sides/", 7);

@@ -1,5 +1,5 @@
-// What has changed between two baselines, a line a cell; and what a baseline has to be made of for
-// a gate to be held against it.
+// Changes between two baselines, a line a cell, and the cells that a baseline must have before a
+// gate compares with it.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -191,8 +191,7 @@ static void a_baseline_fits_its_own_cells_and_devices(void **state)
             snprintf(baseline.rows[k].device, RG_DEVICE_NAME_SIZE, "%s", name);
             snprintf(baseline.devices[1].name, RG_DEVICE_NAME_SIZE, "%s", name);
         }
-        logged_lines = 0;
-        *logged = 0;
+        log_forget();
         const bool does = rg_baseline_fits(&baseline, "b.json", &cells, "c.txt", fits[i].devices);
         if (does != !*fits[i].said || logged_lines != !does ||
             strncmp(logged, fits[i].said, strlen(fits[i].said)) != 0)

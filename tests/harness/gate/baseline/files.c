@@ -84,7 +84,7 @@ static void all_comes_back(void **state)
     rg_baseline_free(&made);
 }
 
-// What is in the file, by the names of docs/records.md.
+// The file has the names of docs/records.md.
 static void fields_have_their_names(void **state)
 {
     (void)state;

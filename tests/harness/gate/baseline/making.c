@@ -174,7 +174,8 @@ static bool make(int launches)
 #define TAKEN " T0C T1C T2C T3C Fgl Fvulkan closed"
 #define TIMED TAKEN " open"
 
-// Each launch begins with the next row in every second one, which runs backwards.
+// Launches take the rows forwards and backwards in turn, and each begins one row further on than
+// the last in its direction.
 static void rows_are_taken_then_timed_in_turn(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// What a row of a baseline is filled with, and what is left of it where a session fails. A stand-in
-// is the session.
+// How a session fills a row of a baseline, and which parts stay empty where it fails. A stand-in is
+// the session.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -20,8 +20,7 @@
 
 static bool add(struct rg_known *expected, const char *text, enum rg_known_form form)
 {
-    logged_lines = 0;
-    *logged = 0;
+    log_forget();
     return rg_known_add_text(expected, "my.txt", text, strlen(text), form);
 }
 

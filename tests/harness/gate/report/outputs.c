@@ -24,7 +24,7 @@ static int begin(void **state)
 {
     unsetenv("GITHUB_STEP_SUMMARY");
     rg_log_listen(log_last, NULL);
-    logged_lines = *logged = 0;
+    log_forget();
     return make_folder(state) || chdir(folder);
 }
 
@@ -84,7 +84,7 @@ static void gtest_has_variables(void **state)
 
 // --- which reports ---
 
-// What is written, each with its file.
+// The kinds of output that are written, each with its file.
 static const char *written(const struct rg_gate_outputs *outputs)
 {
     static const char *const names[RG_REPORT_FORM_COUNT] = {
@@ -286,7 +286,7 @@ static bool print(bool updates, bool is_part, const char *meanwhile, const char 
     assert_true(rg_known_add(&known, "second.txt", RG_FORM_OWN));
     if (meanwhile)
         write_text("first.txt", meanwhile);
-    logged_lines = *logged = 0;
+    log_forget();
     printed_begin();
     const bool ok = rg_gate_outputs_print(&outputs, &known, &gate);
     *printed = printed_end();

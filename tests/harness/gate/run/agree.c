@@ -1,5 +1,5 @@
-// What two sides of a cell, or one and its baseline, are compared by, and what is said about a
-// difference. Stand-ins run the cells, so that every result can be made.
+// How two sides of a cell, or one and its baseline, are compared, and how a difference is told.
+// Stand-ins run the cells, so that every result can be made.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

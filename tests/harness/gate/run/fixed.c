@@ -1,4 +1,4 @@
-// What is said about a device's fixed functions, held against a baseline's or another driver's.
+// Cases of a gate for fixed functions, which are compared with a baseline's or another driver's.
 // Stand-ins draw them.
 #include <math.h>
 #include <stdio.h>

@@ -198,7 +198,8 @@ static void nothing_is_known_of_what_did_not_run(void **state)
     rg_gate_cells_free(&cells);
 }
 
-// What one shard did not compare another may have; a shard of googletest is a gate of its own.
+// Another shard may have compared a device that this one did not. A shard of googletest is a gate
+// of its own.
 static void a_shard_leaves_required_devices_to_all_together(void **state)
 {
     (void)state;

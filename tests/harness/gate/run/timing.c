@@ -21,7 +21,7 @@ static struct {
     struct rg_gate_times times;
     struct rg_timed_cell cells[MOST];
 } courses[2];
-// What a course leaves of each row, the rows of the advised course last.
+// The results of a course, by row; the rows of the advised course come last.
 static struct {
     enum rg_course_end end;
     enum rg_outcome outcome;

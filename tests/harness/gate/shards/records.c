@@ -66,7 +66,7 @@ static struct rg_gate_request request_of(int number, int count)
                                     .shard = {number, count}};
 }
 
-// What a cell leaves is known by its place: some fail, one on the other side.
+// A cell's place decides its result: some fail, one of them on the other side.
 static void fill(struct rg_gate_case *c)
 {
     c->is_compared = true;

@@ -43,8 +43,7 @@ static bool is_there(const char *name)
 // Opens the journal of a gate whose key is a number.
 static struct rg_gate_journal *reopen(int key, bool fresh)
 {
-    logged_lines = 0;
-    *logged = 0;
+    log_forget();
     struct rg_gate_journal *journal = rg_gate_journal_open(folder, json_integer(key), fresh);
     assert_non_null(journal);
     return journal;
@@ -177,7 +176,8 @@ static void a_gate_that_is_done_leaves_its_launches(void **state)
     assert_true(rg_gate_journal_close(NULL, true));
 }
 
-// What is saved launch by launch survives a kill; what cannot be written is told of once.
+// Each launch is saved at once, so that it survives a kill. A journal that cannot be written is
+// told once.
 static void each_launch_is_saved(void **state)
 {
     (void)state;

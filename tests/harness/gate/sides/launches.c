@@ -414,7 +414,7 @@ static void a_cell_that_is_over_tells_when_a_look_would_come(void **state)
 
 // --- the journal ---
 
-// What it has is not taken again, and no process is started for it.
+// Launches of the journal are not taken again, and no process is started for them.
 static void launches_of_the_journal_are_not_taken_again(void **state)
 {
     (void)state;

@@ -16,7 +16,7 @@
 
 static const struct rg_backend *honest;
 
-// What is added to values of the first pixels that are black, and how many of those there are.
+// Added to values of the first pixels that are black, and the number of those pixels.
 static struct {
     int codes;    // of 255, in RGBA8's green
     float light;  // in RGBA32F's blue

@@ -13,8 +13,7 @@
 static int begin(void **state)
 {
     (void)state;
-    *logged = 0;
-    logged_lines = 0;
+    log_forget();
     return 0;
 }
 
@@ -168,7 +167,7 @@ static void expect_count(const json_t *row, const char *key, int due)
     assert_int_equal(json_integer_value(json_object_get(row, key)), due);
 }
 
-// A name that goes on as another kernel's does is not that kernel's.
+// A kernel's name may begin with another kernel's whole name, and the two are not confused.
 static void a_kernel_s_name_is_no_beginning(void **state)
 {
     (void)state;

@@ -184,7 +184,7 @@ static void the_key_is_the_device_s(void **state)
     json_decref(device);
 }
 
-// What a device or a machine lacks is told in its place.
+// A line says which part a device or a machine lacks.
 static void what_is_lacking_is_told(void **state)
 {
     (void)state;

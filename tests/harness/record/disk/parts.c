@@ -124,7 +124,7 @@ static void write_text(const char *name, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-// What lacks after reading, as text; "" if nothing does.
+// The shards that are missing after reading, as text; "" if none is.
 static const char *lacking(const char *path, struct rg_parts *parts)
 {
     static char text[256];

@@ -133,7 +133,7 @@ static json_int_t number_in(const json_t *object, const char *group, const char 
     return json_integer_value(json_object_get(json_object_get(object, group), name));
 }
 
-// What the passport says of the machine is what its files say; of the build, what made it.
+// The passport has the machine's parts as rg_machine_read reads them, and those of the build.
 static void passports_describe_this_process(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// What is known of a table before it is measured: the head of its result, the works and variants
-// that it has, and the rows with their settings and print.
+// A table's result before it is measured has a head, the table's works and variants, and the rows
+// with their settings and print.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

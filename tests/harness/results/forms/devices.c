@@ -95,7 +95,7 @@ static void test_inputs(void **state)
     expect_note(&rig.result, "Inputs of dragon: seed 8.");
     expect_note(&rig.result, "Inputs of buddha: seed 7.");
     assert_int_equal(notes_with(&rig.result, "Inputs of"), 5);
-    // What a cell without a number was given is no input of all rows.
+    // Inputs of a cell without a number do not count.
     record_on(&rig, 1, 1)->outcome = RG_FAIL;
     expect_note(&rig.result, "Inputs of every row: seed 7.");
     assert_int_equal(notes_with(&rig.result, "Inputs of"), 1);

@@ -240,7 +240,7 @@ static void groups_follow_each_other(void **state)
 
 // --- what a record gets ---
 
-// What a frame takes after another cell's is not the frame's own.
+// A frame that follows another cell's takes longer, which is not kept as its own time.
 static void a_launch_is_kept_with_its_circumstances(void **state)
 {
     (void)state;

@@ -178,8 +178,8 @@ static void sizes_follow_from_claims(void **state)
     }
 }
 
-// What there is of a table before it is measured. One without works has cells of one kind, and
-// textures have no samples.
+// A table before it is measured. A table without works has cells of one kind, and textures have no
+// samples.
 static void a_table_begins_with_what_it_needs(void **state)
 {
     (void)state;

@@ -169,7 +169,8 @@ static void tables_before_it_are_kept(void **state)
     assert_false(has_journal("slow-1") || has_journal("slow-2"));
 }
 
-// What cannot be written is kept; what is only wrong is not, and a fresh run takes nothing over.
+// Rows that cannot be written are kept. Rows of a table that fails are not, and a fresh run takes
+// none over.
 static void what_cannot_be_printed_is_kept(void **state)
 {
     (void)state;

@@ -114,7 +114,7 @@ static void texels_of_layers_and_levels_are_named(void **state)
     }
 }
 
-// What one alone writes has no contents to compare.
+// An asset that one device alone writes has no contents to compare.
 static void what_one_alone_writes_is_told(void **state)
 {
     (void)state;

@@ -35,8 +35,7 @@ static int search(const char *assignments, int frames, int seconds)
                                               .truth = &made_truth,
                                               .seconds = seconds,
                                               .folder = folder};
-    logged_lines = 0;
-    *logged = 0;
+    log_forget();
     rg_log_listen(log_last, NULL);
     const int exit = rg_shrink_case(&request, &found, &blame, &tried);
     rg_log_listen(NULL, NULL);

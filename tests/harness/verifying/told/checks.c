@@ -113,8 +113,8 @@ static void foreign_bytes_are_replaced(void **state)
     rg_checks_free(&read);
 }
 
-// If some results are of devices, these alone say whether something was proven. Anything that is
-// worse counts, whose it ever is, and so does a status that no row tells.
+// If some results are of devices, these alone say whether something was proven. A worse result
+// counts whatever it is of, and so does a status that no row tells.
 static void devices_decide_the_exit_status(void **state)
 {
     enum { NONE = -1 };

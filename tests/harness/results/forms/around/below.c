@@ -307,7 +307,7 @@ static void notes_tell_how_it_was_measured(void **state)
     }
 }
 
-// What has no room in five lines is said to be elsewhere.
+// Notes that have no room in five lines are said to stand elsewhere.
 static void notes_end_after_five_lines(void **state)
 {
     (void)state;

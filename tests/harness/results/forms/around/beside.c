@@ -252,9 +252,10 @@ static const struct {
               {61, 0, RG_BESIDE_LETTERS, true, false, NO_REF},
               {47, 0, RG_BESIDE_LETTERS, true, true, NO_REF}};
 
-// What is left out of a page that lacks room: intervals, columns from the last, with shorter marks
-// the same again, cpu:reference, and how many times print it is. Cells of cpu have 23 letters with
-// intervals, 16 with texts and 11 with a letter, gl's one or two less; a column has three more.
+// A page that lacks room leaves out intervals, then columns from the last, with shorter marks the
+// same again, then cpu:reference, and then how many times print it is. Cells of cpu have 23 letters
+// with intervals, 16 with texts and 11 with a letter, gl's one or two less; a column has three
+// more.
 static void narrow_pages_have_less(void **state)
 {
     (void)state;

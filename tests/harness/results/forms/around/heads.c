@@ -1,4 +1,4 @@
-// What stands above brief tables: what is compared, by which drivers, and the kind of each table.
+// The lines above brief tables: which things are compared, by which drivers, and each table's kind.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
