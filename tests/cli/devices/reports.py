@@ -57,7 +57,7 @@ def check_name(runner, value):
         told = [line for line in ran.stdout.split("\n") if line.startswith("::")]
         title = [re.sub("%(..)", lambda code: chr(int(code[1], 16)), re.match(r"::warning title=([^:,]*)::", line)[1]) for line in told]
         with open(summary) as file:
-            cells = re.split(r"(?<!\\)(?:\\\\)*\|", file.read().split("\n")[4])
+            cells = re.split(r"(?<!\\)(?:\\\\)*\|", file.read().split("|---|\n")[1].split("\n")[0])
         if title != [name] or unescaped(cells[2]).strip() != name.strip() or re.search("[\x00-\x09\x0b-\x1f\x7f]|^(?!::).*##\\[", ran.stdout, re.M):
             problems.append("%r: GitHub has %r and %r" % (value, told, cells))
         args = ["gate", "cpu", device, "--cells", files.cells, "--pictures"]

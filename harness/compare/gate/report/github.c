@@ -57,30 +57,6 @@ static void put_escaped(FILE *out, const char *text)
         fprintf(out, strchr("\\`*_{}[]<>()#|~&!$", *text) ? "\\%c" : "%c", *text);
 }
 
-static void make_head(FILE *out, const struct rg_report *report, int number)
-{
-    (void)number;
-    char summary[RG_REPORT_SUMMARY];
-    rg_report_summary(report, summary);
-    fprintf(out, "## raingauge gate: %s\n\n", summary);
-    if (rg_report_count(report, RG_ENDING_PASS) < report->case_count)
-        fprintf(out, "| outcome | case | why | measured |\n|---|---|---|---|\n");
-}
-
-static void make_row(FILE *out, const struct rg_report *report, int number)
-{
-    const struct rg_report_case *told = &report->cases[number];
-    if (told->ending == RG_ENDING_PASS)
-        return;
-    fprintf(out, "| %s | ", rg_ending_name(told->ending));
-    put_escaped(out, told->name);
-    fprintf(out, " | ");
-    put_escaped(out, told->message);
-    fprintf(out, " | ");
-    put_escaped(out, told->measured);
-    fprintf(out, " |\n");
-}
-
 // A block's fence must be longer than any run of backquotes in its text.
 static int fence_of(const char *text)
 {
@@ -98,12 +74,41 @@ static void put_block(FILE *out, const char *text)
     const size_t fits = rg_texts_fit(text, LONGEST_DETAILS);
     for (int i = 0; i < fence; i++)
         fputc('`', out);
-    fprintf(out, "text\n%.*s\n", (int)fits, text);
+    const bool ends_line = fits && text[fits - 1] == '\n';
+    fprintf(out, "text\n%.*s%s", (int)fits, text, ends_line ? "" : "\n");
     if (text[fits])
         fprintf(out, "... (%zu bytes more)\n", strlen(text + fits));
     for (int i = 0; i < fence; i++)
         fputc('`', out);
     fprintf(out, "\n");
+}
+
+static void make_head(FILE *out, const struct rg_report *report, int number)
+{
+    (void)number;
+    char summary[RG_REPORT_SUMMARY];
+    rg_report_summary(report, summary);
+    fprintf(out, "## raingauge gate: %s\n\n", summary);
+    if (report->drivers && *report->drivers) {
+        put_block(out, report->drivers);
+        fputc('\n', out);
+    }
+    if (rg_report_count(report, RG_ENDING_PASS) < report->case_count)
+        fprintf(out, "| outcome | case | why | measured |\n|---|---|---|---|\n");
+}
+
+static void make_row(FILE *out, const struct rg_report *report, int number)
+{
+    const struct rg_report_case *told = &report->cases[number];
+    if (told->ending == RG_ENDING_PASS)
+        return;
+    fprintf(out, "| %s | ", rg_ending_name(told->ending));
+    put_escaped(out, told->name);
+    fprintf(out, " | ");
+    put_escaped(out, told->message);
+    fprintf(out, " | ");
+    put_escaped(out, told->measured);
+    fprintf(out, " |\n");
 }
 
 static void make_details(FILE *out, const struct rg_report *report, int number)

@@ -189,6 +189,11 @@ bool rg_report_set_passport(struct rg_report *report, const char *passport)
     return (report->passport = keep_text(report, passport, false)) != NULL;
 }
 
+bool rg_report_set_drivers(struct rg_report *report, const char *drivers)
+{
+    return (report->drivers = keep_text(report, drivers, false)) != NULL;
+}
+
 void rg_report_free(struct rg_report *report)
 {
     for (int i = 0; i < report->text_count; i++)

@@ -85,6 +85,7 @@ struct rg_report {
     int *order;                   // their indices, worst first, equal ones in the order of adding
     int idle_count;               // cases with an expected failure or flake that compared nothing
     const char *passport;         // of the machine, drivers and program, as text of several lines
+    const char *drivers;          // a line for each side's driver and its version; NULL: unknown
     // Owned memory.
     int64_t case_room, order_room, text_room;
     int text_count;
@@ -109,6 +110,7 @@ bool rg_report_add(struct rg_report *report, const struct rg_report_case *found)
 // if it is none.
 bool rg_report_read(struct rg_report *report, const json_t *found);
 bool rg_report_set_passport(struct rg_report *report, const char *passport);
+bool rg_report_set_drivers(struct rg_report *report, const char *drivers);
 void rg_report_free(struct rg_report *report);
 
 // How many cases have this ending.
@@ -148,8 +150,9 @@ bool rg_report_text_coloured(const struct rg_report *report, FILE *out, bool is_
 // GitHub's workflow commands, which become annotations: at most RG_ANNOTATIONS, worst first.
 enum { RG_ANNOTATIONS = 3 };
 bool rg_report_annotations(const struct rg_report *report, FILE *out);
-// Markdown of every case that did not pass, for the file of $GITHUB_STEP_SUMMARY. All commands of a
-// step share the file and its limit, RG_SUMMARY_LIMIT bytes; cases that do not fit are counted.
+// Markdown of the drivers and of every case that did not pass, for the file of
+// $GITHUB_STEP_SUMMARY. All commands of a step share the file and its limit, RG_SUMMARY_LIMIT
+// bytes; cases that do not fit are counted.
 enum { RG_SUMMARY_LIMIT = 1024 * 1024 };
 bool rg_report_markdown(const struct rg_report *report, FILE *out);
 

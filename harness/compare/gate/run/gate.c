@@ -105,7 +105,9 @@ static bool note_sides(struct rg_running_gate *r)
         if (r->asked->baseline)
             compare_key(r, side, out);
     }
-    return (out && fclose(out) == 0) || rg_harness_error("gate: no memory for its devices' lines");
+    if (!out || fclose(out) != 0)
+        return rg_harness_error("gate: no memory for its devices' lines");
+    return rg_report_set_drivers(&r->gate->report, r->gate->note);
 }
 
 // --- the journal ---

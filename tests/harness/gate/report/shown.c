@@ -178,7 +178,7 @@ static void text_breaks_between_words(void **state)
 
 // --- GitHub ---
 
-static void markdown_names_the_pictures(void **state)
+static void markdown_names_drivers_and_pictures(void **state)
 {
     (void)state;
     char path[] = "/tmp/raingauge-summary-XXXXXX", text[1024] = "";
@@ -194,12 +194,14 @@ static void markdown_names_the_pictures(void **state)
     assert_true(made >= 0 && !close(made));
     assert_true(rg_report_add(&report, &c));
     add(&report, "flow.gl", RG_ENDING_IMPROVED, "faster");
+    assert_true(rg_report_set_drivers(&report, "A  gl: Mesa 22\nB  gl: Mesa 25\n"));
     assert_true(rg_report_append(&report, &rg_report_forms[RG_AS_SUMMARY], path));
     FILE *file = fopen(path, "r");
     assert_non_null(file);
     text[fread(text, 1, sizeof(text) - 1, file)] = 0;
     fclose(file);
     assert_string_equal(text, "## raingauge gate: 2 cases, 1 differs, 1 improved\n\n"
+                              "```text\nA  gl: Mesa 22\nB  gl: Mesa 25\n```\n\n"
                               "| outcome | case | why | measured |\n|---|---|---|---|\n"
                               "| differs | rain.gl | it differs |  |\n"
                               "| improved | flow.gl | faster |  |\n"
@@ -323,7 +325,7 @@ int main(void)
         cmocka_unit_test(a_summary_counts_each_ending_worst_first),
         cmocka_unit_test(a_measure_is_told_as_far_as_it_is_known),
         cmocka_unit_test(text_breaks_between_words),
-        cmocka_unit_test(markdown_names_the_pictures),
+        cmocka_unit_test(markdown_names_drivers_and_pictures),
         cmocka_unit_test(a_summary_of_what_passed_is_one_line),
         cmocka_unit_test(a_case_is_read_as_it_was_written),
         cmocka_unit_test(a_runner_is_told_what_was_measured),

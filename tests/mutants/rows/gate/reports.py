@@ -83,6 +83,7 @@ ROWS = [
     Fault(TEXT, "const int from = «fprintf(out, \"  | %s\", about)»;", "(fprintf(out, \"  | %s\", about), 0)", "a first line is longer than others", tests=SHOWN),
     Fault(GITHUB, "        put_escaped(out, «told->attachments[i]»);", "told->attachments[0]", "a summary names the first picture several times", tests=SHOWN),
     Fault(GITHUB, "if (told->ending == RG_ENDING_PASS || (!*told->details && «!told->attachment_count»))", "true", "a summary names no picture of what has no details", tests=SHOWN),
+    Fault(GITHUB, "    if («report->drivers && *report->drivers») {", "false", "a summary does not say which drivers it compares", tests=SHOWN),
     Fault(GITHUB, "    fprintf(out, \"| %s | \", «rg_ending_name(told->ending)»);", "rg_ending_name(report->cases[0].ending)", "each row of a summary ends as the first", tests=SHOWN),
     Fault(GITHUB, "    if («rg_report_count(report, RG_ENDING_PASS) < report->case_count»)\n", "true", "a summary of what passed has an empty table", tests=SHOWN),
     Fault(GITHUB, "ending == RG_ENDING_INCONCLUSIVE || «ending == RG_ENDING_FLAKE» ?", "false", "a flake is not annotated", tests=("reports, forms",)),
