@@ -5,9 +5,9 @@
 # take too long for every change; `make mutants` tries the tests themselves, with faults, and `make gate-selftest` the gate, with
 # builds that are the same and that are slower; `make claims` decides what papers claim, in a night, and
 # `make claims-selftest` tries that on cells whose truth is known; `make lint` has tools look for faults in the sources;
-# `make deb` builds a Debian package.
+# `make deb` builds Debian packages, and `make image` of these an image for containers (VARIANT=small: without PoCL and OpenImageIO).
 .POSIX:
-.PHONY: all setup build whole look tables committed results claims test thorough test-farm mutants gate-selftest claims-selftest lint deb clean format
+.PHONY: all setup build whole look tables committed results claims test thorough test-farm mutants gate-selftest claims-selftest lint deb image clean format
 
 BUILD = build
 ASAN = build-asan
@@ -204,6 +204,15 @@ deb:
 	@$(STEPS) $(BUILD)/deb/build.log sh -c 'cd $(BUILD)/deb/raingauge && dpkg-buildpackage -b -us -uc -j$(JOBS)'
 	@lintian --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs $(BUILD)/deb/*.changes
 	@ls $(BUILD)/deb/*.deb
+
+# Of the packages that `make deb` left, without Docker; it needs mmdebstrap and network.
+VARIANT = full
+IMAGE = $(BUILD)/raingauge-$(VARIANT).tar
+image:
+	@test -e $(BUILD)/deb/raingauge-oiio_*.deb || $(MAKE) --no-print-directory deb
+	@echo "== making an image for containers, some minutes"
+	@python3 docs/ci/image/make.py $(VARIANT) --debs $(BUILD)/deb -o $(IMAGE) 2>$(BUILD)/image.log || \
+	  { tail -n 30 $(BUILD)/image.log; exit 1; }
 
 format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

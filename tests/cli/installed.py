@@ -28,6 +28,11 @@ def install(runner, folder):
     return options, [] if done.returncode == 0 else [done.stdout]
 
 
+def files_below(folder):
+    """All files of a folder and of those in it, as the folder names them."""
+    return [os.path.relpath(os.path.join(path, name), folder) for path, _, names in os.walk(folder) for name in names]
+
+
 def check_install(runner):
     """meson install puts program, importer, module, manual page and completion in place, and the program draws a mesh"""
     with tempfile.TemporaryDirectory() as folder:
@@ -36,13 +41,13 @@ def check_install(runner):
             ("bindir", "raingauge"), ("libdir", "raingauge/raingauge_importer"),
             ("libdir", "raingauge/raingauge_picture_reader"), ("libdir", "raingauge/raingauge_oiio.so"),
             ("mandir", "man1/raingauge.1"), ("datadir", "bash-completion/completions/raingauge"))}
-        data = {"raingauge/" + name: "results/" + name for name in ("baseline.json", "expectations.txt")}
+        data = {"raingauge/" + os.path.basename(source): source for source in ("results/baseline.json", "results/expectations.txt", "docs/ci/cells.txt")}
         for to, source in (("raingauge/tables", "results/tables"), ("raingauge/published", "results/published"),
                            ("doc/raingauge/examples/ci", "docs/ci")):
-            data.update({os.path.join(to, name): os.path.join(source, name) for name in os.listdir(os.path.join(ROOT, source))})
+            data.update({os.path.join(to, name): os.path.join(source, name) for name in files_below(os.path.join(ROOT, source))})
         places |= {os.path.join(options["datadir"], name) for name in data}
         prefix = folder + options["prefix"]
-        found = {os.path.relpath(os.path.join(path, name), prefix) for path, _, names in os.walk(folder) for name in names}
+        found = {os.path.relpath(os.path.join(folder, name), prefix) for name in files_below(folder)}
         if found != places:
             problems.append("installed: %s, not %s" % (sorted(found), sorted(places)))
         problems += ["%s: %s" % (name, line) for name in ("raingauge/raingauge_importer", "raingauge/raingauge_oiio.so")

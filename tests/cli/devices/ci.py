@@ -9,6 +9,7 @@ import xml.etree.ElementTree
 
 import bisecting
 import runners
+import services
 from gates import QUICK, SCHEMA, TORUS, Files
 from wrong import RIGHT, TURNED
 
@@ -17,8 +18,11 @@ THIRD = TORUS.replace("raster/torus", "raster/third")
 KNOWN = os.path.join(runners.TESTS, os.pardir, "results", "expectations.txt")
 
 
-FOLDER = "gate-results"  # used in the examples
-TIMES, PAGE = FOLDER + "/launches.csv", FOLDER + "/page.html"
+# What the examples take for files that a project lacks, and where the cells are from.
+DEFAULTS = ("docs/ci/cells.txt", "results/expectations.txt", "results/baseline.json")
+BUILT_IN = "harness/compare/gate/cells/cells.txt"
+# Files in the folder that the examples keep.
+JUNIT, METRICS, TIMES, PAGE = "gate/gate.xml", "gate/gate.json", "gate/drivers/launches.csv", "gate/drivers/page.html"
 
 
 def undecided(service, runner, folder):
@@ -53,50 +57,88 @@ def ends_in_xml(path):
 
 
 def check_gitlab(runner):
-    """docs/ci/gitlab-ci.yml: an open verdict is a warning, a crash fails, and the named report is JUnit's"""
+    """docs/ci/gitlab-ci.yml: an open verdict is a warning, a crash fails, the named report is JUnit's, and the log ends with the page"""
     problems = []
     for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES, PAGE]), (runner.crasher, "failed", ["error"], [PAGE]),
                                     ("/nonexistent", "failed", ["error"], [PAGE])):  # a device that --require misses
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
-            found, log, kept, junit = undecided(runners.gitlab, runner, folder)
+            found, log, kept, last = undecided(runners.gitlab, runner, folder)
+            junit = os.path.join(folder, JUNIT)
             problems += lint(junit)
-            if (found, ends_in_xml(junit)) != (status, ends) or kept != ["gate.xml"] + more or ("is not there" in log) != (new == "/nonexistent"):
-                problems.append("%s: %s, %s, %s" % (new, found, kept, log))
+            if (found, ends_in_xml(junit)) != (status, ends) or kept != sorted([JUNIT] + more) or ("is not there" in log) != (new == "/nonexistent") or (
+                    last != "The page: %s/artifacts/browse/gate/\n" % services.URL):
+                problems.append("%s: %s, %s, %s%s" % (new, found, kept, log, last))
     return problems
 
 
 def check_gitlab_shards(runner):
     """docs/ci/gitlab-shards.yml: four jobs report as one, whether the driver works, crashes or is missing, and a job that is lost fails"""
     problems = []
-    for new, lost, status, says in ((runner.misbehaver, (), 0, "4 cases, 4 pass"), (runner.crasher, (), 1, "4 cases, 3 crash, 1 unsupported"), ("/nonexistent", (), 1, "1 case, 1 error"),
-                                    (runner.misbehaver, (2,), 3, "of 4 shards are missing: 2;")):
+    for new, lost, status, says in ((runner.misbehaver, (), "success", "4 cases, 4 pass"), (runner.crasher, (), "failed", "4 cases, 3 crash, 1 unsupported"),
+                                    ("/nonexistent", (), "failed", "1 case, 1 error"), (runner.misbehaver, (2,), "failed", "of 4 shards are missing: 2;")):
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
             bisecting.write(folder, "cells.txt", QUICK + THIRD)
             found, log, kept = runners.gitlab_shards(runner, folder, lost)
-            if found != status or says not in log or kept != (["gate-results"] if lost else ["gate.xml", "gate-results"]):
+            if found != status or says not in log or (JUNIT in kept) == bool(lost) or not any(name.startswith("gate/drivers/") for name in kept):
                 problems.append("%s: %s, %s, %s" % (new, found, kept, log))
             elif not lost:
-                problems += lint(os.path.join(folder, "gate.xml"))
+                problems += lint(os.path.join(folder, JUNIT))
     return problems
 
 
 def check_github(runner):
-    """docs/ci/github.yml: annotations, a summary and files for the upload, whether the gate passes or not"""
+    """docs/ci/github.yml: annotations, a summary with drivers and a link, and files for the upload, whether the gate passes or not"""
     problems = []
-    for new, status, command, head, more in ((runner.misbehaver, "success", ["warning", "notice"], "2 cases, (1 inconclusive, 1 pass|2 inconclusive)", [FOLDER]),
-                                             (runner.crasher, "failure", ["error"], "2 cases, 1 crash, 1 unsupported", [FOLDER]),
-                                             ("/nonexistent", "failure", ["error"], "1 case, 1 error", [FOLDER])):
+    for new, status, command, head in ((runner.misbehaver, "success", ["notice", "warning"], "2 cases, (1 inconclusive, 1 pass|2 inconclusive)\n\n```text\nA  .*\nB  .*"),
+                                       (runner.crasher, "failure", ["error"], "2 cases, 1 crash, 1 unsupported\n\n```text\nA  .*"),
+                                       ("/nonexistent", "failure", ["error"], "1 case, 1 error\n")):
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
+            runner.run(["baseline", "--pictures", "--device", "vulkan", "--cells", os.path.join(folder, "cells.txt"), "-o", os.path.join(folder, "baseline.json")])
             found, log, summary, uploaded = undecided(runners.github, runner, folder)
             missing = [row[2] for row in runners.annotations(log) if "--require vulkan: 'vulkan@" in row[2] and "is not there" in row[2]]
-            told = [row[0] for row in runners.annotations(log) if not row[1].startswith("fixed.")]
+            told = sorted({row[0] for row in runners.annotations(log) if not row[1].startswith("fixed.")})  # of both gates
             if found != status or told != command or not re.match("## raingauge gate: %s\n" % head, summary) or (
-                    uploaded != ["gate.xml", "gate.json"] + more or len(missing) != (new == "/nonexistent")):
+                    summary.count("## raingauge gate: ") != 2 or not {JUNIT, METRICS, PAGE, "gate/baseline.xml"} <= set(uploaded) or len(missing) != (new == "/nonexistent") or "](%s)\n" % services.URL not in summary):
                 problems.append("%s: %s, %s, %s, %s" % (new, found, uploaded, log, summary))
     return problems
+
+
+def check_own_files(runner):
+    """a project without cells, expectations and baseline is gated by the package's"""
+    problems = []
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as defaults:
+        bisecting.write_build(folder, "new/icd.json", runner.misbehaver)
+        for path in DEFAULTS:
+            shutil.copy(os.path.join(runners.TESTS, os.pardir, path), defaults)
+        found, log, kept, _ = runners.gitlab(runner, folder, "raingauge-baseline", DEFAULTS=defaults)
+        if found != "success" or "flow/pane.vulkan" not in log or kept != [JUNIT]:
+            problems.append("%s, %s, %s" % (found, kept, log))
+    return problems
+
+
+def check_words(runner):
+    """the examples use only options that raingauge has, and files that it installs, whose cells are built in"""
+    problems = []
+    for name in ("github.yml", "gitlab-ci.yml", "gitlab-shards.yml"):
+        with open(os.path.join(runners.EXAMPLES, name)) as file:
+            text = file.read()
+        commands = re.findall(r"raingauge ([a-z]+) ((?:.*\\\n|.*\n +--)*.*)", text)
+        problems += [] if commands else [name + ": has no command of raingauge"]
+        for command, rest in commands:
+            usage = runner.run([command, "--help"]).stdout
+            options = re.findall(r"(?<= )--[a-z]+", " " + rest)
+            problems += ["%s: %s has no %s" % (name, command, option) for option in options if not re.search(option + r"\b", usage)]
+            problems += [] if options else ["%s: %s without options" % (name, command)]
+        files = set(re.findall(r"\$DEFAULTS/(\S+)", text))
+        if not files or not files <= {os.path.basename(path) for path in DEFAULTS}:
+            problems.append("%s: takes %s, of %s" % (name, sorted(files), DEFAULTS))
+    with open(os.path.join(runners.TESTS, os.pardir, DEFAULTS[0])) as file, open(os.path.join(runners.TESTS, os.pardir, BUILT_IN)) as known:
+        lines, known = file.read().splitlines(), known.read().splitlines()
+    cells = [line for line in lines if not line.startswith("#")]
+    return problems + ["%s: is not in %s" % (line, BUILT_IN) for line in cells if line not in known] + ([] if len(cells) > 1 else ["too few cells"])
 
 
 def check_deqp_runner(runner):
@@ -230,4 +272,4 @@ def check_shards(runner):
     return problems
 
 
-CHECKS = [check_gitlab, check_gitlab_shards, check_github, check_deqp_runner, check_meson, check_pictures, check_gtest_flags, check_shards]
+CHECKS = [check_words, check_own_files, check_gitlab, check_gitlab_shards, check_github, check_deqp_runner, check_meson, check_pictures, check_gtest_flags, check_shards]

@@ -1,14 +1,15 @@
 """Programs that run gates in CI, as far as they are available: how GitLab's and GitHub's runners and deqp-runner treat docs/ci."""
 import csv
-import glob
 import os
 import re
 import subprocess
-
-import yaml  # the Debian package python3-yaml
+import sys
 
 TESTS = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 EXAMPLES = os.path.join(TESTS, os.pardir, "docs", "ci")
+sys.path.insert(1, os.path.join(TESTS, "tools", "systems"))
+
+import services
 
 
 def environment(runner, folder, variables):
@@ -17,62 +18,42 @@ def environment(runner, folder, variables):
     return runner.variables({"PATH": path, "HOME": folder, "CI": "true", **variables})
 
 
-def read(name):
-    with open(os.path.join(EXAMPLES, name)) as file:
-        return yaml.safe_load(file)
+class Place:
+    """A project's folder, in which a service runs the steps of an example by the programs of this machine."""
+
+    def __init__(self, runner, folder):
+        self.runner, self.project, self.temporary = runner, folder, folder
+
+    def at(self, path):
+        return path
+
+    def check_out(self):
+        pass
+
+    def run(self, script, variables):
+        ran = subprocess.run([*services.BASH, "-c", script], cwd=self.project, capture_output=True, text=True, timeout=240,
+                             env=environment(self.runner, self.project, variables), check=False)
+        return ran.returncode, ran.stdout + ran.stderr
 
 
-# --- GitLab ---
-
-
-def gitlab(runner, folder, **variables):
-    """Runs the job of gitlab-ci.yml: its status as GitLab shows it, its log, the files that it keeps, and the JUnit report."""
-    job = read("gitlab-ci.yml")["raingauge"]
-    ran = subprocess.run(["bash", "-eo", "pipefail", "-c", "\n".join(job["script"])], cwd=folder, capture_output=True, text=True, timeout=240,
-                         env=environment(runner, folder, {**job["variables"], "CI_PROJECT_DIR": folder, **variables}), check=False)
-    status = "success" if ran.returncode == 0 else "warning" if ran.returncode in job["allow_failure"]["exit_codes"] else "failed"
-    kept = [os.path.relpath(path, folder) for root in job["artifacts"]["paths"]
-            for path in [os.path.join(folder, root)] + glob.glob(os.path.join(folder, root, "**"), recursive=True) if os.path.isfile(path)]
-    return status, ran.stdout + ran.stderr, kept, os.path.join(folder, job["artifacts"]["reports"]["junit"])
+def gitlab(runner, folder, name="raingauge", example="gitlab-ci.yml", **variables):
+    """Runs a job of an example: its status as GitLab shows it, its log, the files that it keeps, what it says last."""
+    ended = services.gitlab(os.path.join(EXAMPLES, example), name, Place(runner, folder), variables)
+    return ended.status, ended.log, ended.kept, ended.summary
 
 
 def gitlab_shards(runner, folder, lost=()):
-    """Runs the jobs of gitlab-shards.yml but those that are lost, then the report: its exit status, its log, the files that it keeps."""
-    jobs = read("gitlab-shards.yml")
-    for number in range(1, jobs["raingauge"]["parallel"] + 1):
-        node = {"CI_NODE_INDEX": str(number), "CI_NODE_TOTAL": str(jobs["raingauge"]["parallel"])}
+    """Runs the jobs of gitlab-shards.yml but those that are lost, then the report: its status, its log, the files that it keeps."""
+    count = services.read(os.path.join(EXAMPLES, "gitlab-shards.yml"))["raingauge"]["parallel"]
+    for number in range(1, count + 1):
         if number not in lost:
-            subprocess.run(["bash", "-eo", "pipefail", "-c", "\n".join(jobs["raingauge"]["script"])], cwd=folder, capture_output=True, timeout=240,
-                           env=environment(runner, folder, {**jobs["raingauge"]["variables"], **node}), check=False)
-    ran = subprocess.run(["bash", "-eo", "pipefail", "-c", "\n".join(jobs["report"]["script"])], cwd=folder, capture_output=True, text=True, timeout=240,
-                         env=environment(runner, folder, {}), check=False)
-    return ran.returncode, ran.stdout + ran.stderr, [name for name in jobs["report"]["artifacts"]["paths"] if os.path.exists(os.path.join(folder, name))]
-
-
-# --- GitHub ---
+            gitlab(runner, folder, "raingauge", "gitlab-shards.yml", CI_NODE_INDEX=str(number), CI_NODE_TOTAL=str(count))
+    return gitlab(runner, folder, "report", "gitlab-shards.yml")[:3]
 
 
 def github(runner, folder, **variables):
-    """Runs the command steps of github.yml: the status, the log, the summary, and the files for the upload."""
-    job = read("github.yml")["jobs"]["gate"]
-    summary = os.path.join(folder, "summary.md")
-    env = environment(runner, folder, {**job["env"], "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": summary, **variables})
-    status, log, uploaded = "success", "", []
-    for step in job["steps"]:
-        if "run" in step and status == "success":
-            script = os.path.join(folder, "step.sh")
-            with open(script, "w") as file:
-                file.write(step["run"])
-            ran = subprocess.run(["bash", "--noprofile", "--norc", "-eo", "pipefail", script], cwd=folder, env=env, capture_output=True,
-                                 text=True, timeout=240, check=False)
-            log += ran.stdout + ran.stderr
-            status = "success" if ran.returncode == 0 else "failure"
-        elif step.get("uses", "").startswith("actions/upload-artifact") and (status == "success" or step.get("if") == "always()"):
-            uploaded += [name for name in step["with"]["path"].split() if os.path.exists(os.path.join(folder, name))]
-    if not os.path.exists(summary):
-        return status, log, "", uploaded
-    with open(summary) as file:
-        return status, log, file.read(), uploaded
+    """Runs the steps of github.yml: the status, the log, the summary, and the files for the upload."""
+    return services.github(os.path.join(EXAMPLES, "github.yml"), Place(runner, folder), {}, variables)
 
 
 def annotations(log):

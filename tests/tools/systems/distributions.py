@@ -14,7 +14,10 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.dont_write_bytecode = True
+from system import System, Way, lacks
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 DEBIANS = ("bookworm", "trixie", "forky")
 COMPILERS = {"gcc": ("gcc", "g++"), "clang": ("clang", "clang++")}
 BINDING = ("bookworm", "trixie")
@@ -39,35 +42,19 @@ def steps(program, build, jobs):
     ]
 
 
-class System:
-    """One Debian in a folder."""
+class Distribution(System):
+    """One Debian with a compiler, and the sources in it."""
 
     def __init__(self, debian, folder, options):
-        self.debian, self.root, self.log, self.options = debian, folder / debian, folder / (debian + ".log"), options
+        super().__init__(debian, folder)
+        self.options = options
 
-    def say(self, text):
-        print(f"{self.debian}: {text}", flush=True)
-
-    def make(self):
+    def prepare(self):
         if (self.root / "usr/bin/ninja").exists():
             return True
         self.say("fetching packages")
-        command = ["mmdebstrap", "--variant=apt", "--include=" + ",".join(packages()), "--dpkgopt=path-include=/usr/share/doc/libcgal-dev/*"]
-        with open(self.log, "a") as log:
-            done = subprocess.run(command + ["--aptopt=" + option for option in self.options.apt] + [self.debian, str(self.root), self.options.mirror],
-                                  stdout=log, stderr=log, check=False)
-        return done.returncode == 0
-
-    def within(self, command, compiler="gcc"):
-        """Runs a command in the sources of the system, in namespaces of its own so that nothing stays mounted. Whether it ended with 0."""
-        cc, cxx = COMPILERS[compiler]
-        # PoCL asks /sys for the processors. The shell is process 1, and reaps processes as an init does.
-        inner = 'mount -t proc proc "$0/proc" && mount --rbind /sys "$0/sys" && mount --rbind /dev "$0/dev" && chroot "$0" sh -c \'cd /raingauge && exec "$@"\' sh "$@"; exit $?'
-        variables = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LANG": "C.UTF-8", "CC": cc, "CXX": cxx}
-        with open(self.log, "a") as log:
-            print("+", *command, file=log, flush=True)
-            return subprocess.run(["unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-c", inner, str(self.root)] + command,
-                                  stdout=log, stderr=log, env=variables, check=False).returncode == 0
+        return self.make(self.name, packages(), "--dpkgopt=path-include=/usr/share/doc/libcgal-dev/*",
+                         *("--aptopt=" + option for option in self.options.apt), mirror=self.options.mirror)
 
     def bring_sources(self):
         """The tree's commit: what is not committed is left out. Builds that are there go on."""
@@ -80,11 +67,13 @@ class System:
     def try_compiler(self, compiler):
         """The name of the first step that failed; None if all passed."""
         build = "build-" + compiler
+        cc, cxx = COMPILERS[compiler]
+        way = Way("/raingauge", {"CC": cc, "CXX": cxx})
         program = build + "/harness/raingauge"
         setup = ("setup", ["meson", "setup", build, "-Dlevels=" + self.options.levels])
         for name, command in [setup] + steps(program, build, str(self.options.jobs)):
             self.say(f"{compiler}, {name}")
-            if not self.within(command, compiler):
+            if not self.within(command, way):
                 self.say(f"{compiler}, {name} FAILS; {self.log} has what it said")
                 return name
         return None
@@ -92,8 +81,8 @@ class System:
 
 def try_debian(debian, compilers, folder, options):
     """By compiler: the step that failed, or None."""
-    system = System(debian, folder, options)
-    if not system.make():
+    system = Distribution(debian, folder, options)
+    if not system.prepare():
         system.say(f"no system; {system.log} says why")
         return {compiler: "packages" for compiler in compilers}
     system.bring_sources()
@@ -121,8 +110,8 @@ def main():
     parser.add_argument("--apt", action="append", default=[], metavar="OPTION", help="for apt, as 'Acquire::Check-Valid-Until \"false\"'")
     options = parser.parse_args()
     wanted = chosen(options.what)
-    if os.geteuid() or not shutil.which("mmdebstrap"):
-        sys.exit("distributions.py: needs root, and the package mmdebstrap")
+    if lacks():
+        sys.exit("distributions.py: " + lacks())
     folder = pathlib.Path(options.folder or tempfile.mkdtemp(prefix="distributions-"))
     folder.mkdir(exist_ok=True)
     found = {}

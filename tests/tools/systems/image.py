@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+"""Makes the image for containers and tries it without Docker, and CI as copied: image.py [--in FOLDER], as root, with network.
+
+    sizes      each variant of docs/ci/image is made, of the packages that `make deb` left, and no larger than it may be
+    contained  the image as a container runs it: any user, a read-only root file system, no network, no /dev/dri. Its devices are well,
+               the first picture comes within 60 s, and the first gate within 90 s
+    services   docs/ci's files for GitHub and GitLab, unedited, in a clean copy of the image, and in a bare Debian 12 that installs the
+               package; with a good new driver and with a broken one; and without one of the steps, which has to fail
+
+Prints a line for each step, and ends with 1 if one failed. It takes half an hour. --in keeps images and systems, and uses those there.
+"""
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+import time
+
+sys.dont_write_bytecode = True
+import services
+from system import System, Way, lacks
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+RECIPE, GITHUB, GITLAB = ROOT / "docs/ci/image/make.py", ROOT / "docs/ci/github.yml", ROOT / "docs/ci/gitlab-ci.yml"
+LAVAPIPE = "usr/lib/*/libvulkan_lvp.so"
+# What a container's command does, the status that it ends with, the words that it prints, and the seconds that it may take.
+CONTAINED = {
+    "full": [(["raingauge", "doctor"], "5 of 5 devices are well", 60), (["raingauge", "render", "flow", "-o", "/tmp/flow.tif"], "/tmp/flow.tif: flow", 60),
+             (["raingauge", "gate", "cpu", "vulkan", "--pictures"], "6 cases, 6 pass", 90)],
+    "small": [(["raingauge", "doctor"], "4 of 4 devices are well", 60), (["raingauge", "render", "flow", "-o", "/tmp/flow.png"], "/tmp/flow.png: flow", 60),
+              (["raingauge", "gate", "cpu", "vulkan", "--pictures"], "6 cases, 6 pass", 90)],
+}
+
+
+class Tried:
+    """Steps and whether they passed."""
+
+    def __init__(self):
+        self.failed = 0
+
+    def tell(self, name, is_good, about=""):
+        self.failed += not is_good
+        print(f"{'pass' if is_good else 'FAIL'}  {name}" + (f": {about}" if about else ""), flush=True)
+
+
+# --- the image ---
+
+
+def make_image(variant, folder, options):
+    """Whether it could be made, as small as it may be."""
+    image = folder / (variant + ".tar")
+    if image.exists():
+        return True
+    command = [sys.executable, str(RECIPE), variant, "--debs", str(options.debs), "-o", str(image)] + ["--apt=" + option for option in options.apt]
+    with open(folder / (variant + "-image.log"), "w") as log:
+        return subprocess.run(command, stdout=log, stderr=log, check=False).returncode == 0
+
+
+def blob(tar, words):
+    return tar.extractfile("blobs/" + words["digest"].replace(":", "/"))
+
+
+def unpack(variant, folder):
+    """A system of the image's layer, and the image's settings, as a container engine finds them in the archive."""
+    system = System(variant, folder)
+    with tarfile.open(folder / (variant + ".tar")) as tar:
+        manifest = json.load(blob(tar, json.load(tar.extractfile("index.json"))["manifests"][0]))
+        config = json.load(blob(tar, manifest["config"]))["config"]
+        if not system.root.exists():
+            layer = folder / (variant + "-layer.tar.gz")
+            with open(layer, "wb") as file:
+                shutil.copyfileobj(blob(tar, manifest["layers"][0]), file)
+            system.unpack(layer)
+            layer.unlink()
+    return system, config
+
+
+def try_contained(system, config, tried):
+    """The image's commands, each in a container of its own."""
+    variables = dict(line.split("=", 1) for line in config["Env"])
+    way = Way("/", {**variables, "HOME": "/nonexistent"}, is_contained=True, has_network=False, is_user=True, temporary=("/tmp",))
+    for command, says, most_s in CONTAINED[system.name]:
+        begin = time.monotonic()
+        ran = system.run(command, way, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        took_s = time.monotonic() - begin
+        is_good = ran.returncode == 0 and says in ran.stdout and took_s <= most_s
+        tried.tell(f"{system.name}, contained, {' '.join(command)}", is_good, f"{took_s:.0f} s of {most_s} s" + ("" if is_good else "\n" + ran.stdout))
+    tried.tell(f"{system.name}: its own command", config["Cmd"] == CONTAINED[system.name][0][0])
+    written = system.run(["sh", "-c", "touch /written /usr/written || ! test -e /dev/dri"], way, stderr=subprocess.PIPE).returncode
+    tried.tell(f"{system.name}: nothing can be written", not written and not (system.root / "written").exists())
+
+
+# --- services ---
+
+
+class Place:
+    """A clean copy of a system in which a service runs its steps, as services.py needs it."""
+
+    def __init__(self, system, project, folder):
+        self.system, self.origin, self.folder = system, project, folder
+        self.project, self.temporary = folder / "w/project", folder / "w/temporary"
+        self.project.mkdir(parents=True)
+        self.temporary.mkdir()
+
+    def at(self, path):
+        return "/__w/" + str(pathlib.Path(path).relative_to(self.folder / "w"))
+
+    def check_out(self):
+        subprocess.run(["git", "clone", "--quiet", str(self.origin), str(self.project)], check=True)
+
+    def run(self, script, variables):
+        way = Way(self.at(self.project), variables, binds={"/__w": self.folder / "w", "/etc/resolv.conf": "/etc/resolv.conf"}, layer=self.folder / "layer")
+        ran = self.system.run([*services.BASH, "-c", script], way, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        return ran.returncode, ran.stdout
+
+
+def make_project(folder, driver, is_broken, debs):
+    """A repository of a driver with what the examples say, and nothing more: both builds, and the package where no image has it."""
+    for build in ("old", "new"):
+        (folder / build).mkdir(parents=True)
+        (folder / build / "icd.json").write_text(json.dumps({"file_format_version": "1.0.0", "ICD": {"library_path": "./driver.so", "api_version": "1.1.0"}}))
+        shutil.copy(driver, folder / build / "driver.so")
+    if is_broken:
+        (folder / "new/driver.so").write_text("no library\n")
+    for deb in debs:
+        shutil.copy(deb, folder)
+    git = ["git", "-C", str(folder), "-c", "user.name=n", "-c", "user.email=e"]
+    for command in (["init", "-q"], ["add", "."], ["commit", "-q", "-m", "both builds"]):
+        subprocess.run(git + command, check=True)
+
+
+def try_github(system, project, variables, given, is_broken, folder, tried):
+    name = f"github.yml, {system.name}, {'broken' if is_broken else 'good'} driver"
+    ended = services.github(GITHUB, Place(system, project, folder / "github"), variables, given)
+    page = {"gate/gate.xml", "gate/drivers/page.html", "gate/baseline.xml"} <= set(ended.kept)
+    told = services.URL in ended.summary and "## raingauge gate" in ended.summary and (is_broken or "llvmpipe Mesa" in ended.summary)
+    is_good = ended.status == ("failure" if is_broken else "success") and page and told
+    tried.tell(name, is_good, "" if is_good else f"{ended.status}, {ended.kept}\n{ended.summary}\n{ended.log}")
+
+
+def try_gitlab(system, project, given, is_broken, folder, tried):
+    for job in ("raingauge", "raingauge-baseline"):
+        ended = services.gitlab(GITLAB, job, Place(system, project, folder / job), given)
+        is_good = (ended.status == "failed") == is_broken and "gate/gate.xml" in ended.kept and services.URL in ended.summary
+        is_good = is_good and (job != "raingauge" or "gate/drivers/page.html" in ended.kept)
+        tried.tell(f"gitlab-ci.yml, {job}, {system.name}, {'broken' if is_broken else 'good'} driver", is_good,
+                   ended.status if is_good else f"{ended.status}, {ended.kept}\n{ended.log}")
+
+
+def fails_without(system, project, variables, step, folder):
+    """Whether the workflow fails if it lacks a step."""
+    try:
+        return services.github(GITHUB, Place(system, project, folder), variables, {}, without=step).status == "failure"
+    except services.Refused as refused:
+        print(f"      without {step}: {refused}")
+        return True
+
+
+def try_services(system, is_image, folder, options, tried):
+    """`is_image`: raingauge is in the system; otherwise the project has the package."""
+    driver = next((folder / "full").glob(LAVAPIPE))
+    variables = {"RAINGAUGE_IMAGE": "raingauge"} if is_image else {}
+    image = services.github_image(GITHUB, variables), services.gitlab_image(GITLAB, "raingauge", variables)
+    tried.tell(f"{system.name}: the files name their image", image == (("raingauge",) * 2 if is_image else ("debian:12",) * 2), str(image))
+    debs = [] if is_image else [path for path in options.debs.glob("raingauge_*.deb")]
+    given = {"BUDGET": options.budget} if options.budget else {}
+    for is_broken in (False, True):
+        with tempfile.TemporaryDirectory(dir=folder) as temporary:
+            there = pathlib.Path(temporary)
+            make_project(there / "origin", driver, is_broken, debs)
+            try_github(system, there / "origin", variables, given, is_broken, there, tried)
+            try_gitlab(system, there / "origin", given, is_broken, there, tried)
+            for step in ("actions/checkout@v4", "Files", "Upload") + (() if is_image else ("Install",)) if is_broken is False else ():
+                tried.tell(f"github.yml, {system.name}, fails without {step}", fails_without(system, there / "origin", variables, step, there / step.replace("/", "-")))
+
+
+def bare(folder, options):
+    """A Debian 12 as its container image is."""
+    system = System("bare", folder)
+    if not system.root.exists() and not system.make("bookworm", ["usr-is-merged"], "--hook-dir=/usr/share/mmdebstrap/hooks/merged-usr",
+                                                    *("--aptopt=" + option for option in options.apt)):
+        sys.exit(f"image.py: no bare Debian; {system.log} says why")
+    return system
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--in", dest="folder", type=pathlib.Path, metavar="FOLDER", help="keeps images and systems there, and uses those that are there")
+    parser.add_argument("--debs", type=pathlib.Path, default=ROOT / "build/deb", metavar="FOLDER", help="has the packages; default: build/deb")
+    parser.add_argument("--budget", metavar="TIME", help="of a timed gate, in place of the examples' own, for a trial")
+    parser.add_argument("--apt", action="append", default=[], metavar="OPTION", help="for apt, as 'Acquire::Check-Valid-Until \"false\"'")
+    options = parser.parse_args()
+    if lacks():
+        sys.exit("image.py: " + lacks())
+    folder = (options.folder or pathlib.Path(tempfile.mkdtemp(prefix="image-"))).resolve()
+    folder.mkdir(exist_ok=True)
+    tried = Tried()
+    try:
+        for variant in CONTAINED:
+            is_made = make_image(variant, folder, options)
+            tried.tell(f"{variant}: the image", is_made, f"{folder / variant}-image.log" if not is_made else "")
+            if is_made:
+                begin = time.monotonic()
+                system, config = unpack(variant, folder)
+                print(f"      unpacked in {time.monotonic() - begin:.0f} s")
+                try_contained(system, config, tried)
+        if not tried.failed:
+            try_services(System("small", folder), True, folder, options, tried)
+            try_services(bare(folder, options), False, folder, options, tried)
+    finally:
+        if not options.folder:
+            shutil.rmtree(folder, ignore_errors=True)
+    return 1 if tried.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
