@@ -3,8 +3,8 @@
 
 FOLDER has raingauge's Debian packages, as `make deb` leaves them in build/deb. mmdebstrap makes a Debian 12, and install.sh installs
 what packages.txt lists: `full` is everything, `small` lacks PoCL and OpenImageIO. FILE becomes an OCI archive, which `podman load`,
-`docker load` and `skopeo copy oci-archive:FILE ...` read. Prints the image's size packed, as it is pulled, and unpacked. Fails if one
-exceeds its limit.
+`docker load` and `apptainer build raingauge.sif oci-archive:FILE` read. Prints the image's size packed, as it is pulled, and unpacked.
+Fails if one exceeds its limit.
 """
 import argparse
 import gzip
@@ -34,7 +34,7 @@ def make_tree(variant, debs, to, options):
     with tempfile.TemporaryDirectory() as folder:
         for path in [HERE / name for name in ("install.sh", "packages.txt", "dpkg.cfg")] + debs:
             shutil.copy(path, folder)
-        hooks = ['mkdir "$1/tmp/image"', f'cp {folder}/* "$1/tmp/image"', f'chroot "$1" sh /tmp/image/install.sh {variant}', 'rm -r "$1/tmp/image"']
+        hooks = ['mkdir "$1/tmp/image"', f'cp {folder}/* "$1/tmp/image"', f'chroot "$1" sh /tmp/image/install.sh {variant} /tmp/image', 'rm -r "$1/tmp/image"']
         command = ["mmdebstrap", "--variant=apt", "--include=usr-is-merged", f"--hook-dir={MERGED_USR}", f"--dpkgopt={HERE / 'dpkg.cfg'}"]
         command += ["--customize-hook=" + hook for hook in hooks] + ["--aptopt=" + option for option in options.apt]
         command += ["bookworm", str(to)] + options.mirror

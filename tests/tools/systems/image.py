@@ -4,6 +4,7 @@
     sizes      each variant of docs/ci/image is made, of the packages that `make deb` left, and no larger than it may be
     contained  the image as a container runs it: any user, a read-only root file system, no network, no /dev/dri. Its devices are well,
                the first picture comes within 60 s, and the first gate within 90 s
+    recipes    the Containerfile's steps in a bare Debian 12
     services   docs/ci's files for GitHub and GitLab, unedited, in a clean copy of the image, and in a bare Debian 12 that installs the
                package; with a good new driver and with a broken one; and without one of the steps, which has to fail
 
@@ -12,6 +13,7 @@ Prints a line for each step, and ends with 1 if one failed. It takes half an hou
 import argparse
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -91,6 +93,19 @@ def try_contained(system, config, tried):
     tried.tell(f"{system.name}: its own command", config["Cmd"] == CONTAINED[system.name][0][0])
     written = system.run(["sh", "-c", "touch /written /usr/written || ! test -e /dev/dri"], way, stderr=subprocess.PIPE).returncode
     tried.tell(f"{system.name}: nothing can be written", not written and not (system.root / "written").exists())
+
+
+def try_containerfile(system, folder, options, tried):
+    """The Containerfile's RUN in a bare Debian, for the small variant."""
+    run = re.search(r"^RUN --mount=type=bind,target=/context (.*)$", (RECIPE.parent / "Containerfile").read_text(), re.M)
+    with tempfile.TemporaryDirectory(dir=folder) as temporary:
+        context, there = pathlib.Path(temporary) / "context", pathlib.Path(temporary)
+        shutil.copytree(RECIPE.parent, context / "docs/ci/image")
+        shutil.copytree(options.debs, context / "build/deb", ignore=lambda at, names: [name for name in names if not name.endswith(".deb")])
+        way = Way("/", {"VARIANT": "small"}, {"/context": context, "/etc/resolv.conf": "/etc/resolv.conf"}, layer=there / "layer")
+        ran = system.run(["sh", "-c", (run[1] if run else "false") + " && raingauge list devices"], way, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    is_good = ran.returncode == 0 and re.search("^vulkan ", ran.stdout, re.M)
+    tried.tell("Containerfile", is_good, "" if is_good else ran.stdout)
 
 
 # --- services ---
@@ -209,7 +224,9 @@ def main():
                 try_contained(system, config, tried)
         if not tried.failed:
             try_services(System("small", folder), True, folder, options, tried)
-            try_services(bare(folder, options), False, folder, options, tried)
+            system = bare(folder, options)
+            try_containerfile(system, folder, options, tried)
+            try_services(system, False, folder, options, tried)
     finally:
         if not options.folder:
             shutil.rmtree(folder, ignore_errors=True)
