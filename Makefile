@@ -209,7 +209,7 @@ deb:
 VARIANT = full
 IMAGE = $(BUILD)/raingauge-$(VARIANT).tar
 image:
-	@test -e $(BUILD)/deb/raingauge-oiio_*.deb || $(MAKE) --no-print-directory deb
+	@ls $(BUILD)/deb/raingauge-oiio_*.deb >/dev/null 2>&1 || $(MAKE) --no-print-directory deb
 	@echo "== making an image for containers, some minutes"
 	@python3 docs/ci/image/make.py $(VARIANT) --debs $(BUILD)/deb -o $(IMAGE) 2>$(BUILD)/image.log || \
 	  { tail -n 30 $(BUILD)/image.log; exit 1; }

@@ -11,6 +11,8 @@
 Prints a line for each step, and ends with 1 if one failed. It takes half an hour. --in keeps images and systems, and uses those there.
 """
 import argparse
+import functools
+import http.server
 import json
 import pathlib
 import re
@@ -19,6 +21,7 @@ import subprocess
 import sys
 import tarfile
 import tempfile
+import threading
 import time
 
 sys.dont_write_bytecode = True
@@ -174,8 +177,23 @@ def fails_without(system, project, variables, step, folder):
         return True
 
 
+class Server:
+    """Serves the packages by http, on this machine alone."""
+
+    def __init__(self, folder):
+        handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=str(folder))
+        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+
+    def __enter__(self):
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+        return f"http://127.0.0.1:{self.server.server_address[1]}/"
+
+    def __exit__(self, *_):
+        self.server.shutdown()
+
+
 def try_services(system, is_image, folder, options, tried):
-    """`is_image`: raingauge is in the system; otherwise the project has the package."""
+    """`is_image`: raingauge is in the system; otherwise the project has the package for GitHub, and a server has it for GitLab."""
     driver = next((folder / "full").glob(LAVAPIPE))
     variables = {"RAINGAUGE_IMAGE": "raingauge"} if is_image else {}
     image = services.github_image(GITHUB, variables), services.gitlab_image(GITLAB, "raingauge", variables)
@@ -183,11 +201,11 @@ def try_services(system, is_image, folder, options, tried):
     debs = [] if is_image else [path for path in options.debs.glob("raingauge_*.deb")]
     given = {"BUDGET": options.budget} if options.budget else {}
     for is_broken in (False, True):
-        with tempfile.TemporaryDirectory(dir=folder) as temporary:
+        with tempfile.TemporaryDirectory(dir=folder) as temporary, Server(options.debs) as url:
             there = pathlib.Path(temporary)
             make_project(there / "origin", driver, is_broken, debs)
             try_github(system, there / "origin", variables, given, is_broken, there, tried)
-            try_gitlab(system, there / "origin", given, is_broken, there, tried)
+            try_gitlab(system, there / "origin", {**given, **({"RAINGAUGE_PACKAGE": url + debs[0].name} if debs else {})}, is_broken, there, tried)
             for step in ("actions/checkout@v4", "Files", "Upload") + (() if is_image else ("Install",)) if is_broken is False else ():
                 tried.tell(f"github.yml, {system.name}, fails without {step}", fails_without(system, there / "origin", variables, step, there / step.replace("/", "-")))
 
