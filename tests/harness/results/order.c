@@ -147,6 +147,10 @@ static void test_rounding(void **state)
     assert_below(fabs(rg_margin_rounding(22.5) - 0.05 / 22.5), 1e-12);
     assert_below(fabs(rg_margin_rounding(1.66) - 0.005 / 1.66), 1e-12);
     assert_equals(rg_margin_rounding(NAN), 0);
+    assert_equals(rg_margin_rounding(INFINITY), 0);
+    assert_equals(rg_margin_rounding(0), 0);
+    assert_equals(rg_margin_rounding(-4), 0);
+    assert_below(fabs(rg_margin_rounding(0.5) - 0.1), 1e-12);
     assert_true(rg_margin_orders(26.5, 25) && !rg_margin_orders(25.5, 25));
     // Each number has its own margin: 26 is at least 25.5.
     assert_true(rg_margin_orders(26, 25.4) && !rg_margin_orders(26, 25.6));
@@ -178,6 +182,12 @@ static void test_scatter_of_print(void **state)
     assert_below(margin_of_line(5, 0), 1e-4);
     // Of four rows two are off, by 0.1 and 0.2; the weights' squares add up to 1/5.
     assert_below(fabs(margin_of_line(4, 0.2) - 1.96 * 1.5 * sigma / sqrt(5)), 1e-4);
+    // Neighbours of another group count for none: each group has two rows.
+    const struct rg_slope_point four[] = {
+        {.x = 0}, {.x = 1}, {2, 1, NULL, 0, 0}, {3, 1, NULL, 0, 0}};
+    const double far[] = {100.0001, 90.00001, 500.0001, 80.00001},
+                 of_four[] = {-0.5, 0.5, -0.5, 0.5};
+    assert_below(rg_margin_slope(four, of_four, far, 4), 1e-6);
     // Rounding alone, of two rows: up to half a unit of 10 and of 20 either way, uniformly.
     const struct rg_slope_point two[] = {{.x = 0}, {.x = 1}};
     const double printed[] = {20, 10}, weights[] = {-1, 1};

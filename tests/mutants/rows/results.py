@@ -346,4 +346,18 @@ ROWS = [
     Fault("harness/tables/print.c", "if («format == RG_RESULT_MD»)", "format <= RG_RESULT_MD", "wide forms are brief", tests=("sheets, written",)),
     Fault("harness/tables/sheet/sheet.c", "if («rg_result_at(result, at)->counted_count»)", "true", "the first record names the counts, with counts or not", tests=("sheets, cells",)),
     Fault("harness/tables/measuring/textures.c", "rg_level_size(«desc.height», own_level)", "desc.width", "a texture is as high as it is wide", tests=("sizes of textures",)),
+    # --- what blind draws showed ---
+    Fault(TEXT, "    «sheet->title = \"claims\";»\n", ";", "the page of claims has no title", tests=PAGES),
+    Fault(TEXT, "sheet->note_width = «wide ? 0 : RG_PAGE_WIDTH»;", "RG_PAGE_WIDTH", "notes of a wide page of claims are broken", tests=PAGES),
+    Fault(TEXT, "{RG_GREEN, «RG_RED», RG_YELLOW", "RG_GREEN", "claims that do not hold are green", tests=PAGES),
+    Fault(TEXT, "i <= «RG_CLAIM_OTHER_WORK»; i++)", "RG_CLAIM_UNDECIDED", "other work has no colour", tests=PAGES),
+    Fault(DOCUMENT, "\"format\", «RG_FORMAT_VERSION», \"machines\"", "RG_FORMAT_VERSION + 1", "the document of claims has a format of its own", tests=PAGES),
+    Fault(OUTCOMES, "RG_NAME_SIZE);\n    «rg_claims_length(result, outcome->length, sizeof(outcome->length));»", ";", "verdicts of today have no length", tests=LAUNCHES),
+    Fault(OUTCOMES, "RG_CLAIM_ONE_LAUNCH || «j.verdict == RG_CLAIM_NOT_SEEN»)", "false", "a kept record without the row counts as a verdict", tests=LAUNCHES),
+    Fault(EVIDENCE, "!has_number(e, row, e->at.variant) || «(e->other >= 0 && !has_number(e, row, e->other))»", "false", "the other variant needs no number", tests=REASONS),
+    Fault(EVIDENCE, "is_printed = «is_printed && isfinite(fps)»;", "isfinite(fps) || is_printed", "print without a rate contradicts", tests=REASONS),
+    Fault(EVIDENCE, "    «e->at.work = e->at.work < 0 ? 0 : e->at.work;» // all", ";", "print contradicts nothing if the printed work is not measured", tests=REASONS),
+    Fault(JUDGE, "    «e->judgement.figures = figures_of(settled);»\n    rg_evidence_end(e, verdict_of(settled), \"the error", ";", "errors of images have no figures", tests=REASONS),
+    Fault(PARTS, "«is_within(e->claim, e->rows[i]) && e->logs[l][i][0] < fastest»", "is_within(e->claim, e->rows[i])", "the last row within counts as the fastest", tests=REASONS),
+    Fault(MARGIN, "«p[i - 1].group != p[i].group» || p[i + 1]", "false", "a line goes on from one group to the next", tests=("order",)),
 ]

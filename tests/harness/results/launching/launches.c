@@ -309,13 +309,15 @@ static void kept_launches_of_machines(void **state)
         rg_result_free(&kept[i]);
 }
 
-// Records without launches, of another device or of another table give no verdict.
+// Records without launches or rows, of another device or of another table give no verdict.
 static void kept_records_that_tell_nothing(void **state)
 {
     (void)state;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         struct rg_result kept;
         make(&kept, "chin-timing", i == 0 ? 0 : 192, 10);
+        if (i == 3)
+            rg_result_drop_row(&kept, 0);
         if (i == 1)
             snprintf(kept.devices[0].name, sizeof(kept.devices[0].name), "gl");
         if (i == 2)
@@ -343,7 +345,8 @@ static void claims_about_some_rows_and_variants(void **state)
                  {"creus-5.3", {NULL, 9, 9}, 2},          {"creus-5.3", {NULL, 9, 10}, 5},
                  {"creus-5.3", {NULL, 10, 10}, 3},        {"creus-5.3", {NULL, 18, 18}, 2},
                  {"creus-5.3", {"full", 18, 18}, 2},      {"creus-5.3", {"no_geometry", 0, 0}, 0},
-                 {"creus-5.6", {"no_geometry", 0, 0}, 1}, {"creus-5.6", {"full", 0, 0}, 3}};
+                 {"creus-5.6", {"no_geometry", 0, 0}, 1}, {"creus-5.6", {"full", 0, 0}, 3},
+                 {"creus-5.6", {"bare", 0, 0}, 0}};
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         struct rg_claim_outcomes outcomes = {0};
         struct rg_result result;
@@ -399,6 +402,9 @@ static void outcomes_stand_by_claim(void **state)
         "city=small depth_map_px=2048\",\"size_divisor\":1}",
         "{\"table\":\"creus-5.6\",\"machine\":\"B\",\"length\":\"quick\",\"quick\":\"atlas=small "
         "city=small depth_map_px=2048\",\"size_divisor\":4,\"changed\":\"seed=2\"}"};
+    static const char *const lengths[] = {
+        "full",
+        "quick (atlas=small city=small depth_map_px=2048), with 1/4 of the width and height"};
     struct rg_claim_outcomes o = {0};
     struct rg_result results[2];
     make_on(&results[0], "creus-5.6", 2, 0, 10);
@@ -415,6 +421,8 @@ static void outcomes_stand_by_claim(void **state)
         assert_ptr_equal(o.outcomes[i].claim, o.outcomes[i / 4 * 4].claim);
         assert_int_equal(o.outcomes[i].origin, i % 4 / 2);
         assert_string_equal(o.outcomes[i].device, i % 2 ? "gl" : "cpu");
+        assert_string_equal(o.outcomes[i].length, lengths[i % 4 / 2]);
+        assert_int_equal(strcmp(o.outcomes[i].machine, "CPU there") == 0, i % 4 / 2);
     }
     assert_ptr_not_equal(o.outcomes[0].claim, o.outcomes[4].claim);
     for (int i = 0; i < 2; i++) {

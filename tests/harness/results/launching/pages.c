@@ -10,9 +10,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/console/terminal.h"
+#include "harness/record/schema/schema.h"
 #include "harness/tables/claims/json.h"
 #include "harness/tables/claims/text.h"
 #include "tests/tools/expect.h"
+
+static bool has_colours;
+
+bool rg_has_colours(FILE *out)
+{
+    assert_ptr_equal(out, stdout);
+    return has_colours;
+}
 
 static const struct rg_claim claims[] = {
     {.table = "creus-5.4",
@@ -206,6 +216,60 @@ static void a_page_counts_explains_and_lists(void **state)
     rg_claims_free(&o);
 }
 
+// A narrow page has a width and breaks its notes; a wide one has neither. Colours come with a
+// terminal, for marks and words alike.
+static void pages_have_a_width_and_colours(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *mark, *word, *colour;
+    } cells[] = {{"yes", "reproduced", RG_GREEN},      {"no", "not reproduced", RG_RED},
+                 {"bound", "at the bound", RG_YELLOW}, {"open", "undecided", RG_YELLOW},
+                 {"other", "other work", RG_YELLOW},   {"unseen", "not seen", NULL},
+                 {"(yes)", "one launch: fits", NULL}};
+    struct rg_claim_outcomes o;
+    make(&o);
+    for (int wide = 0; wide < 2; wide++) {
+        struct rg_sheet sheet = {0};
+        has_colours = wide;
+        rg_claims_sheet(&o, wide, &sheet);
+        assert_string_equal(sheet.title, "claims");
+        assert_int_equal(sheet.width_step, !wide);
+        assert_int_equal(sheet.note_width, wide ? 0 : RG_PAGE_WIDTH);
+        assert_int_equal(sheet.paint != NULL, wide);
+        for (size_t i = 0; wide && i < sizeof(cells) / sizeof(cells[0]); i++) {
+            const char *found[] = {sheet.paint(cells[i].mark), sheet.paint(cells[i].word)};
+            for (int f = 0; f < 2; f++)
+                assert_string_equal(found[f] ? found[f] : "",
+                                    cells[i].colour ? cells[i].colour : "");
+        }
+        rg_sheet_free(&sheet);
+    }
+    has_colours = false;
+    rg_claims_free(&o);
+    assert_true(!o.count && !o.outcomes && !o.tables);
+}
+
+static void a_page_without_claims_counts_none(void **state)
+{
+    (void)state;
+    static const char *const due[] = {
+        "0 claims on 0 devices: 0 hold, 0 do not, 0 are open, 0 at the bound; 0 are not judged.",
+        "Holds: 0.",
+        "Does not hold: 0.",
+        "Open: 0.",
+        "why: `--wide`.",
+        NULL};
+    struct rg_claim_outcomes o;
+    struct rg_sheet sheet = {0};
+    begin(&o);
+    rg_claims_sheet(&o, false, &sheet);
+    expect_cells(&sheet, "table|claim\n");
+    expect_notes(&sheet, due);
+    rg_sheet_free(&sheet);
+    rg_claims_free(&o);
+}
+
 // A reason is told once for all devices that have it, and apart for those that have another.
 static void a_wide_page_has_words_and_reasons(void **state)
 {
@@ -369,6 +433,7 @@ static void programs_are_told_claims_and_verdicts(void **state)
     add(&o, 1, 1, "o-m");
     add(&o, 3, 0, "f");
     struct rg_judgement *j = &o.outcomes[0].judgement;
+    assert_int_equal(o.count, 3);
     j->rows = 3;
     j->launches = 24;
     j->disturbed = 2;
@@ -383,6 +448,9 @@ static void programs_are_told_claims_and_verdicts(void **state)
     for (size_t i = 0; i < 2; i++)
         expect_json(json_array_get(all, i), told[i]);
     expect_json(json_object_get(json, "tables"), "[{\"table\":\"creus-5.4\"}]");
+    assert_int_equal(json_object_size(json), 4);
+    assert_int_equal(json_integer_value(json_object_get(json, "format")), RG_FORMAT_VERSION);
+    assert_int_equal(json_array_size(json_object_get(json, "machines")), 2);
     json_decref(json);
     rg_claims_free(&o);
 }
@@ -437,6 +505,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_page_counts_explains_and_lists),
+        cmocka_unit_test(pages_have_a_width_and_colours),
+        cmocka_unit_test(a_page_without_claims_counts_none),
         cmocka_unit_test(a_wide_page_has_words_and_reasons),
         cmocka_unit_test(machines_stand_side_by_side),
         cmocka_unit_test(places_name_a_machine_among_several),

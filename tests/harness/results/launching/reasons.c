@@ -137,6 +137,10 @@ static struct {
      {{12, 10, 9, 11, 1}},
      YES,
      "size 3 is 1.22 times as fast as size 4 (1.22 to 1.22), needed: at least 1; 24 launches"},
+    {CLAIM(RG_CLAIM_OPTIMUM, 4, .knee = 2, .until = 3),
+     {{12, 9, 10, 11, 1}},
+     YES,
+     "size 2 is 1.22 times as fast as size 4 (1.22 to 1.22), needed: at least 1; 24 launches"},
     {CLAIM(RG_CLAIM_SLOWEST, 3, .knee = 3),
      {{10, 11, 14, 1, 1}},
      YES,
@@ -305,6 +309,8 @@ static void a_knee_is_told_by_its_errors(void **state)
          "the error falls from 0.500 to 0.125, and then to 0.250"},
         {0.125, 0.25, 0.0625, RG_CLAIM_NOT_REPRODUCED,
          "the error falls from 0.125 to 0.250, and then to 0.062"},
+        {0.25, 0.25, 0.125, RG_CLAIM_NOT_REPRODUCED,
+         "the error falls from 0.250 to 0.250, and then to 0.125"},
         {0.25, 0.25, 0.25, RG_CLAIM_NOT_REPRODUCED,
          "the error falls from 0.250 to 0.250, and then to 0.250"}};
     struct rg_result result;
@@ -317,6 +323,8 @@ static void a_knee_is_told_by_its_errors(void **state)
         record_at(&result, 3)->truth_error.flip_mask_mean = rows[i].knee;
         record_at(&result, 5)->truth_error.flip_mask_mean = rows[i].last;
         expect(&knee, &result, rows[i].verdict, rows[i].why);
+        assert_int_equal(rg_claim_judge(&knee, &result, 0).figures,
+                         rows[i].verdict == RG_CLAIM_REPRODUCED ? RG_FIGURES_FIT : RG_FIGURES_MISS);
     }
     record_at(&result, 5)->truth_error =
         (struct rg_truth_error){.outcome = RG_ERROR, .detail = "no picture"};
@@ -340,6 +348,10 @@ static void what_is_missing_is_named(void **state)
     expect(&falls, &result, RG_CLAIM_NOT_SEEN, "row 3 is not measured");
     rg_result_drop_row(&result, 1);
     expect(&falls, &result, RG_CLAIM_NOT_SEEN, "row 2 is not measured");
+    falls.last = 1; // its other variant must have a number, too
+    falls.other = "other";
+    rg_record_end(rg_result_at(&result, (struct rg_place){.variant = 1}), RG_ERROR, "is tired");
+    expect(&falls, &result, RG_CLAIM_NOT_SEEN, "row 1 has no number: is tired");
     falls.other = "bare";
     expect(&falls, &result, RG_CLAIM_NOT_SEEN, "variant bare is not measured");
     falls.variant = "none";
@@ -420,6 +432,37 @@ static void other_work_is_told(void **state)
     rg_result_free(&result);
 }
 
+// Print contradicts a claim only where it has all that the claim compares, whatever was measured.
+static void print_contradicts_by_itself(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    struct rg_claim ratio = claim_of(RG_CLAIM_RATIO), faster = claim_of(RG_CLAIM_FASTER);
+    ratio.least = 6; // print: 5
+    faster.other = "other";
+    faster.least = 1; // in print the last rows are slower
+    make(&result, steady, 0);
+    assert_true(rg_claim_judge(&ratio, &result, 0).print_contradicts);
+    assert_true(rg_claim_judge(&faster, &result, 0).print_contradicts);
+    faster.last = 1;
+    assert_false(rg_claim_judge(&faster, &result, 0).print_contradicts);
+    result.work_count = 1; // not the printed one
+    assert_true(rg_claim_judge(&ratio, &result, 0).print_contradicts);
+    result.work_count = 0;
+    faster.last = ROWS;
+    rg_result_at(&result, (struct rg_place){.row = ROWS - 1, .variant = 1})->published_count = 0;
+    assert_true(rg_claim_judge(&ratio, &result, 0).print_contradicts);
+    assert_false(rg_claim_judge(&faster, &result, 0).print_contradicts);
+    record_at(&result, ROWS)->published_count = 0;
+    assert_false(rg_claim_judge(&ratio, &result, 0).print_contradicts);
+    faster.other = "bare";
+    assert_false(rg_claim_judge(&faster, &result, 0).print_contradicts);
+    struct rg_claim knee = claim_of(RG_CLAIM_FLATTENS);
+    knee.knee = 3;
+    assert_false(rg_claim_judge(&knee, &result, 0).print_contradicts);
+    rg_result_free(&result);
+}
+
 static void rows_alike_in_print_do_not_cross(void **state)
 {
     (void)state;
@@ -476,6 +519,7 @@ int main(void)
         cmocka_unit_test(rows_beside_a_part_are_missing),
         cmocka_unit_test(rows_of_other_work_are_named),
         cmocka_unit_test(other_work_is_told),
+        cmocka_unit_test(print_contradicts_by_itself),
         cmocka_unit_test(rows_alike_in_print_do_not_cross),
         cmocka_unit_test(claims_need_their_rows_and_variants),
     };
