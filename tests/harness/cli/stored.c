@@ -167,14 +167,70 @@ static void machines_stand_apart(void **state)
                                       "another folder with -o, or leave it out");
 }
 
+#define KEY "0123456789abcdef"
+
+// Neither the folder of what is read is written into, nor a machine's folder in it: such folders
+// have a key as their name.
+static void what_is_read_is_not_replaced(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *folder; // that is spared; NULL: the result is written
+    } rows[] = {
+        {"table --from in -o in", "in"},          {"table --from in/a.json -o in", "in"},
+        {"table --from in/a.json -o .", NULL},    {"table --from in -o in/" KEY, "in/" KEY},
+        {"table --from in -o in/" KEY "0", NULL}, {"table --from in/a.json -o in/" KEY, NULL},
+        {"table --from in -o out/" KEY, NULL},    {"table --from in -o out", NULL},
+    };
+    char due[256];
+    assert_true(!mkdir("in", 0777) && !mkdir("out", 0777) && !mkdir("in/" KEY, 0777));
+    assert_true(!mkdir("in/" KEY "0", 0777) && !mkdir("out/" KEY, 0777));
+    store("in/a.json", 1, "Toy");
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        const bool is_refused = asked_run(rows[i].line) == RG_EXIT_USAGE;
+        snprintf(due, sizeof(due),
+                 "%s: holds what --from reads, which would be replaced; name another folder with "
+                 "-o, or leave it out",
+                 rows[i].folder);
+        if (is_refused != (rows[i].folder != NULL))
+            fail_msg("%s: %s", rows[i].line, asked_logged);
+        assert_string_equal(asked_logged, rows[i].folder ? due : "");
+    }
+}
+
+// Of several machines each has its own folder, which may be the one that is read.
+static void a_machine_s_folder_is_not_replaced(void **state)
+{
+    (void)state;
+    char key[17] = "", folder[64], line[256];
+    assert_true(!mkdir("in", 0777) && !mkdir("out", 0777));
+    store("in/a.json", 1, "Toy");
+    store("in/b.json", 1, "Other");
+    asked_run("table --from in");
+    assert_int_equal(sscanf(asked_printed, "# A: Toy, 0 cores, key %16[0-9a-f]", key), 1);
+    snprintf(folder, sizeof(folder), "out/%s", key);
+    assert_int_equal(rename("in", folder), 0);
+    snprintf(line, sizeof(line), "table --from %s -o out", folder);
+    asked_expect(line, "memory 0; ", RG_EXIT_USAGE);
+    snprintf(line, sizeof(line),
+             "%s: holds what --from reads, which would be replaced; name another folder with -o, "
+             "or leave it out",
+             folder);
+    assert_string_equal(asked_logged, line);
+}
+
 #define ASKED(test) cmocka_unit_test_setup_teardown(test, asked_setup, asked_teardown)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        ASKED(parts_are_printed),    ASKED(tables_are_chosen),
-        ASKED(tables_stand_apart),   ASKED(what_is_not_there_is_refused),
+        ASKED(parts_are_printed),
+        ASKED(tables_are_chosen),
+        ASKED(tables_stand_apart),
+        ASKED(what_is_not_there_is_refused),
         ASKED(machines_stand_apart),
+        ASKED(what_is_read_is_not_replaced),
+        ASKED(a_machine_s_folder_is_not_replaced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -212,6 +212,54 @@ static int count_lines(const struct rig *rig, const char *words)
     return count;
 }
 
+// What merging prints, which stays until the next call.
+static const char *merge(struct rig *rig, int *exit)
+{
+    static char text[4096];
+    FILE *file = tmpfile();
+    const int kept = dup(STDOUT_FILENO);
+    assert_non_null(file);
+    fflush(stdout);
+    dup2(fileno(file), STDOUT_FILENO);
+    *exit = rg_farm_merge(&rig->farm.plan, &rig->found, rig->out);
+    dup2(kept, STDOUT_FILENO);
+    close(kept);
+    rewind(file);
+    text[fread(text, 1, sizeof(text) - 1, file)] = 0;
+    fclose(file);
+    return text;
+}
+
+// A line tells what each machine's folder holds. A table without a record is not written.
+static void test_told(void **state)
+{
+    (void)state;
+    struct rig rig;
+    char due[8192];
+    int exit;
+    begin(&rig);
+    assert_true(find(&rig));
+    snprintf(due, sizeof(due), "%s: 2 tables, 32 cells of 32, key %s (%s)\n", rig.out,
+             rig.found.machines[0].key, rig.found.machines[0].text);
+    assert_string_equal(merge(&rig, &exit), due);
+    assert_int_equal(exit, RG_EXIT_PASS);
+    assert_string_not_equal(rig.found.machines[0].text, "");
+    for (int64_t g = ROWS; g < GROUPS; g++)
+        assert_int_equal(remove(record_path(&rig.farm, g, g % 2 ? rig.b : rig.a)), 0);
+    leave_record(&rig.farm, 1, 1, rig.b);
+    leave_record(&rig.farm, ROWS, 1, rig.a);
+    assert_true(find(&rig));
+    const struct rg_farm_machine *machines = rig.found.machines;
+    snprintf(due, sizeof(due),
+             "%s/%s: 1 table, 12 cells of 32, key %s (%s)\n%s/%s: 2 tables, 8 cells of 32, key %s "
+             "(%s)\n",
+             rig.out, machines[0].key, machines[0].key, machines[0].text, rig.out, machines[1].key,
+             machines[1].key, machines[1].text);
+    assert_string_equal(merge(&rig, &exit), due);
+    assert_non_null(strstr(machines[1].text, "another processor"));
+    end(&rig);
+}
+
 // Ten of a kind are named, and the others only counted; but all cells count as missing.
 static void test_many(void **state)
 {
@@ -224,7 +272,7 @@ static void test_many(void **state)
         leave_record(&rig.farm, g, 0, g % 2 ? rig.a : rig.b);
     assert_true(find(&rig));
     assert_int_equal(rig.found.twice, groups);
-    expect_heard(&rig, "2 records more are there twice");
+    expect_heard(&rig, "\n2 records more are there twice\n");
     assert_int_equal(count_lines(&rig, "\n"), 11);
     for (int64_t g = 0; g < groups; g++) {
         const char *path = record_path(&rig.farm, g, g % 2 ? rig.a : rig.b);
@@ -234,11 +282,11 @@ static void test_many(void **state)
     }
     assert_true(find(&rig));
     assert_int_equal(rig.found.damaged, groups);
-    expect_heard(&rig, "2 records more are damaged");
+    expect_heard(&rig, "\n2 records more are damaged\n");
     assert_int_equal(count_lines(&rig, "\n"), 11);
     *rig.heard = 0;
     assert_int_equal(missing(&rig), rig.farm.plan.cell_count);
-    expect_heard(&rig, "2 groups more are missing");
+    expect_heard(&rig, "\n2 groups more are missing\n");
     assert_int_equal(count_lines(&rig, ": missing, 4 cells"), 10);
     end(&rig);
 }
@@ -385,7 +433,7 @@ int main(void)
         cmocka_unit_test(test_half_copied), cmocka_unit_test(test_damaged),
         cmocka_unit_test(test_foreign),     cmocka_unit_test(test_no_record),
         cmocka_unit_test(test_twice),       cmocka_unit_test(test_two_keys),
-        cmocka_unit_test(test_many),
+        cmocka_unit_test(test_many),        cmocka_unit_test(test_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -371,6 +371,39 @@ static void test_file(void **state)
     unlink(path);
 }
 
+// A cell has an id for people, and the whole document no more than what is read.
+static void test_document(void **state)
+{
+    (void)state;
+    static const char due[] =
+        "{\"format\":1,\"commit\":\"abc\",\"full\":false,\"shards\":3,\"devices\":[{\"name\":"
+        "\"cpu\","
+        "\"asked\":\"cpu@A=1\"}],\"groups\":[{\"id\":\"t/2\",\"table\":\"t\",\"cells\":[{\"id\":"
+        "\"t/2/ours/v/"
+        "cpu\",\"row\":2,\"work\":\"ours\",\"variant\":\"v\",\"seconds\":2.5,\"known\":"
+        "true,\"device\":\"cpu\"},{\"id\":\"t/3/w/cpu\",\"row\":3,\"work\":\"\",\"variant\":\"w\","
+        "\"seconds\":1,\"known\":false,\"device\":\"cpu\"}]}]}";
+    const struct rg_farm_cell cells[] = {{2, "ours", "v", 0, 2.5, true}, {3, "", "w", 0, 1, false}};
+    struct rg_farm_plan plan = {.commit = "abc", .shards = 3, .device_count = 1};
+    snprintf(plan.devices[0].name, RG_DEVICE_NAME_SIZE, "cpu");
+    snprintf(plan.devices[0].asked, RG_FARM_ASKED, "cpu@A=1");
+    assert_true(rg_farm_add_group(&plan, "t", "t/2"));
+    for (int i = 0; i < 2; i++)
+        assert_true(rg_farm_add_cell(&plan, &cells[i]));
+    assert_true(rg_farm_plan_write(&plan, path));
+    json_t *document = json_load_file(path, 0, NULL);
+    assert_non_null(document);
+    assert_string_equal(json_string_value(json_object_get(document, "checksum")), plan.digest);
+    json_object_del(document, "checksum");
+    char *text = json_dumps(document, JSON_COMPACT | JSON_REAL_PRECISION(6));
+    assert_string_equal(text, due);
+    free(text);
+    json_decref(document);
+    rg_farm_plan_free(&plan);
+    assert_true(!plan.cells && !plan.groups && !plan.group_count && !plan.device_count);
+    unlink(path);
+}
+
 static void replace(const char *from, const char *to)
 {
     FILE *file = fopen(path, "rb");
@@ -499,6 +532,7 @@ int main(void)
         cmocka_unit_test(test_expected),
         cmocka_unit_test(test_lengths),
         cmocka_unit_test(test_cut),
+        cmocka_unit_test(test_document),
         cmocka_unit_test(test_file),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_malformed),

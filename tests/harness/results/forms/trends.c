@@ -190,6 +190,23 @@ static void test_first_row_left_out(void **state)
     rg_result_free(&rig.result);
 }
 
+// A trend needs all rows, the last one too.
+static void test_a_row_that_is_missing(void **state)
+{
+    (void)state;
+    for (int row = 0; row < 3; row++) {
+        struct rig rig;
+        sheet_measure(&rig, &sheet_axis_table, (double[]){40, 1, 20, 1, 10, 1});
+        assert_int_equal(rg_trend_of(&rig.result, (struct rg_place){0}).verdict,
+                         RG_TREND_REPRODUCED);
+        rg_result_drop_row(&rig.result, row);
+        const struct rg_trend trend = rg_trend_of(&rig.result, (struct rg_place){0});
+        assert_int_equal(trend.verdict, RG_TREND_UNKNOWN);
+        assert_true(!trend.axis && !trend.pairs && !trend.has_slope);
+        rg_result_free(&rig.result);
+    }
+}
+
 // Each verdict has its words.
 static void test_words(void **state)
 {
@@ -326,6 +343,7 @@ int main(void)
         cmocka_unit_test(test_few_samples),
         cmocka_unit_test(test_drift),
         cmocka_unit_test(test_intervals),
+        cmocka_unit_test(test_a_row_that_is_missing),
         cmocka_unit_test(test_words),
         cmocka_unit_test(test_shapes),
         cmocka_unit_test(test_shapes_without_an_axis),

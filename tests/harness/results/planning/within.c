@@ -119,9 +119,18 @@ static void name_left_out(const struct rg_result *result, char *text, size_t siz
         rg_text_add(text, size, "; ", "%s", devices);
 }
 
+// Events of a run.
+struct fate {
+    double passed_s; // since the command began
+    bool loses_gl;
+    int interrupted;
+    unsigned without;     // bits of the devices that the command does not name
+    int printing[TABLES]; // the exit status of printing each table
+    int end;              // and of printing what stands below all
+};
+
 static int print(const struct rg_result *result, const void *user)
 {
-    (void)user;
     int i = 0;
     while (strcmp(all[i]->id, result->table) != 0)
         i++;
@@ -143,7 +152,7 @@ static int print(const struct rg_result *result, const void *user)
     got.tables[i].few_samples = result->few_samples;
     name_left_out(result, got.tables[i].left_out, sizeof(got.tables[i].left_out));
     got.printed++;
-    return 0;
+    return ((const struct fate *)user)->printing[i];
 }
 
 static void hear(enum rg_log_level level, const char *line, void *user)
@@ -163,17 +172,8 @@ static void hear(enum rg_log_level level, const char *line, void *user)
 static int print_end(const void *user)
 {
     got.ended++;
-    return *(const int *)user;
+    return ((const struct fate *)user)->end;
 }
-
-// Events of a run.
-struct fate {
-    double passed_s; // since the command began
-    bool loses_gl;
-    int interrupted;
-    unsigned without; // bits of the devices that the command does not name
-    int end;          // the exit status of printing what stands below all tables
-};
 
 static void expect_told(const char *words)
 {
@@ -251,7 +251,7 @@ static void run(int count, double budget_s, struct fate fate)
                                                   .begin_ms = begin_ms,
                                                   .print = print,
                                                   .print_end = print_end,
-                                                  .user = &fate.end};
+                                                  .user = &fate};
     wanted.count = 0;
     for (int d = 0; d < rig.devices.count; d++)
         if (!(fate.without >> d & 1))
@@ -408,6 +408,16 @@ static void what_cannot_be_printed_fails(void **state)
     assert_int_equal(got.printed, 1);
 }
 
+// The worst status of all tables counts; those behind it are printed as well.
+static void the_worst_table_counts(void **state)
+{
+    (void)state;
+    run(2, 150, (struct fate){.printing = {RG_EXIT_FAIL, RG_EXIT_PASS}});
+    assert_int_equal(got.exit, RG_EXIT_FAIL);
+    assert_int_equal(got.printed, 2);
+    assert_int_equal(got.ended, 1);
+}
+
 // Results from before the interruption are printed.
 static void what_is_interrupted_prints_what_there_is(void **state)
 {
@@ -429,6 +439,7 @@ int main(void)
         cmocka_unit_test(each_table_gets_a_row_before_one_gets_more),
         cmocka_unit_test(a_budget_is_kept_but_for_one_cell),
         cmocka_unit_test(what_cannot_be_printed_fails),
+        cmocka_unit_test(the_worst_table_counts),
         cmocka_unit_test(what_is_interrupted_prints_what_there_is), // last: it stays interrupted
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
