@@ -82,7 +82,8 @@ static int draw_all(struct rg_device *device, json_t *row)
     const int exit = rg_exit_of_all(counts);
     const int failed = drawn - counts[RG_OK] - counts[RG_UNSUPPORTED];
     if (failed)
-        json_object_set_new(row, "why", json_sprintf("%d draws fail", failed));
+        json_object_set_new(row, "why",
+                            json_sprintf("%d draw%s", failed, failed == 1 ? " fails" : "s fail"));
     rg_outcome_set(row, exit == RG_EXIT_PASS          ? RG_OK
                         : exit == RG_EXIT_UNSUPPORTED ? RG_UNSUPPORTED
                                                       : RG_FAIL);

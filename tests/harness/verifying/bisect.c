@@ -7,15 +7,18 @@
 
 #include <cmocka.h>
 #include <jansson.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "core/base/log.h"
 
 #include "harness/compare/bisect/bisect.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
+#include "harness/console/interrupt.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"
 #include "tests/tools/process/printed.h"
@@ -158,8 +161,10 @@ static void lists_go_from_good_to_bad(void **state)
     check_list("abcde", "x", "a", NULL);
     assert_non_null(strstr(rg_last_error(), "--good 'x' is not among the candidates"));
     check_list("abc", "a", "a", NULL);
+    assert_string_equal(rg_last_error(), "--good and --bad are both 'a'; name two candidates");
     check_list("abcb", "a", "c", NULL);
-    assert_non_null(strstr(rg_last_error(), "the candidate 'b' is there twice"));
+    assert_string_equal(rg_last_error(),
+                        "bisect: the candidate 'b' is there twice; name each once");
     rg_log_hold(false);
 }
 
@@ -175,9 +180,14 @@ static void names_fit_into_a_variable(void **state)
     assert_true(rg_candidates_add(name, &c));
     name[1 << 16] = 'x';
     assert_false(rg_candidates_add(name, &c));
+    assert_string_equal(rg_last_error(), "bisect: the candidate "
+                                         "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...' has more "
+                                         "than 65536 bytes; rename it");
     assert_false(rg_candidates_add("", &c));
+    assert_string_equal(rg_last_error(), "bisect: a candidate has no name; leave it out");
     assert_false(rg_candidates_add("a\tb", &c));
-    assert_non_null(strstr(rg_last_error(), "control character 0x09"));
+    assert_string_equal(rg_last_error(),
+                        "bisect: a candidate has a control character 0x09; rename it");
     rg_log_hold(false);
     assert_int_equal(c.count, 1);
     rg_candidates_free(&c);
@@ -191,6 +201,19 @@ double rg_now_ms(void)
 {
     static double now_ms;
     return now_ms += 250;
+}
+
+// They stand before the library's, too: a command asks for an interruption by making this file.
+static char asked[64];
+
+bool rg_interrupted(void)
+{
+    return *asked && !access(asked, F_OK);
+}
+
+int rg_interrupt_signal(void)
+{
+    return rg_interrupted() ? SIGTERM : 0;
 }
 
 // Each exit status has its meaning; one that says "again" is tried with twice the time.
@@ -372,6 +395,39 @@ static void ends_that_are_wrong_are_told(void **state)
     }
 }
 
+// An interruption ends the command that judges, and says with which ends a bisect goes on.
+static void an_interruption_says_how_it_goes_on(void **state)
+{
+    (void)state;
+    int exit;
+    json_t *json;
+    char line[256];
+    strcpy(asked, "/tmp/raingauge-asked-XXXXXX");
+    const int file = mkstemp(asked);
+    assert_true(file >= 0 && !close(file) && !unlink(asked));
+    assert_int_equal(rg_judgement_git(RG_JUDGED_STOP), 128);
+    snprintf(line, sizeof(line),
+             "test $RG_CANDIDATE = 4 && { : > %s; exec sleep 60; }; test $RG_CANDIDATE -lt 5",
+             asked);
+    char *text = bisect(line, &exit, &json);
+    assert_int_equal(exit, RG_EXIT_SIGNALLED + SIGTERM);
+    assert_string_equal(text, "good  1  (exit status 0, 0.25 s)\n"
+                              "bad   6  (exit status 1, 0.25 s)\n"
+                              "good  3  (exit status 0, 0.25 s)\n");
+    assert_string_equal(told, "4 candidates left, about 3 more to judge\n"
+                              "2 candidates left, about 2 more to judge\n"
+                              "interrupted; --good '3' --bad '6' go on from here\n");
+    assert_string_equal(json_string_value(json_object_get(json, "end")), "stopped");
+    assert_int_equal(json_array_size(json_object_get(json, "judged")), 3);
+    assert_int_equal(json_array_size(json_object_get(json, "first_bad")), 0);
+    assert_int_equal(rg_judgement_git(RG_JUDGED_STOP), 128 + SIGTERM);
+    assert_int_equal(rg_judgement_git(RG_JUDGED_GOOD), 0);
+    unlink(asked);
+    *asked = 0;
+    json_decref(json);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -386,6 +442,7 @@ int main(void)
         cmocka_unit_test(the_first_bad_one_is_told),
         cmocka_unit_test(several_are_told),
         cmocka_unit_test(ends_that_are_wrong_are_told),
+        cmocka_unit_test(an_interruption_says_how_it_goes_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 // The channel between the harness and a worker: messages pass as a whole, whatever parts they
 // arrive in, and its end is seen.
+#define _GNU_SOURCE // ppoll
 #include "harness/devices/workers/channel.h"
 
 #include <setjmp.h>
@@ -9,13 +10,48 @@
 
 #include <cmocka.h>
 #include <errno.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
 
 enum { SOON_MS = 5 };
+
+// --- stand-ins ---
+
+// How many of the next calls of each kind a signal interrupts, and the error of a call that fails.
+static int interrupted_sends, interrupted_receipts, interrupted_waits;
+static int broken_receipt;
+
+ssize_t send(int socket, const void *bytes, size_t size, int flags)
+{
+    if (interrupted_sends > 0)
+        return interrupted_sends--, errno = EINTR, -1;
+    return sendto(socket, bytes, size, flags, NULL, 0);
+}
+
+ssize_t recv(int socket, void *bytes, size_t size, int flags)
+{
+    if (interrupted_receipts > 0)
+        return interrupted_receipts--, errno = EINTR, -1;
+    if (broken_receipt)
+        return errno = broken_receipt, -1;
+    return recvfrom(socket, bytes, size, flags, NULL, NULL);
+}
+
+int poll(struct pollfd *waited, nfds_t count, int timeout_ms)
+{
+    const struct timespec timeout = {timeout_ms / 1000, timeout_ms % 1000 * 1000000L};
+    if (interrupted_waits > 0)
+        return interrupted_waits--, errno = EINTR, -1;
+    return ppoll(waited, count, timeout_ms < 0 ? NULL : &timeout, NULL);
+}
+
+// --- the tests' own ---
 
 // Both ends, in this process.
 struct pair {
@@ -188,6 +224,29 @@ static void what_the_worker_does_is_seen(void **state)
     close_pair(&pair);
 }
 
+// A signal during a call is no end: the call is made again, or, where it waits, the caller looks
+// whether the signal asks for something.
+static void a_signal_is_no_end(void **state)
+{
+    (void)state;
+    struct pair pair = open_pair();
+    interrupted_sends = 3;
+    assert_true(send_text(&pair.theirs, "whole", ""));
+    assert_int_equal(interrupted_sends, 0);
+    interrupted_waits = 2;
+    expect_none(&pair.ours, RG_NOT_YET);
+    expect_none(&pair.ours, RG_NOT_YET);
+    assert_int_equal(interrupted_waits, 0);
+    interrupted_receipts = 3;
+    expect(&pair.ours, "whole");
+    assert_int_equal(interrupted_receipts, 0);
+    assert_true(send_text(&pair.theirs, "lost", ""));
+    broken_receipt = ECONNRESET;
+    expect_none(&pair.ours, RG_ENDED);
+    broken_receipt = 0;
+    close_pair(&pair);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +257,7 @@ int main(void)
         cmocka_unit_test(nobody_waits_for_ever_for_a_receiver),
         cmocka_unit_test(a_message_that_failed_is_not_sent),
         cmocka_unit_test(what_the_worker_does_is_seen),
+        cmocka_unit_test(a_signal_is_no_end),
     };
     return cmocka_run_group_tests_name("channels", tests, NULL, NULL);
 }

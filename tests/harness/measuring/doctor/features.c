@@ -23,7 +23,7 @@ static int begin(void **state)
 static json_t *make_rows(void)
 {
     json_t *rows = json_loads(
-        "[{\"name\": \"new\", \"status\": \"fail\", \"why\": \"1 draws fail\", \"ms\": 12.4,"
+        "[{\"name\": \"new\", \"status\": \"fail\", \"why\": \"1 draw fails\", \"ms\": 12.4,"
         "  \"draws\": [{\"feature\": \"linear\", \"status\": \"ok\", \"digest\": \"00aa\"},"
         "              {\"feature\": \"stencil\", \"status\": \"unsupported\", \"why\": \"lacks "
         "x\"},"
