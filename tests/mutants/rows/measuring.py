@@ -232,4 +232,9 @@ ROWS = [
     Fault(MEASURE, "is_patient && i < «RETAKES» && has_time(r)", "RETAKES + 1", "disturbed samples are taken again three times", tests=OF_OTHERS),
     Fault(MEASURE, "record->wanted_samples / all) «- record->sample_count»;", "+ 0", "samples that are there take time again", tests=OF_SAMPLING),
     Fault(COMPILE, "if («strcspn(at, \",\") == length» && !strncmp", "true", "a kernel is another whose name goes on", tests=OF_FEATURES),
+
+    # --- what blind draws showed ---
+    Fault("harness/doctor/fixed.c", "    «++*failed;»\n", ";", "a driver that fails draws on", tests=("fixed functions in doctor",)),
+    Fault("harness/doctor/fixed.c", "json_object_set_new(row, \"neighbour\", rg_fixed_hash(«told->other»));", "told->digest", "a neighbour has the draw's digest", tests=("fixed functions in doctor",)),
+    Fault("harness/doctor/fixed.c", "const int failed = drawn - counts[RG_OK] «- counts[RG_UNSUPPORTED]»;", "- 0", "draws that a device lacks count as failed", tests=("fixed functions in doctor",)),
 ]

@@ -239,4 +239,16 @@ ROWS = [
     Fault(DOCTOR, "infos[count++] = report->examinations[«i»].info;", "0", "a passport has the first device each time", tests=("what doctor asks for",)),
     Fault(DOCTOR, "exit = rg_exit_worse(exit,\n                             rg_doctor_compile(report->examinations[«i»].info.name,", "0", "kernels are compiled on the first device", tests=("what doctor asks for",)),
     Fault(LIST, "else if (p->kind == RG_PARAM_FILE)\n            snprintf(range, sizeof(range), «\"path or name\"»);", "\"path\"", "a model's name is no value", tests=("what doctor asks for",)),
+
+    # --- what blind draws showed ---
+    Fault(REPORT, "const int exit = «ok ? RG_EXIT_PASS : rg_exit_of_error()»;", "RG_EXIT_PASS", "a report that cannot be written passes", tests=("what report asks for",)),
+    Fault(REPORT, "        «ok = rg_output_write_file(o->output, text);»", "rg_output_write_file(o->output, text);", "Markdown that cannot be written passes", tests=("what report asks for",)),
+    Fault("harness/report/records.c", "        «page->gates_left_out++;»", ";", "gates that are left out are not counted", tests=("records of the page",)),
+    Fault("harness/report/records.c", "«is_shown(entry) || rg_key_is(entry->d_name)»", "is_shown(entry)", "the folders of machines are skipped", tests=("records of the page",)),
+    Fault("harness/report/records.c", "        «json_object_del(measured, \"taken\");» // of", ";", "pages hold what others took of each sample", tests=("records of the page",)),
+    Fault("harness/commands/tables/table.c", "return («!rg_file_is_in(o->from, folder)» && !(is_machine", "true", "the folder of --from is written into", tests=("tables that are stored",)),
+    Fault("harness/commands/tables/table.c", "&& !(«is_machine && rg_file_is_same(o->from, found)»)) ||", "false", "a machine's folder of --from is written into", tests=("tables that are stored",)),
+    Fault("harness/commands/tables/verdicts.c", "else if («form == RG_RESULT_TEX»)", "false", "verdicts have no form for TeX", tests=("verdicts that are stored",)),
+    Fault("harness/commands/list.c", "if («arguments->count > 1») {\n        rg_error(\"list:", "false", "words that list knows not are skipped", tests=("words that commands refuse",)),
+    Fault("harness/commands/tables/sweep.c", "if («*devices»)\n            return rg_error(\"--axis device: stands", "false", "the last axis of devices counts", tests=("words that commands refuse",)),
 ]

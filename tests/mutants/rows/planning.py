@@ -195,4 +195,11 @@ ROWS = [
     Fault(BUDGET, "«seen->height /= share->divisor;»", ";", "small pictures are as high as large ones", tests=("within a budget",)),
     Fault(BUDGET, "«result->budget_s = b->options->budget_s;»", ";", "a result within a budget is told as the whole table", tests=("within a budget",)),
     Fault(BUDGET, "rg_duration_text(fmax(«left_s(b)», 0), text)", "b->options->budget_s", "all of a budget is said to be left", tests=("within a budget",)),
+
+    # --- what blind draws showed ---
+    Fault(BUDGET, "«exit = rg_exit_worse(exit, b->options->print(&b->results[i], b->options->user))»;", "exit = b->options->print(&b->results[i], b->options->user)", "the last table of a budget alone decides about the status", tests=("within a budget",)),
+    Fault("harness/tables/farm/merge.c", "(long long)m->plan->cell_count, «machine->key», machine->text);", "machine->text", "a merge tells no key", tests=MERGES),
+    Fault("harness/tables/farm/merge.c", "«m->tables == 1» ? \"\" : \"s\", (long long)m->cells", "m->tables != 1", "a merge counts one tables", tests=MERGES),
+    Fault("harness/tables/farm/plan_file.c", "    «rg_farm_cell_id(plan, group, cell, id, sizeof(id));»", "*id = 0;", "cells of a plan have no id", tests=PLANS),
+    Fault("harness/tables/farm/found.c", "rg_info(\"%lld groups more are missing\", «(long long)groups - MOST_LINES»);", "(long long)groups", "the groups that are missing are counted twice", tests=MERGES),
 ]

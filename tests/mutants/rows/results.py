@@ -349,7 +349,7 @@ ROWS = [
     # --- what blind draws showed ---
     Fault(TEXT, "    «sheet->title = \"claims\";»\n", ";", "the page of claims has no title", tests=PAGES),
     Fault(TEXT, "sheet->note_width = «wide ? 0 : RG_PAGE_WIDTH»;", "RG_PAGE_WIDTH", "notes of a wide page of claims are broken", tests=PAGES),
-    Fault(TEXT, "{RG_GREEN, «RG_RED», RG_YELLOW", "RG_GREEN", "claims that do not hold are green", tests=PAGES),
+    Fault(TEXT, "            «return colours[i];»", "return colours[0];", "claims that do not hold are green", tests=PAGES),
     Fault(TEXT, "i <= «RG_CLAIM_OTHER_WORK»; i++)", "RG_CLAIM_UNDECIDED", "other work has no colour", tests=PAGES),
     Fault(DOCUMENT, "\"format\", «RG_FORMAT_VERSION», \"machines\"", "RG_FORMAT_VERSION + 1", "the document of claims has a format of its own", tests=PAGES),
     Fault(OUTCOMES, "RG_NAME_SIZE);\n    «rg_claims_length(result, outcome->length, sizeof(outcome->length));»", ";", "verdicts of today have no length", tests=LAUNCHES),
@@ -360,4 +360,5 @@ ROWS = [
     Fault(JUDGE, "    «e->judgement.figures = figures_of(settled);»\n    rg_evidence_end(e, verdict_of(settled), \"the error", ";", "errors of images have no figures", tests=REASONS),
     Fault(PARTS, "«is_within(e->claim, e->rows[i]) && e->logs[l][i][0] < fastest»", "is_within(e->claim, e->rows[i])", "the last row within counts as the fastest", tests=REASONS),
     Fault(MARGIN, "«p[i - 1].group != p[i].group» || p[i + 1]", "false", "a line goes on from one group to the next", tests=("order",)),
+    Fault(TREND, "return !result->is_of_textures && «rg_result_first_missing(result) > result->last_row»;", "rg_result_first_missing(result) >= result->last_row", "a trend needs no last row", tests=("sheets, trends",)),
 ]

@@ -419,4 +419,9 @@ ROWS = [
     Fault(APART, "all = «!*of_a->path && !*of_b->path» ? true", "!*of_b->path", "files below the first of two drivers do not count", tests=OF_APART),
     Fault(FRAME, "rg_log_hold(false);", ";", "nothing more is told after a look for rain", tests=OF_FRAMES),
     Fault(PREFIX, "for (int i = 0; «!*found && i < prefix->folder_count»; i++) {\n        char path[PATH_MAX + 16];", "i < prefix->folder_count", "the last folder with drivers of DRI is taken", tests=OF_PREFIXES),
+
+    # --- what blind draws showed ---
+    Fault("harness/devices/workers/channel.c", "else if (errno != EAGAIN && «errno != EINTR»)", "true", "a signal breaks what is sent", tests=("channels",)),
+    Fault("harness/devices/workers/channel.c", "if (got == 0 || (got < 0 && «errno != EINTR» && errno != EAGAIN))", "true", "a signal ends a channel that is read", tests=("channels",)),
+    Fault("harness/devices/workers/channel.c", "if (ready == 0 || («ready < 0 && errno == EINTR»))", "false", "a signal ends a channel that is waited for", tests=("channels",)),
 ]

@@ -42,4 +42,7 @@ ROWS = [
     Fault(RUN, "\"status\", «j->status»,", "j->tries", "JSON has tries for the status", tests=("bisect",)),
     Fault(RUN, "rg_number_json(«j->seconds»)", "1000 * j->seconds", "JSON has milliseconds", tests=("bisect",)),
     Fault(RUN, "\"candidates\", «(int)last + 1»,", "(int)last", "JSON has a candidate fewer", tests=("bisect",)),
+
+    # --- what blind draws showed ---
+    Fault("harness/compare/bisect/bisect.c", "rg_info(\"interrupted; --good '%s' --bad '%s' go on from here\", names[«b->found.good»],", "b->found.bad", "a bisect goes on from a wrong end", tests=("bisect",)),
 ]

@@ -377,4 +377,11 @@ ROWS = [
     Fault(PICTURES, "    prefix_of(folder, «name», prefix);\n    return ok", "folder", "heat maps have another name", tests=SEEN),
     Fault(PICTURES, "return ok && rg_pair_heatmaps(prefix, a, «b», comparison);", "a", "a heat map is of A alone", tests=SEEN),
     Fault(PICTURES, "if («strlen(folder) > PATH_MAX / 2»)", "false", "a folder's name is cut", tests=SEEN),
+
+    # --- what blind draws showed ---
+    Fault("harness/commands/comparing/gate.c", "const bool is_done = «exit < RG_EXIT_SIGNALLED» && exit", "true", "a shard that was interrupted leaves a record", tests=("ends of a gate",)),
+    Fault("harness/commands/comparing/gate.c", "exit = «rg_exit_worse(rg_gate_exit(&whole, &gate), beyond)»;", "rg_gate_exit(&whole, &gate)", "shards together forget what their reports do not tell", tests=("ends of a gate",)),
+    Fault("harness/commands/comparing/gate.c", "if («*folder && !rg_hold_folder(folder, &hold)») {", "*folder && (rg_hold_folder(folder, &hold), false)", "two gates write into one folder", tests=("ends of a gate",)),
+    Fault("harness/commands/comparing/shrink.c", "            «exit = rg_exit_of_error();» // a full disk says", ";", "a case that cannot be written passes", tests=("ends of shrink",)),
+    Fault("harness/commands/comparing/shrink.c", "    «remove_folder();»\n    return rg_interrupted()", ";", "shrink leaves its temporary files", tests=("ends of shrink",)),
 ]
