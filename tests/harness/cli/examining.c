@@ -82,6 +82,8 @@ bool rg_doctor_knows_kernels(const char *names)
 int rg_doctor_compile(const char *device, const char *names, json_t *report)
 {
     asked_note("compile %s on %s%s; ", names, device, report ? " as json" : "");
+    if (report)
+        json_array_append_new(report, json_string(device));
     return strcmp(device, "second") ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
@@ -164,7 +166,18 @@ static void examinations_are_asked_for(void **state)
         missing = examinations[i].missing;
         asked_expect(examinations[i].line, examinations[i].seen, examinations[i].exit);
     }
+    static const char *const all[] = {"doctor", "doctor --kernels a", "doctor --fixed-function"};
+    missing = RG_CRASH;
+    for (int i = 0; i < 3; i++) { // a driver that falls as it is listed is told
+        assert_int_equal(asked_run(all[i]), RG_EXIT_FAIL);
+        assert_string_equal(asked_logged, "vulkan: it fell");
+    }
     missing = RG_OK;
+    asked_run("doctor --kernels a --json");
+    assert_string_equal(asked_printed, "[\n  \"first\",\n  \"second\"\n]\n");
+    asked_run("doctor --fixed-function --json --device cpu");
+    assert_string_equal(asked_printed, "{\n  \"format\": 1,\n  \"passport\": 1,\n  "
+                                       "\"fixed_functions\": [\n    \"cpu\"\n  ]\n}\n");
     asked_run("doctor --device gl --timeout 3");
     assert_string_equal(asked_logged, "device 'gl': 2 operations differ");
     assert_int_equal(rg_workers.timeout_s, 3);
