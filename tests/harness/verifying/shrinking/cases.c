@@ -224,23 +224,55 @@ static void a_wrong_line_is_named(void **state)
     static const struct {
         const char *word, *line, *says;
     } cases[] = {
-        {"size", "size 0x5", "line 2: size '0x5' is no value of a case here"},
-        {"frames", "frame 3", "line 3: 'frame' is no line of a case here"},
-        {"frames", "frames -1", "line 3: frames '-1' is no value of a case here"},
+        {"size", "size 0x5",
+         "line 2: size '0x5' is no value of a case here; write one anew with "
+         "`raingauge shrink`"},
+        {"frames", "frame 3",
+         "line 3: 'frame' is no line of a case here; write one anew with "
+         "`raingauge shrink`"},
+        {"frames", "frames -1",
+         "line 3: frames '-1' is no value of a case here; write one anew "
+         "with `raingauge shrink`"},
         {"behind", "set scene=quads\nset scene=mesh",
          "line 5: 'scene' is set twice; leave one out"},
         {"behind", "set share=2", "line 4: parameter 'share'"},
         {"asset", "asset a\nasset b", "line 7: 'asset' is there twice; leave one out"},
         {"behind", "file model=a.obj", "line 4: "},
     };
+    char due[512];
     rg_log_hold(true);
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         struct rg_case c;
         assert_false(read_with(cases[i].word, cases[i].line, &c));
-        if (!strstr(rg_last_error(), cases[i].says))
+        snprintf(due, sizeof(due), "%s: %s", path, cases[i].says);
+        if (strncmp(rg_last_error(), due, strlen(due)) != 0)
             fail_msg("%s: %s", cases[i].line, rg_last_error());
         rg_case_free(&c);
     }
+    rg_log_hold(false);
+}
+
+// Each of these lines must be there.
+static void a_line_that_is_missing_is_told(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"technique", "size",  "frames",   "behind", "stage",
+                                        "asset",     "class", "expected", "truth",  "device"};
+    char due[256];
+    snprintf(due, sizeof(due),
+             "%s: lacks its technique, size, frames, stage, what it is behind, asset, class, "
+             "expected digest or devices; write one anew with `raingauge shrink`",
+             path);
+    rg_log_hold(true);
+    for (size_t i = 0; i < sizeof(words) / sizeof(words[0]); i++) {
+        struct rg_case c;
+        if (read_with(words[i], "# nothing", &c) || strcmp(rg_last_error(), due) != 0)
+            fail_msg("%s: %s", words[i], rg_last_error());
+        rg_case_free(&c);
+    }
+    struct rg_case c;
+    assert_true(read_with("found", "# nothing", &c)); // a device that fails leaves none
+    rg_case_free(&c);
     rg_log_hold(false);
 }
 
@@ -250,7 +282,7 @@ static void files_go_along(void **state)
 {
     (void)state;
     struct rg_case c = other_bits, read;
-    char own[96], sent[128], assignment[128];
+    char own[96], sent[128], assignment[192];
     snprintf(own, sizeof(own), "%s/of.mine.json", folder);
     snprintf(sent, sizeof(sent), "%s.files/lights_file.json", path);
     snprintf(assignment, sizeof(assignment), "lights_file=%s", own);
@@ -270,10 +302,18 @@ static void files_go_along(void **state)
     struct rg_subject *subject = &read.run.subject;
     assert_false(rg_file_receive(subject->technique, (void *)(uintptr_t)subject->settings,
                                  "lights_file=../of.mine.json", path));
+    assert_string_equal(rg_last_error(), "'lights_file=../of.mine.json' names no file beside the "
+                                         "case; write it as KEY=NAME");
     assert_false(rg_file_receive(subject->technique, (void *)(uintptr_t)subject->settings,
                                  "lights_file=none.json", path));
+    snprintf(assignment, sizeof(assignment),
+             "%s.files/none.json is not there; send the folder along with the case", path);
+    assert_string_equal(rg_last_error(), assignment);
     assert_false(rg_file_receive(subject->technique, (void *)(uintptr_t)subject->settings,
                                  "lights_file=", path));
+    assert_string_equal(rg_last_error(),
+                        "'lights_file=' names no file beside the case; write it as "
+                        "KEY=NAME");
     assert_false(rg_files_spared_by_case(subject, path));
     assert_non_null(strstr(rg_last_error(), "case.txt.files: would be overwritten"));
     assert_true(rg_files_spared_by_case(&c.run.subject, path));
@@ -341,7 +381,14 @@ static void a_file_is_loaded_whole(void **state)
     free(bytes);
     rg_log_hold(true);
     assert_null(rg_file_load("/nonexistent/a.obj", &size));
-    assert_non_null(strstr(rg_last_error(), "/nonexistent/a.obj: "));
+    assert_string_equal(rg_last_error(), "/nonexistent/a.obj: No such file or directory; name a "
+                                         "file that can be read");
+    write_text(path, ""); // an empty file is whole, too
+    bytes = rg_file_load(path, &size);
+    assert_non_null(bytes);
+    assert_int_equal(size, 0);
+    assert_int_equal(*bytes, 0);
+    free(bytes);
     rg_log_hold(false);
 }
 
@@ -369,6 +416,7 @@ int main(void)
         cmocka_unit_test(a_failure_is_written_and_read),
         cmocka_unit_test(a_preset_comes_first),
         cmocka_unit_test(lines_have_their_limits),
+        cmocka_unit_test(a_line_that_is_missing_is_told),
         cmocka_unit_test(a_wrong_line_is_named),
         cmocka_unit_test(files_go_along),
         cmocka_unit_test(a_kernels_folder_is_spared),
