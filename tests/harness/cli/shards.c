@@ -104,8 +104,15 @@ static void a_shard_is_found_by_variables(void **state)
     static const struct asked rows[] = {
         {"auto", {"5", "3", "6", "4"}, 0, 3, 4, NULL},
         {"auto", {"3", "3", "6", "4"}, 0, 1, 4, NULL},
+        {"auto", {"0", "0", "3", "4"}, 0, 1, 4, NULL},
         {"auto", {"6", "3", "6", "4"}, 0, 4, 4, NULL},
-        {"auto", {"5", "3", "7", "4"}, 0, 0, 0, "Slurm's array has gaps"},
+        {"auto",
+         {"5", "3", "7", "4"},
+         0,
+         0,
+         0,
+         "--shard auto: Slurm's array has gaps, so that it does not say how many shards there are; "
+         "write --shard 1/4, or make a plan with `raingauge plan --shards N`"},
         {"auto", {"7", "5", "9", "2"}, 8, 7, 8, NULL}, // some shards of a settled number
         {"auto", {"9", "5", "9", "2"}, 8, 0, 0, "shard 9 is none of 1 to 8"},
         {"auto",
@@ -124,6 +131,8 @@ static void a_shard_is_found_by_variables(void **state)
         {"auto", {NULL, NULL, NULL, NULL, NULL, "5"}, 0, 0, 0, "CI_NODE_INDEX '' is no"},
         {"auto", {NULL, NULL, NULL, NULL, NULL, NULL, "2", "5"}, 0, 3, 5, NULL},
         {"auto", {NULL, NULL, NULL, NULL, NULL, NULL, "2", "5"}, 5, 3, 5, NULL},
+        {"auto", {NULL, NULL, NULL, NULL, NULL, NULL, "x", "5"}, 0, 0, 0, "GTEST_"},
+        {"auto", {NULL, NULL, NULL, NULL, NULL, NULL, "5", "5"}, 0, 0, 0, "GTEST_"},
         {"auto", {"1", "1", "2", "2", "2", "5", "2", "6"}, 0, 1, 2, NULL},
         {"auto", {NULL, NULL, NULL, NULL, "2", "5", "2", "6"}, 0, 2, 5, NULL},
         {"auto",
