@@ -409,14 +409,14 @@ static void an_interruption_says_how_it_goes_on(void **state)
     snprintf(line, sizeof(line),
              "test $RG_CANDIDATE = 4 && { : > %s; exec sleep 60; }; test $RG_CANDIDATE -lt 5",
              asked);
-    char *text = bisect(line, &exit, &json);
+    const char *text = bisect(line, &exit, &json);
     assert_int_equal(exit, RG_EXIT_SIGNALLED + SIGTERM);
     assert_string_equal(text, "good  1  (exit status 0, 0.25 s)\n"
                               "bad   6  (exit status 1, 0.25 s)\n"
                               "good  3  (exit status 0, 0.25 s)\n");
-    assert_string_equal(told, "4 candidates left, about 3 more to judge\n"
-                              "2 candidates left, about 2 more to judge\n"
-                              "interrupted; --good '3' --bad '6' go on from here\n");
+    assert_string_equal(logged, "4 candidates left, about 3 more to judge\n"
+                                "2 candidates left, about 2 more to judge\n"
+                                "interrupted; --good '3' --bad '6' go on from here\n");
     assert_string_equal(json_string_value(json_object_get(json, "end")), "stopped");
     assert_int_equal(json_array_size(json_object_get(json, "judged")), 3);
     assert_int_equal(json_array_size(json_object_get(json, "first_bad")), 0);
@@ -425,7 +425,6 @@ static void an_interruption_says_how_it_goes_on(void **state)
     unlink(asked);
     *asked = 0;
     json_decref(json);
-    free(text);
 }
 
 int main(void)
