@@ -1,4 +1,4 @@
-#define _GNU_SOURCE // sched_setaffinity
+#define _GNU_SOURCE // sched_setaffinity, RTLD_NEXT
 // The warnings of `raingauge doctor`: each trap is told where it is, and nowhere else.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <dlfcn.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,6 +19,19 @@
 
 static struct rg_device_list list;
 static int cores; // that this process may run on
+
+// What a machine has in place of this one's; below 0: as it is.
+static double quota_cpus = -1;
+static int gpu_nodes = -1, cores_allowed = -1;
+
+void rg_machine_read(struct rg_machine *machine, const char *root)
+{
+    ((__typeof__(&rg_machine_read))dlsym(RTLD_NEXT, "rg_machine_read"))(machine, root);
+    if (cores_allowed >= 0)
+        machine->cores_allowed = machine->cores_online = cores_allowed;
+    machine->quota_cpus = quota_cpus >= 0 ? quota_cpus : machine->quota_cpus;
+    machine->gpu_nodes = gpu_nodes >= 0 ? gpu_nodes : machine->gpu_nodes;
+}
 
 static const struct rg_backend cpu = {.name = "cpu"}, gl = {.name = "gl"},
                                vulkan = {.name = "vulkan"}, opencl = {.name = "opencl"};
@@ -220,6 +234,47 @@ static void fewer_cores_than_there_are_are_told(void **state)
     assert_int_equal(sched_setaffinity(0, sizeof(before), &before), 0);
 }
 
+// A share of a machine's time that is smaller than its cores.
+static void a_quota_is_told(void **state)
+{
+    (void)state;
+    static const struct {
+        double quota_cpus;
+        const char *due; // "": no warning
+    } rows[] = {
+        {0, ""}, // none
+        {4, ""},
+        {5, ""},
+        {2.5,
+         "the cgroup grants 2.5 CPUs of time on 4 cores: threads are stopped within frames and "
+         "times scatter; set the thread variables (docs/environment.md) to 2"},
+        {0.5,
+         "the cgroup grants 0.5 CPUs of time on 4 cores: threads are stopped within frames and "
+         "times scatter; set the thread variables (docs/environment.md) to 1"}};
+    cores_allowed = 4;
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        quota_cpus = rows[i].quota_cpus;
+        expect("the cgroup grants", rows[i].due);
+    }
+    cores_allowed = -1;
+    quota_cpus = -1;
+}
+
+// A GPU that no driver of an API opens is told by each API whose first device is software.
+static void a_gpu_that_no_driver_opens_is_told(void **state)
+{
+    (void)state;
+    add(&cpu, "cpu", "this CPU", true);
+    add(&gl, "gl", "llvmpipe", true);
+    add(&gl, "gl:1", "softpipe", true);
+    gpu_nodes = 0;
+    expect("runs in software", "");
+    gpu_nodes = 1;
+    expect("runs in software", "'gl' runs in software (llvmpipe) though this machine has a GPU: no "
+                               "driver of that API opens it");
+    gpu_nodes = -1;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -228,6 +283,8 @@ int main(void)
         cmocka_unit_test_setup(each_variable_has_its_warning, begin),
         cmocka_unit_test_setup(software_beside_a_gpu_is_told, begin),
         cmocka_unit_test_setup(fewer_cores_than_there_are_are_told, begin),
+        cmocka_unit_test_setup(a_quota_is_told, begin),
+        cmocka_unit_test_setup(a_gpu_that_no_driver_opens_is_told, begin),
     };
     return cmocka_run_group_tests_name("warnings of doctor", tests, NULL, NULL);
 }
