@@ -114,14 +114,14 @@ static int count_machines(const struct rg_claim_outcomes *o)
 
 static void add_sentence(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
 {
-    const int devices = count_devices(o), machines = count_machines(o);
+    const int claims = count_claims(o), devices = count_devices(o), machines = count_machines(o);
     char of_machines[40] = "";
     if (machines > 1)
         snprintf(of_machines, sizeof(of_machines), " of %d machines", machines);
     rg_sheet_note(sheet,
-                  "%d claims on %d device%s%s: %d hold, %d do not, %d are open, %d at the bound; "
+                  "%d claim%s on %d device%s%s: %d hold, %d do not, %d are open, %d at the bound; "
                   "%d are not judged.",
-                  count_claims(o), devices, devices == 1 ? "" : "s", of_machines,
+                  claims, claims == 1 ? "" : "s", devices, devices == 1 ? "" : "s", of_machines,
                   count_verdicts(o, RG_CLAIM_REPRODUCED),
                   count_verdicts(o, RG_CLAIM_NOT_REPRODUCED), count_verdicts(o, RG_CLAIM_UNDECIDED),
                   count_verdicts(o, RG_CLAIM_AT_BOUND),

@@ -270,6 +270,20 @@ static void a_page_without_claims_counts_none(void **state)
     rg_claims_free(&o);
 }
 
+static void one_claim_is_told_as_one(void **state)
+{
+    (void)state;
+    struct rg_claim_outcomes o;
+    struct rg_sheet sheet = {0};
+    begin(&o);
+    add(&o, 0, 0, "y");
+    rg_claims_sheet(&o, false, &sheet);
+    assert_string_equal(sheet.notes[0], "1 claim on 1 device: 1 hold, 0 do not, 0 are open, 0 at "
+                                        "the bound; 0 are not judged.");
+    rg_sheet_free(&sheet);
+    rg_claims_free(&o);
+}
+
 // A reason is told once for all devices that have it, and apart for those that have another.
 static void a_wide_page_has_words_and_reasons(void **state)
 {
@@ -507,6 +521,7 @@ int main(void)
         cmocka_unit_test(a_page_counts_explains_and_lists),
         cmocka_unit_test(pages_have_a_width_and_colours),
         cmocka_unit_test(a_page_without_claims_counts_none),
+        cmocka_unit_test(one_claim_is_told_as_one),
         cmocka_unit_test(a_wide_page_has_words_and_reasons),
         cmocka_unit_test(machines_stand_side_by_side),
         cmocka_unit_test(places_name_a_machine_among_several),
