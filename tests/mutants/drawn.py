@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Tries the tests with faults that nobody chose: drawn by seed over the functions of host code.
 
-drawn.py BUILD [--seed N] [--count N] [--under FOLDER]... [--rows FILE] [--seconds S] [--at-once N] [--list]
+drawn.py BUILD [--seed N] [--count N] [--under FOLDER]... [--rows FILE] [--suite NAME]... [--seconds S] [--at-once N] [--list]
 
 Draws functions, and in each a place and one of its faults: a comparison that is off by one or turned, an operand alone, a sum for a
 difference, a number that is one more, a condition turned, a call or assignment left out. Builds one copy of the source with all of them
 behind switches (switch.h), runs every test once to learn which faults its code reaches, and tries each fault with the tests that reach it,
 from the quickest on, for at most S seconds. Prints a line a fault: the test that noticed it, or that it lived, with the tests for which the
 time did not suffice. What was found stays in BUILD/drawn, and the same command goes on there. --list only prints the faults. --rows tries faults that somebody
-planted instead, of a file like those of rows/.
+planted instead, of a file like those of rows/. --suite tries only tests of these suites, for host code host, unit and cli; else it tries
+all tests of `make test`.
 
 Debian's python3-clang finds the places. What lived is for a reader to judge: a fault may change nothing that anyone needs.
 """
@@ -176,6 +177,12 @@ def draw(functions, seed, count):
 # --- trying ---
 
 
+def is_tried(test, wanted):
+    """By its suites, of which `wanted` are any."""
+    suites = {suite.split(":")[-1] for suite in test["suite"]}
+    return "thorough" not in suites and (not wanted or bool(suites & set(wanted)))
+
+
 def reached_by(tests, scratch, at_once):
     """The seconds of each test on the source as it is, and the numbers of the faults that it reaches."""
     path = scratch / "reached.json"
@@ -250,6 +257,7 @@ def main():
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--under", action="append")
     parser.add_argument("--rows", type=pathlib.Path)
+    parser.add_argument("--suite", action="append")
     parser.add_argument("--seconds", type=float, default=120)
     parser.add_argument("--at-once", type=int, default=os.cpu_count())
     parser.add_argument("--list", action="store_true")
@@ -274,7 +282,7 @@ def main():
     mutants.copy_source(scratch / "source", [(number, "", fault) for number, fault in enumerate(faults, 1)])
     copy = mutants.configure(scratch / "source", "-Dlevels=v3", "-Dwerror=false")
     subprocess.run(["ninja", "-C", copy], check=True)
-    tests = mutants.tests_of(copy)
+    tests = {name: test for name, test in mutants.tests_of(copy).items() if is_tried(test, options.suite)}
     shutil.rmtree(scratch / "cache", ignore_errors=True)
     (scratch / "cache").mkdir()
     report(faults, try_all(faults, tests, reached_by(tests, scratch, options.at_once), scratch, options))
