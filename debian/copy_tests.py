@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Copies the tests that need no source tree, and their list: copy_tests.py BUILD FOLDER. `raingauge-tests` runs them from there.
 
-These are the tests that are programs: the device suite, techniques, oracles and host code. Scripts of the tree are left out. Programs keep
-their places relative to the library that they share, so that they find it. FOLDER is `tests` in the folder of raingauge's readers, which
-tests find by the link `core`.
+These are the tests of devices, techniques and arithmetic that are programs. Scripts of the tree are left out, and tests of host code, which
+depend on no machine. Programs keep their places relative to the library that they share, so that they find it. FOLDER is `tests` in the
+folder of raingauge's readers, which tests find by the link `core`.
 """
 import json
 import os
@@ -52,8 +52,9 @@ class Copies:
 
 
 def is_wanted(test, build):
-    return (build in pathlib.Path(test["cmd"][0]).parents and "raingauge:thorough" not in test["suite"] and "raingauge:watched" not in test["suite"] and
-            not test["name"].startswith(NEED_THE_TREE))
+    suites = {suite.split(":")[-1] for suite in test["suite"]}
+    is_program = build in pathlib.Path(test["cmd"][0]).parents
+    return is_program and not suites & {"host", "thorough", "watched"} and not test["name"].startswith(NEED_THE_TREE)
 
 
 def main():
