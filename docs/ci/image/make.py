@@ -34,7 +34,8 @@ def make_tree(variant, debs, to, options):
     with tempfile.TemporaryDirectory() as folder:
         for path in [HERE / name for name in ("install.sh", "packages.txt", "dpkg.cfg")] + debs:
             shutil.copy(path, folder)
-        hooks = ['mkdir "$1/tmp/image"', f'cp {folder}/* "$1/tmp/image"', f'chroot "$1" sh /tmp/image/install.sh {variant} /tmp/image', 'rm -r "$1/tmp/image"']
+        hooks = ['mkdir "$1/tmp/image"', f'cp {folder}/* "$1/tmp/image"', f'chroot "$1" sh /tmp/image/install.sh {variant} /tmp/image',
+                 'rm -r "$1/tmp/image"']
         command = ["mmdebstrap", "--variant=apt", "--include=usr-is-merged", f"--hook-dir={MERGED_USR}", f"--dpkgopt={HERE / 'dpkg.cfg'}"]
         command += ["--customize-hook=" + hook for hook in hooks] + ["--aptopt=" + option for option in options.apt]
         command += ["bookworm", str(to)] + options.mirror

@@ -128,7 +128,8 @@ def job_of(path, name):
     while "extends" in job:
         base = job.pop("extends")
         job = merged(jobs[base], job)
-    known(job, ("stage", "image", "variables", "before_script", "script", "after_script", "allow_failure", "artifacts", "parallel", "when"), name)
+    known(job, ("stage", "image", "variables", "before_script", "script", "after_script", "allow_failure", "artifacts", "parallel", "when"),
+          name)
     return job
 
 def gitlab_image(path, name, given):
@@ -156,7 +157,8 @@ def keep(place, artifacts, is_failed):
 def gitlab(path, name, place, given):
     """Takes a job's steps. `given` are variables of the project, which replace those of the file. The summary is what ran last."""
     job = job_of(path, name)
-    variables = {"CI": "true", "GITLAB_CI": "true", "CI_JOB_URL": URL, "CI_PROJECT_DIR": place.at(place.project), **job["variables"], **given}
+    variables = {"CI": "true", "GITLAB_CI": "true", "CI_JOB_URL": URL, "CI_PROJECT_DIR": place.at(place.project)}
+    variables.update({**job["variables"], **given})
     place.check_out()
     ended, log = place.run("\n".join(job.get("before_script", []) + job["script"]), variables)
     allowed = job.get("allow_failure", False)

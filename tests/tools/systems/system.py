@@ -2,6 +2,7 @@
 import os
 import pathlib
 import shlex
+import shutil
 import subprocess
 
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
@@ -18,7 +19,7 @@ class Way:
         self.variables = {"PATH": PATH, "HOME": "/root", "LANG": "C.UTF-8", **(variables or {})}
         self.binds = binds or {}  # folders and files of this machine, by where the system has them
         self.layer = layer  # a folder that takes what commands change, so that the system stays as it is
-        self.is_contained = is_contained  # as in a read-only container: neither the root file system nor /sys is written, and /dev has no device
+        self.is_contained = is_contained  # as in a container: the root file system and /sys are read-only, and /dev has no GPU
         self.has_network, self.is_user = has_network, is_user
         self.temporary = temporary  # folders in memory, which all may write
 
@@ -32,8 +33,8 @@ class Way:
                       f"mount -t overlay -o {shlex.quote(layers)} overlay {quoted}"]
         lines += [f"cd {quoted}", "mount -t proc proc proc"]
         if self.is_contained:
-            lines += ["mount -t sysfs -o ro sysfs sys", "mount -t tmpfs -o mode=755 tmpfs dev", "mkdir dev/shm", "mount -t tmpfs -o mode=1777 tmpfs dev/shm",
-                      "ln -s /proc/self/fd dev/fd"] + [f"mknod -m 666 dev/{name} c 1 {number}" for name, number in DEVICES.items()]
+            lines += ["mount -t sysfs -o ro sysfs sys", "mount -t tmpfs -o mode=755 tmpfs dev", "mkdir dev/shm",
+                      "mount -t tmpfs -o mode=1777 tmpfs dev/shm", "ln -s /proc/self/fd dev/fd"] + [f"mknod -m 666 dev/{name} c 1 {number}" for name, number in DEVICES.items()]
         else:
             lines += ["mount --rbind /sys sys",  # PoCL asks it for the processors
                       "mount --rbind /dev dev"]
@@ -46,8 +47,8 @@ class Way:
         """A command line that runs a command in a system."""
         chroot = ["chroot"] + ([f"--userspec={ID}:{ID}", f"--groups={ID}"] if self.is_user else []) + [str(root)]
         inner = "; ".join(self.mounts(root)) + '; "$@"; exit $?'  # the shell is process 1, and reaps processes as an init does
-        return (["unshare", "--mount", "--pid", "--fork", "--kill-child"] + ([] if self.has_network else ["--net"]) + ["sh", "-c", inner, "sh"] + chroot +
-                ["sh", "-c", 'cd "$0" && exec "$@"', self.folder] + list(command))
+        spaces = ["--mount", "--pid", "--fork", "--kill-child"] + ([] if self.has_network else ["--net"])
+        return ["unshare"] + spaces + ["sh", "-c", inner, "sh"] + chroot + ["sh", "-c", 'cd "$0" && exec "$@"', self.folder] + list(command)
 
 
 class System:
@@ -61,7 +62,8 @@ class System:
 
     def make(self, debian, packages, *more, mirror=None):
         """Makes it of a Debian's packages, with more options of mmdebstrap. Whether that went well."""
-        command = ["mmdebstrap", "--variant=apt", "--include=" + ",".join(packages), *more, debian, str(self.root)] + ([mirror] if mirror else [])
+        command = ["mmdebstrap", "--variant=apt", "--include=" + ",".join(packages), *more, debian, str(self.root)]
+        command += [mirror] if mirror else []
         with open(self.log, "a") as log:
             return subprocess.run(command, stdout=log, stderr=log, check=False).returncode == 0
 
@@ -83,5 +85,5 @@ class System:
 
 def lacks():
     """What keeps this machine from making systems; None if nothing does."""
-    missing = [name for name in ("mmdebstrap", "unshare") if not any(os.access(os.path.join(folder, name), os.X_OK) for folder in os.get_exec_path())]
+    missing = [name for name in ("mmdebstrap", "unshare") if not shutil.which(name)]
     return "needs root" if os.geteuid() else "needs the program " + missing[0] if missing else None
