@@ -30,9 +30,8 @@ from system import System, Way, lacks
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 RECIPE, GITHUB, GITLAB = ROOT / "docs/ci/image/make.py", ROOT / "docs/ci/github.yml", ROOT / "docs/ci/gitlab-ci.yml"
-# What is said if a step is missing.
-MISSED = {"actions/checkout@v4": "gate: is not there", "Install": "raingauge: command not found", "Files": "gate: is not there",
-          "Upload": "steps.upload.outputs"}
+# What is said if a step is missing: no gate leaves anything to upload, or the upload has no address.
+MISSED = {"actions/checkout@v4": "gate: is not there", "Install": "gate: is not there", "Files": "gate: is not there", "Upload": "steps.upload.outputs"}
 LAVAPIPE = "usr/lib/*/libvulkan_lvp.so"
 # Commands of a container, with words that they print, and the seconds that they may take.
 FIRST_GATE = ("raingauge gate cpu vulkan --pictures", "6 cases, 6 pass", 90)
