@@ -33,6 +33,24 @@ static const char *feature_of(int row)
     return row < draws ? rg_fixed_draws[row].feature : rg_fixed_closed[row - draws].feature;
 }
 
+// Whether a draw's values are within their bounds, and the first that is not.
+static void note_bounds(const struct rg_fixed_told *told, json_t *row)
+{
+    const struct rg_fixed_beyond *b = &told->beyond;
+    if (*told->known)
+        json_object_set_new(row, "known", rg_json_text(told->known));
+    json_object_set_new(row, "bounds",
+                        json_string(!told->is_bounded ? "none"
+                                    : b->count        ? "beyond"
+                                                      : "within"));
+    if (b->count)
+        json_object_set_new(row, "beyond",
+                            json_pack("{sosisisisisfsfsfsi}", "part", rg_json_text(b->part),
+                                      "layer", b->layer, "x", b->x, "y", b->y, "channel",
+                                      b->channel, "value", b->value, "low", b->low, "high", b->high,
+                                      "count", b->count));
+}
+
 // Notes how a pair is judged, and logs one line where it fails.
 static enum rg_outcome note(const struct rg_device *device, int i, const struct rg_fixed_told *told,
                             json_t *row)
@@ -43,6 +61,7 @@ static enum rg_outcome note(const struct rg_device *device, int i, const struct 
     if (outcome != RG_UNSUPPORTED && i < rg_fixed_count()) {
         json_object_set_new(row, "digest", rg_fixed_hash(told->digest));
         json_object_set_new(row, "neighbour", rg_fixed_hash(told->other));
+        note_bounds(told, row);
     }
     json_object_set_new(row, "why", rg_json_text(why));
     if (outcome == RG_FAIL)
@@ -147,8 +166,13 @@ static int count(const json_t *draws, const char *status)
 static void print_draw(const json_t *draw)
 {
     const char *status = text_of(draw, "status");
+    const char *bounds = text_of(draw, "bounds"), *known = text_of(draw, "known");
     if (!strcmp(status, "ok"))
-        printf("  %-26s %s\n", text_of(draw, "feature"), text_of(draw, "digest"));
+        printf("  %-26s %s  %s%s\n", text_of(draw, "feature"), text_of(draw, "digest"),
+               *known                    ? "known fault: "
+               : !strcmp(bounds, "none") ? "no bounds"
+                                         : "within bounds",
+               known);
     else
         printf("  %-26s %s: %s\n", text_of(draw, "feature"), status, text_of(draw, "why"));
 }

@@ -2,23 +2,18 @@
 #include "shaders/fixed/fixed.h"
 
 #define N(constant) RG_FIXED_##constant
-#define DRAW_WITHIN(steps, feature, about, neighbour, to, ...)                                     \
+#define DRAW(feature, about, neighbour, to, ...)                                                   \
     {                                                                                              \
-        feature, about, {__VA_ARGS__}, offsetof(struct rg_fixed_state, neighbour), to, #neighbour, \
-            steps                                                                                  \
+        feature, about, {__VA_ARGS__}, offsetof(struct rg_fixed_state, neighbour), to, #neighbour  \
     }
-#define DRAW(...) DRAW_WITHIN(0, __VA_ARGS__)
-// A linear filter in one level has two weights of 8 bits, which either of two drivers may round or
-// cut: 2 x 2 x 255 / 256, and one code each for texels mixed in codes and for the result.
-#define FILTERED(...) DRAW_WITHIN(6, __VA_ARGS__)
-#define TEXTURED      .fragment = N(FRAGMENT_TEXTURE), .texels = N(TEXELS_RGBA8)
-#define SMOOTH        .mag = N(LINEAR), .min = N(LINEAR)
-#define AFAR          TEXTURED, .mesh = N(FLOOR), SMOOTH
+#define TEXTURED .fragment = N(FRAGMENT_TEXTURE), .texels = N(TEXELS_RGBA8)
+#define SMOOTH   .mag = N(LINEAR), .min = N(LINEAR)
+#define AFAR     TEXTURED, .mesh = N(FLOOR), SMOOTH
 
 const struct rg_fixed_draw rg_fixed_draws[] = {
     // Sampling.
     DRAW("nearest", "nearest texels of a turned pane", shift, 1, TEXTURED),
-    FILTERED("linear", "four texels weighed, of a turned pane", shift, 1, TEXTURED, SMOOTH),
+    DRAW("linear", "four texels weighed, of a turned pane", shift, 1, TEXTURED, SMOOTH),
     DRAW("mip nearest", "a floor, linear in the nearest level", bias_16, 1, AFAR,
          .mip = N(MIP_NEAREST)),
     DRAW("trilinear", "a floor, linear in two levels", bias_16, 1, AFAR, .mip = N(MIP_LINEAR)),
@@ -34,13 +29,12 @@ const struct rg_fixed_draw rg_fixed_draws[] = {
          .fragment = N(FRAGMENT_SHADOW), .texels = N(TEXELS_D32F), SMOOTH, .compare = N(LESS)),
     DRAW("cube seams", "a cube across its edges, linear", shift, 4, .fragment = N(FRAGMENT_CUBE),
          .texels = N(TEXELS_RGBA8), .texture = N(CUBE), SMOOTH),
-    FILTERED("array layers", "the nearest layer of an array, linear", value, 1,
-             .fragment = N(FRAGMENT_LAYERED), .texels = N(TEXELS_RGBA8), .texture = N(ARRAY),
-             SMOOTH),
-    FILTERED("wrap modes", "repeated across and mirrored upwards", wrap_v, N(EDGE), TEXTURED,
-             SMOOTH, .wrap_v = N(MIRROR)),
-    FILTERED("border colour", "linear into an opaque black border", border, N(WHITE), TEXTURED,
-             SMOOTH, .wrap_u = N(BORDER), .wrap_v = N(BORDER), .border = N(BLACK)),
+    DRAW("array layers", "the nearest layer of an array, linear", value, 1,
+         .fragment = N(FRAGMENT_LAYERED), .texels = N(TEXELS_RGBA8), .texture = N(ARRAY), SMOOTH),
+    DRAW("wrap modes", "repeated across and mirrored upwards", wrap_v, N(EDGE), TEXTURED, SMOOTH,
+         .wrap_v = N(MIRROR)),
+    DRAW("border colour", "linear into an opaque black border", border, N(WHITE), TEXTURED, SMOOTH,
+         .wrap_u = N(BORDER), .wrap_v = N(BORDER), .border = N(BLACK)),
     DRAW("sRGB decoding", "linear over sRGB texels", texels, N(TEXELS_RGBA8),
          .fragment = N(FRAGMENT_TEXTURE), .texels = N(TEXELS_SRGB8), SMOOTH),
     DRAW("BC1", "random blocks", flip, 1, .fragment = N(FRAGMENT_TEXTURE), .texels = N(TEXELS_BC1)),
@@ -120,8 +114,8 @@ const struct rg_fixed_draw rg_fixed_draws[] = {
     DRAW("stores", "images of four formats", nudge, 8, .fragment = N(FRAGMENT_STORE), .stores = 1),
     DRAW("queries", "occlusion and the pipeline's statistics", depth_test, N(ALWAYS),
          .mesh = N(SHARDS), .depth = N(D32F), .depth_test = N(LESS), .queries = 1),
-    FILTERED("blit", "a target made smaller, linear", blit, 1 + N(NEAREST), .mesh = N(SHARDS),
-             .blit = 1 + N(LINEAR)),
+    DRAW("blit", "a target made smaller, linear", blit, 1 + N(NEAREST), .mesh = N(SHARDS),
+         .blit = 1 + N(LINEAR)),
 };
 
 int rg_fixed_count(void)

@@ -200,9 +200,6 @@ struct rg_fixed_draw {
     size_t changed; // offset of the neighbour's field
     int to;         // its other value
     const char *field;
-    // How many codes two drivers' channels may differ by, after the APIs' rules for weights of 8
-    // bits; 0: no bound is known. Only draws that leave RGBA8 alone have a bound.
-    int steps;
 };
 
 extern const struct rg_fixed_draw rg_fixed_draws[];
@@ -280,12 +277,21 @@ size_t rg_fixed_make_texels(const struct rg_fixed_state *state, int layer, int l
 
 // --- what it leaves ---
 
+// How finely a device computes, as it says itself: fraction bits of corners in pixels, of texture
+// coordinates in texels and of levels, and where a pixel's samples lie.
+struct rg_fixed_precision {
+    int subpixel_bits, subtexel_bits, mip_bits;
+    bool has_places; // the device says where samples lie
+    double places[RG_FIXED_SAMPLES][2];
+};
+
 // Bytes of a draw: its targets, then depth, stencil and all else that it asks for.
 struct rg_fixed_picture {
     uint8_t *bytes;
     size_t size, room;
     bool is_constant; // a part of it has the same texel everywhere
     char lacks[80];   // what the device lacks for it; "": nothing, and it was drawn
+    struct rg_fixed_precision precision; // of the device that drew it
 };
 enum { RG_FIXED_PICTURE_BYTES = 1 << 20 }; // enough room for every draw
 
@@ -293,8 +299,6 @@ enum { RG_FIXED_PICTURE_BYTES = 1 << 20 }; // enough room for every draw
 void *rg_fixed_part(struct rg_fixed_picture *picture, size_t size);
 // Notes whether the last part, of texels of `texel` bytes, is constant.
 void rg_fixed_look(struct rg_fixed_picture *picture, size_t size, size_t texel);
-// The largest difference of two pictures' bytes; INT_MAX: they have other sizes.
-int rg_fixed_steps(const void *a, size_t size_a, const void *b, size_t size_b);
 // Notes what the device lacks, and returns true, since nothing failed.
 bool rg_fixed_lacks(struct rg_fixed_picture *picture, const char *what);
 

@@ -1,9 +1,7 @@
 // Names of shaders, their code, and the parts of pictures.
 #include "shaders/fixed/fixed.h"
 
-#include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define NAME(name) #name,
@@ -58,17 +56,6 @@ void rg_fixed_look(struct rg_fixed_picture *picture, size_t size, size_t texel)
     const uint8_t *part = picture->bytes + picture->size - size;
     if (size > texel && !memcmp(part, part + texel, size - texel))
         picture->is_constant = true;
-}
-
-int rg_fixed_steps(const void *a, size_t size_a, const void *b, size_t size_b)
-{
-    const uint8_t *of_a = a, *of_b = b;
-    int most = size_a == size_b ? 0 : INT_MAX;
-    for (size_t i = 0; size_a == size_b && i < size_a; i++) {
-        const int steps = abs(of_a[i] - of_b[i]);
-        most = steps > most ? steps : most;
-    }
-    return most;
 }
 
 bool rg_fixed_lacks(struct rg_fixed_picture *picture, const char *what)

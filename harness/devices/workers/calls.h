@@ -31,7 +31,7 @@
 
 // HELLO asks whether both processes use the same messages (harness/measure/serving/hello.c); it
 // stays first for ever, in all builds. LIST is about a backend's devices, LOAD about libraries that
-// a device's name names. OPEN to FIXED_PICTURE are about this worker's one device; the worker ends
+// a device's name names. OPEN to FIXED are about this worker's one device; the worker ends
 // after CLOSE. The rest are about sessions and runs.
 #define RG_CALLS(CALL)                                                                             \
     CALL(HELLO, hello, "greeting")                                                                 \
@@ -44,7 +44,6 @@
     CALL(AUDIT, audit, "auditing its timer")                                                       \
     CALL(CEILINGS, ceilings, "measuring its ceilings")                                             \
     CALL(FIXED, fixed, "drawing a fixed function")                                                 \
-    CALL(FIXED_PICTURE, fixed_picture, "drawing a fixed function")                                 \
     CALL(SESSION_OPEN, session_open, "opening a technique")                                        \
     CALL(SESSION_CLOSE, session_close, "closing a technique")                                      \
     RG_SESSION_CALLS(CALL)                                                                         \

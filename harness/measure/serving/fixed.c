@@ -1,6 +1,7 @@
 #include "harness/measure/serving/fixed.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,11 +14,28 @@
 
 // --- a draw ---
 
+#define FARTHEST ((int64_t)RG_FIXED_BEYOND_MOST)
+static const struct rg_field beyond_fields[] = {
+    RG_FIELD_INTEGER(struct rg_fixed_beyond, count, 0, INT_MAX),
+    RG_FIELD_TEXT(struct rg_fixed_beyond, part),
+    RG_FIELD_INTEGER(struct rg_fixed_beyond, layer, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_fixed_beyond, x, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_fixed_beyond, y, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_fixed_beyond, channel, 0, INT_MAX),
+    RG_FIELD_NUMBER(struct rg_fixed_beyond, value, -FARTHEST, FARTHEST),
+    RG_FIELD_NUMBER(struct rg_fixed_beyond, low, -FARTHEST, FARTHEST),
+    RG_FIELD_NUMBER(struct rg_fixed_beyond, high, -FARTHEST, FARTHEST),
+    RG_FIELDS_END,
+};
+
 const struct rg_field rg_fixed_fields[] = {
     RG_FIELD_TEXT(struct rg_fixed_told, lacks),
     RG_FIELD_BYTES(struct rg_fixed_told, digest),
     RG_FIELD_BYTES(struct rg_fixed_told, other),
     RG_FIELD_FLAG(struct rg_fixed_told, is_constant),
+    RG_FIELD_FLAG(struct rg_fixed_told, is_bounded),
+    RG_FIELD_STRUCT(struct rg_fixed_told, beyond, beyond_fields),
+    RG_FIELD_TEXT(struct rg_fixed_told, known),
     RG_FIELDS_END,
 };
 
@@ -36,6 +54,7 @@ static bool digest(struct rg_device *device, const char *feature,
 struct pair {
     const char *feature;
     struct rg_fixed_state first, other;
+    bool is_bounded; // the first one
 };
 
 static struct pair pair_of(int row)
@@ -43,14 +62,34 @@ static struct pair pair_of(int row)
     const int draws = rg_fixed_count();
     if (row < draws)
         return (struct pair){rg_fixed_draws[row].feature, rg_fixed_draws[row].state,
-                             rg_fixed_neighbour(&rg_fixed_draws[row])};
+                             rg_fixed_neighbour(&rg_fixed_draws[row]),
+                             rg_fixed_sections(rg_fixed_draws[row].feature)};
     const struct rg_fixed_closed *closed = &rg_fixed_closed[row - draws];
-    return (struct pair){closed->feature, closed->state, closed->same};
+    return (struct pair){closed->feature, closed->state, closed->same, false};
 }
 
 int rg_fixed_pairs(void)
 {
     return rg_fixed_count() + rg_fixed_closed_count();
+}
+
+// Where a device does not say where samples lie, nothing bounds a draw of several.
+static bool hold(const struct rg_device *device, const struct pair *pair,
+                 const struct rg_fixed_picture *picture, struct rg_fixed_told *told)
+{
+    told->is_bounded = pair->is_bounded && !picture->lacks[0] &&
+                       (!pair->first.samples || picture->precision.has_places);
+    if (!told->is_bounded)
+        return true;
+    struct rg_fixed_bounds *bounds = rg_fixed_bounds_make(&pair->first, &picture->precision);
+    if (!bounds)
+        return false;
+    rg_fixed_bounds_hold(bounds, picture->bytes, picture->size, &told->beyond);
+    rg_fixed_bounds_free(bounds);
+    const char *known =
+        rg_fixed_known_fault(pair->feature, device->info.device, told->beyond.count);
+    snprintf(told->known, sizeof(told->known), "%s", known ? known : "");
+    return true;
 }
 
 static bool take(struct rg_device *device, const struct pair *pair,
@@ -59,6 +98,8 @@ static bool take(struct rg_device *device, const struct pair *pair,
     if (!digest(device, pair->feature, &pair->first, picture, &told->digest))
         return false;
     told->is_constant = !picture->size || picture->is_constant;
+    if (!hold(device, pair, picture, told))
+        return false;
     if (!picture->lacks[0] && !digest(device, pair->feature, &pair->other, picture, &told->other))
         return false;
     snprintf(told->lacks, sizeof(told->lacks), "%s", picture->lacks);
@@ -105,49 +146,6 @@ bool rg_fixed_ask(struct rg_device *device, int row, struct rg_fixed_told *told)
     return ok;
 }
 
-// --- a picture ---
-
-static const struct rg_field drawn_fields[] = {
-    RG_FIELD_BLOCK(struct rg_fixed_drawn, bytes, size),
-    RG_FIELDS_END,
-};
-
-static bool draw(struct rg_device *device, int row, struct rg_fixed_drawn *drawn)
-{
-    struct rg_fixed_picture picture = make_room();
-    const struct pair pair = pair_of(row);
-    const bool ok =
-        picture.bytes && rg_device_fixed_draw(device, pair.feature, &pair.first, &picture);
-    *drawn = (struct rg_fixed_drawn){picture.bytes, ok ? picture.size : 0};
-    return ok;
-}
-
-bool rg_serve_fixed_picture(struct rg_message *request, struct rg_message *reply)
-{
-    struct rg_fixed_drawn drawn = {0};
-    struct rg_device *device = rg_served_device(rg_take_text(request));
-    const int row = rg_take_index(request, rg_fixed_pairs());
-    const bool ok = device && !request->failed && draw(device, row, &drawn);
-    if (ok)
-        rg_put_fields(reply, drawn_fields, &drawn);
-    free(drawn.bytes);
-    return ok;
-}
-
-bool rg_fixed_show(struct rg_device *device, int row, struct rg_fixed_drawn *drawn)
-{
-    struct rg_worker *worker = rg_remote_worker(device);
-    struct rg_message request = {0};
-    *drawn = (struct rg_fixed_drawn){0};
-    if (!worker)
-        return draw(device, row, drawn);
-    rg_put_text(&request, device->info.full);
-    rg_put_int(&request, row);
-    const bool ok = rg_worker_fetch(worker, RG_CALL_FIXED_PICTURE, &request, drawn_fields, drawn);
-    rg_message_free(&request);
-    return ok;
-}
-
 struct rg_failure rg_fixed_failure(struct rg_device *device)
 {
     const struct rg_failure failure = rg_failure_take();
@@ -169,6 +167,8 @@ static void judge_draw(const struct rg_fixed_draw *draw, const struct rg_fixed_t
     if (told->digest == told->other)
         snprintf(why, RG_FIXED_WHY, "leaves what its neighbour does, whose %s is %d", draw->field,
                  draw->to);
+    else if (told->beyond.count && !*told->known)
+        rg_fixed_beyond_tell(&told->beyond, why);
 }
 
 static void judge_closed(const struct rg_fixed_closed *closed, const struct rg_fixed_told *told,
@@ -200,7 +200,7 @@ json_t *rg_fixed_hash(uint64_t hash)
     return json_sprintf("%016" PRIx64, hash);
 }
 
-json_t *rg_fixed_digests(struct rg_device *device, int *failed)
+json_t *rg_fixed_digests(struct rg_device *device, int *failed, bool bounded[RG_FIXED_MAX_DRAWS])
 {
     const int count = *device->info.limits.no_native ? 0 : rg_fixed_count();
     json_t *digests = NULL;
@@ -213,6 +213,8 @@ json_t *rg_fixed_digests(struct rg_device *device, int *failed)
             rg_fixed_failure(device);
             ++*failed;
         } else if (rg_fixed_judge(i, &told, why) == RG_OK) {
+            if (bounded)
+                bounded[i] = told.is_bounded && !told.beyond.count;
             digests = digests ? digests : json_object();
             json_object_set_new(digests, rg_fixed_draws[i].feature, rg_fixed_hash(told.digest));
         }

@@ -8,11 +8,15 @@
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "harness/devices/workers/fields.h"
+#include "shaders/fixed/bounds/bounds.h"
 
 struct rg_fixed_told {
-    char lacks[80];         // what the device lacks for either; "": nothing
-    uint64_t digest, other; // XXH3 of all that each left
-    bool is_constant;       // a part of the first is the same everywhere
+    char lacks[80];                // what the device lacks for either; "": nothing
+    uint64_t digest, other;        // XXH3 of all that each left
+    bool is_constant;              // a part of the first is the same everywhere
+    bool is_bounded;               // specifications bound the first
+    struct rg_fixed_beyond beyond; // the first's values that are not within the bounds
+    char known[80];                // the known fault of the driver that explains those; "": none
 };
 
 extern const struct rg_field rg_fixed_fields[];
@@ -26,15 +30,7 @@ bool rg_fixed_take(struct rg_device *device, int row, struct rg_fixed_told *told
 // The same in the device's worker, or here if it has none.
 bool rg_fixed_ask(struct rg_device *device, int row, struct rg_fixed_told *told);
 
-// The bytes of a draw's picture; the caller frees them.
-struct rg_fixed_drawn {
-    void *bytes;
-    size_t size;
-};
-// Draws the first of a pair, in the device's worker, or here if it has none. False, and one logged
-// line, on failure.
-bool rg_fixed_show(struct rg_device *device, int row, struct rg_fixed_drawn *drawn);
-// After a failure of rg_fixed_ask or rg_fixed_show, which has been logged: takes it, and starts the
+// After a failure of rg_fixed_ask, which has been logged: takes it, and starts the
 // device's worker again, which may have ended.
 struct rg_failure rg_fixed_failure(struct rg_device *device);
 
@@ -44,16 +40,17 @@ bool rg_fixed_goes_on(const struct rg_device *device, int failed, int left);
 
 enum { RG_FIXED_WHY = 300 };
 // Judges a pair: OK; unsupported; or fail, where the first picture is the same everywhere, a draw
-// leaves what its neighbour does, or a closed case does not hold. `why` says so in one line; "":
-// OK.
+// leaves what its neighbour does or, by no known fault, a value beyond its bounds, or a closed case
+// does not hold. `why` says so in one line; "": OK.
 enum rg_outcome rg_fixed_judge(int row, const struct rg_fixed_told *told, char why[RG_FIXED_WHY]);
 
 // A digest in 16 hexadecimal digits.
 json_t *rg_fixed_hash(uint64_t hash);
 // Draws rg_fixed_draws, and returns the digests of those that are OK by their features. NULL: none
-// is. One logged line for each draw that the driver fails, of which `failed` gets the number. The
-// caller releases it.
-json_t *rg_fixed_digests(struct rg_device *device, int *failed);
+// is. One logged line for each draw that the driver fails, of which `failed` gets the number.
+// `bounded` tells which draws are within bounds; NULL: nobody asks. The caller releases the
+// digests.
+json_t *rg_fixed_digests(struct rg_device *device, int *failed, bool bounded[RG_FIXED_MAX_DRAWS]);
 // Puts such digests, or NULL, into a device of a passport (harness/record/passport/passport.h).
 void rg_fixed_put(json_t *passport, const char *device, json_t *digests);
 // The digests in a passport; NULL: the device is not in it, or has none.

@@ -24,6 +24,12 @@ OF_FIXED_GL, OF_FIXED_VK = ("fixed functions, gl",), ("fixed functions, vulkan",
 GL_STATE, GL_TEXTURE, GL_TARGET = (f"backends/gl/api/fixed/{name}.c" for name in ("state", "texture", "target"))
 VK_PIPELINE, VK_TEXTURE, VK_RECORD = (f"backends/vulkan/api/fixed/{name}.c" for name in ("pipeline", "texture", "record"))
 
+# Bounds of those draws.
+ROUND, COVER, PLANE, TEXTURE, DECODE, MERGE, SCENE, BOUNDS, SECTIONS, CORNERS, SHADE = (
+    f"shaders/fixed/bounds/{name}.c" for name in
+    ("round", "cover", "plane", "texture", "decode", "merge", "scene", "bounds", "sections", "corners", "shade"))
+OF_BOUNDS, JUDGED = ("bounds of fixed functions",), "harness/measure/serving/fixed.c"
+
 # Native devices.
 GL_SAMPLER, VK_SAMPLER, VK_STATE = "backends/gl/api/sampler.c", "backends/vulkan/api/sampler.c", "backends/vulkan/api/pipeline.c"
 OF_NATIVE = ("command line, native",)
@@ -96,5 +102,33 @@ ROWS = [
     Fault("shaders/fixed/vertices.c", "if («flip»)", "false", "no bit of a vertex is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault("harness/doctor/fixed.c", "rg_exit_of_all(«counts»)", "(int[RG_OUTCOME_COUNT]){[RG_OK] = 1}", "a crash of a draw passes", tests=("command line, fixed",)),
     Fault("harness/doctor/fixed.c", "rg_fixed_goes_on(device, ended, rg_fixed_pairs() «- drawn»)", "- 0", "draws that were tried are told as not tried", tests=("command line, fixed",)),
+    # --- bounds of draws ---
+    Fault(ROUND, "    a = rg_span_scale(«rg_span_clamp(a, 0, 1)», most);", "a", "values beyond 1 have codes", tests=OF_BOUNDS),
+    Fault(ROUND, "return (struct rg_span){«floor(a.low + near_code)» / most,", "rint(a.low)", "only the nearest code is allowed", tests=OF_BOUNDS),
+    Fault(COVER, "if («outline->facing && distance < -slack»)", "false", "all places near a triangle may be covered", tests=OF_BOUNDS),
+    Fault(COVER, "if («distance <= slack»)", "distance <= 0", "the grid moves no edge inwards", tests=OF_BOUNDS),
+    Fault(COVER, "plane < «4» && count; plane++)", "2", "nothing is clipped by distances", tests=OF_BOUNDS),
+    Fault(PLANE, "const double far = reach «+ reach_of(plane, x, y)»;", "+ 0", "the grid shifts no values", tests=OF_BOUNDS),
+    Fault(PLANE, "return is_inside ? «within(all, values)» : all;", "all", "values inside a triangle go beyond its corners'", tests=OF_BOUNDS),
+    Fault(PLANE, "const struct rg_span m = {«fmax(slope[X].low, slope[Y].low)»,", "0", "an offset may leave the slope out", tests=OF_BOUNDS),
+    Fault(TEXTURE, "texture->weight = «rg_precision_step(scene->precision->subtexel_bits)»;", "0", "weights are exact", tests=OF_BOUNDS),
+    Fault(TEXTURE, "return turned < px ? turned : «2 * px - 1 - turned»;", "turned - px", "mirroring repeats in bounds", tests=OF_BOUNDS),
+    Fault(TEXTURE, "    if («state->lod_most_16»)\n", "false", "no LOD is clamped in bounds", tests=OF_BOUNDS),
+    Fault(TEXTURE, "lod = rg_span_add(lod, «rg_span_at(state->bias_16 / 16.0)»);", "rg_span_at(0)", "no LOD has a bias in bounds", tests=OF_BOUNDS),
+    Fault(DECODE, "const bool has_four = «always_four || a > b»;", "a > b", "BC3 has blocks of three colours", tests=OF_BOUNDS),
+    Fault(DECODE, "const int half = b[3] & 1 ? «y / 2» : x / 2;", "x / 2", "halves of ETC2 lie side by side", tests=OF_BOUNDS),
+    Fault(DECODE, "    else if («beyond == 0»)\n", "false", "ETC2 has no T", tests=OF_BOUNDS),
+    Fault(MERGE, "passes == RG_COVER_YES ? now : «rg_span_join(*old, now)»;", "now", "what may be covered surely is", tests=OF_BOUNDS),
+    Fault(MERGE, "operation == RG_FIXED_DECREMENT ? «(value + 255) & 255»", "value", "stencils do not wrap in bounds", tests=OF_BOUNDS),
+    Fault(MERGE, "if («scene->state->write_off >> c & 1»)", "false", "every channel is written in bounds", tests=OF_BOUNDS),
+    Fault(BOUNDS, "if (!(value >= part->values[i].low && «value <= part->values[i].high»))", "true", "no value is too great", tests=OF_BOUNDS),
+    Fault(BOUNDS, "    if («used != size»)", "false", "a picture of another size is read", tests=OF_BOUNDS),
+    Fault(SECTIONS, "count > 0 &&\n            «count <= faults[i].most»)", "true", "a known fault explains any number of values", tests=OF_BOUNDS),
+    Fault(SECTIONS, "«strstr(device, faults[i].device)» && count > 0", "true", "a known fault is of every driver", tests=OF_BOUNDS),
+    Fault(CORNERS, "return sum * 0.125 «+ 0.25»;", "+ 0", "vertex formats are too dark in bounds", tests=OF_FIXED_GL + OF_FIXED_VK),
+    Fault(SHADE, "    case RG_FIXED_FRAGMENT_FLAT:\n        «flat(f, out);»", "colour(f, out);", "flat colours are smooth in bounds", tests=OF_FIXED_GL + OF_FIXED_VK),
+    Fault(SCENE, "const bool is_in = «x >= box[0]» &&", "true", "scissors are ignored in bounds", tests=OF_FIXED_GL + OF_FIXED_VK),
+    Fault(JUDGED, "else if («told->beyond.count && !*told->known»)", "told->beyond.count", "a known fault fails a draw", tests=("fixed functions", "features in doctor")),
+    Fault(JUDGED, "bounded[i] = «told.is_bounded && !told.beyond.count»;", "told.is_bounded", "a known fault may differ between drivers", tests=("command line, fixed",)),
     Fault("core/device/device.c", "rg_doing_begin(\"drawing feature\", «feature»);", "\"\"", "a crash does not name its feature", tests=("command line, fixed",)),
 ]

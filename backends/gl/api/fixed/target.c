@@ -2,6 +2,7 @@
 #include "backends/gl/api/fixed/fixed.h"
 
 #include "core/base/log.h"
+#include "shaders/fixed/bounds/bounds.h"
 
 static const struct gl_format formats[RG_FIXED_FORMAT_COUNT] = {
     {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
@@ -171,8 +172,23 @@ static bool read_queries(struct gl_fixed_job *draw)
     return true;
 }
 
+// OpenGL says nothing about texels and levels, so that the least holds which Vulkan demands.
+static void note_precision(const struct gl_fixed_job *draw)
+{
+    struct rg_fixed_precision *precision = &draw->picture->precision;
+    *precision = rg_fixed_precision_least;
+    glGetIntegerv(GL_SUBPIXEL_BITS, &precision->subpixel_bits);
+    for (GLuint i = 0; i < RG_FIXED_SAMPLES && draw->state->samples; i++) {
+        GLfloat place[2];
+        glGetMultisamplefv(GL_SAMPLE_POSITION, i, place);
+        for (int c = 0; c < 2; c++)
+            precision->places[i][c] = (double)place[c];
+    }
+}
+
 bool gl_fixed_read(struct gl_fixed_job *draw)
 {
+    note_precision(draw);
     const struct rg_fixed_state *state = draw->state;
     bool ok = read_colours(draw) && (!state->depth || read_depth(draw));
     for (int i = 0; ok && i < RG_FIXED_STORES && state->stores; i++)

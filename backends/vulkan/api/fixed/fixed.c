@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "shaders/fixed/bounds/bounds.h"
 
 // --- buffers and queries ---
 
@@ -103,6 +104,16 @@ static void release(struct vk_fixed_job *job)
         vk_block_destroy(own, &job->buffers[i]);
 }
 
+static void note_precision(const struct vk_fixed *fixed, struct rg_fixed_picture *picture)
+{
+    const VkPhysicalDeviceLimits *limits = &fixed->own.limits;
+    picture->precision = rg_fixed_precision_least;
+    picture->precision.subpixel_bits = (int)limits->subPixelPrecisionBits;
+    picture->precision.subtexel_bits = (int)limits->subTexelPrecisionBits;
+    picture->precision.mip_bits = (int)limits->mipmapPrecisionBits;
+    picture->precision.has_places = limits->standardSampleLocations;
+}
+
 bool vk_fixed_draw(struct rg_device *device, const char *feature,
                    const struct rg_fixed_state *state, struct rg_fixed_picture *picture)
 {
@@ -110,6 +121,7 @@ bool vk_fixed_draw(struct rg_device *device, const char *feature,
     struct vk_fixed *fixed = vk->fixed ? vk->fixed : vk_fixed_open(vk);
     if (!fixed)
         return false;
+    note_precision(fixed, picture);
     const char *lack = vk_fixed_lacked(fixed, state);
     if (lack)
         return rg_fixed_lacks(picture, lack);

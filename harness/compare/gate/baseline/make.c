@@ -91,7 +91,7 @@ static bool take_fixed(struct make *m, const struct rg_devices *devices, struct 
         if (!is_well(m, i))
             continue;
         rg_progress_label(bar, "fixed functions on %s", device->info.name);
-        json_t *digests = rg_fixed_digests(device, &failed);
+        json_t *digests = rg_fixed_digests(device, &failed, NULL);
         m->clean = m->clean && !failed;
         rg_fixed_put(m->made->passport, device->info.name, digests);
         json_decref(digests);

@@ -1,6 +1,5 @@
 #include "harness/compare/gate/run/fixed.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,6 +20,7 @@ struct held {
     const char *others;       // whose they must be: "the baseline's"
     struct rg_side *a, *b;    // a: NULL with a baseline
     const json_t *then, *now; // digests
+    bool bounded_a[RG_FIXED_MAX_DRAWS], bounded_b[RG_FIXED_MAX_DRAWS]; // and within the bounds
     int same, allowed, other;
 };
 
@@ -104,31 +104,17 @@ static bool add_case(const struct held *h, const char *cell, enum rg_ending endi
     return ok;
 }
 
-// How far two drivers' pictures of a draw differ, if the APIs allow a difference at all and it is
-// within that; else 0.
-static int allowed_steps(const struct held *h, int draw)
+// Whether two drivers' digests of a draw may differ: both pictures are within the draw's bounds.
+static bool is_allowed(const struct held *h, int draw)
 {
-    struct rg_fixed_drawn a = {0}, b = {0};
-    int steps = 0;
-    if (!h->a || !rg_fixed_draws[draw].steps)
-        return 0;
-    if (!rg_fixed_show(h->a->device, draw, &a))
-        rg_fixed_failure(h->a->device);
-    else if (!rg_fixed_show(h->b->device, draw, &b))
-        rg_fixed_failure(h->b->device);
-    else
-        steps = rg_fixed_steps(a.bytes, a.size, b.bytes, b.size);
-    free(a.bytes);
-    free(b.bytes);
-    return steps <= rg_fixed_draws[draw].steps ? steps : 0;
+    return h->a && h->bounded_a[draw] && h->bounded_b[draw];
 }
 
-static void put_difference(const struct held *h, int draw, int steps, char *text, size_t size)
+static void put_difference(const struct held *h, int draw, bool allowed, char *text, size_t size)
 {
     const char *was = digest_of(h->then, draw), *is = digest_of(h->now, draw);
-    if (steps)
-        snprintf(text, size, "differs by %d of the %d codes that the APIs allow", steps,
-                 rg_fixed_draws[draw].steps);
+    if (allowed)
+        snprintf(text, size, "differs from %s, and both are within bounds", h->others);
     else
         snprintf(text, size, "%s and not %s, which is %s", is ? is : "leaves no digest", was,
                  h->others);
@@ -153,17 +139,17 @@ static bool hold(struct held *h, int draw)
     const char *was = digest_of(h->then, draw), *is = digest_of(h->now, draw);
     const char *cell = rg_gate_fixed_cell(draw);
     const bool same = was && is && !strcmp(was, is);
-    const int steps = was && is && !same ? allowed_steps(h, draw) : 0;
+    const bool allowed = was && is && !same && is_allowed(h, draw);
     const int64_t row = rg_known_row(asked->known, cell, h->device, h->driver, asked->today);
     char own[160] = "", message[200];
     h->same += same;
-    h->allowed += steps > 0;
-    h->other += was && !same && !steps;
+    h->allowed += allowed;
+    h->other += was && !same && !allowed;
     if (!was || (same && row < 0))
         return true;
     if (!same)
-        put_difference(h, draw, steps, own, sizeof(own));
-    const struct rg_judged judged = judge(h, draw, row, same || (steps && !asked->strict));
+        put_difference(h, draw, allowed, own, sizeof(own));
+    const struct rg_judged judged = judge(h, draw, row, same || (allowed && !asked->strict));
     const char *word = rg_judged_word(&judged);
     snprintf(message, sizeof(message), "%s%s%s", word, *word && *own ? ": " : "", own);
     return add_case(h, cell, judged.ending, true, message, 0);
@@ -184,7 +170,7 @@ static bool hold_all(struct held *h, double start_ms)
     char told[300];
     bool ok = true;
     int failed;
-    json_t *now = rg_fixed_digests(h->b->device, &failed);
+    json_t *now = rg_fixed_digests(h->b->device, &failed, h->bounded_b);
     h->now = now;
     for (int i = 0; ok && i < rg_fixed_count() && !rg_interrupted(); i++)
         ok = hold(h, i);
@@ -219,7 +205,7 @@ static bool launch_and_hold(struct held *h)
         return ok;
     if (!h->a)
         return hold_all(h, start_ms);
-    json_t *then = rg_fixed_digests(h->a->device, &failed);
+    json_t *then = rg_fixed_digests(h->a->device, &failed, h->bounded_a);
     h->then = then;
     if (failed)
         ok = skip(h, RG_ENDING_ERROR, "A's driver fails while it draws them");

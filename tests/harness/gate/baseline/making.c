@@ -71,8 +71,9 @@ bool rg_truth_close(struct rg_truth *truth)
     return script.truth_closes_well;
 }
 
-json_t *rg_fixed_digests(struct rg_device *device, int *failed)
+json_t *rg_fixed_digests(struct rg_device *device, int *failed, bool bounded[RG_FIXED_MAX_DRAWS])
 {
+    assert_null(bounded);
     note(" F", device->info.name);
     *failed = script.fixed_failed;
     return json_pack("{s:s}", "linear", device->info.name);

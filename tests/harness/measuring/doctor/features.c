@@ -24,12 +24,16 @@ static json_t *make_rows(void)
 {
     json_t *rows = json_loads(
         "[{\"name\": \"new\", \"status\": \"fail\", \"why\": \"1 draw fails\", \"ms\": 12.4,"
-        "  \"draws\": [{\"feature\": \"linear\", \"status\": \"ok\", \"digest\": \"00aa\"},"
+        "  \"draws\": [{\"feature\": \"linear\", \"status\": \"ok\", \"digest\": \"00aa\","
+        "               \"bounds\": \"within\"},"
         "              {\"feature\": \"stencil\", \"status\": \"unsupported\", \"why\": \"lacks "
         "x\"},"
         "              {\"feature\": \"mips\", \"status\": \"fail\", \"why\": \"is wrong\","
         "               \"digest\": \"00bb\"},"
-        "              {\"feature\": \"blend\", \"status\": \"ok\", \"digest\": \"00cc\"}],"
+        "              {\"feature\": \"blend\", \"status\": \"ok\", \"digest\": \"00cc\","
+        "               \"bounds\": \"none\"},"
+        "              {\"feature\": \"samples\", \"status\": \"ok\", \"digest\": \"00dd\","
+        "               \"bounds\": \"beyond\", \"known\": \"it errs\"}],"
         "  \"closed\": [{\"feature\": \"linear\", \"status\": \"ok\", \"why\": \"\"},"
         "               {\"feature\": \"mips\", \"status\": \"fail\", \"why\": \"does not "
         "hold\"}]},"
@@ -47,12 +51,13 @@ static void rows_are_printed_with_what_fails(void **state)
     printed_begin();
     rg_doctor_fixed_print(rows);
     assert_string_equal(printed_end(),
-                        "new: 4 draws of fixed functions, 1 unsupported, 1 fail; 1 of 2 closed "
+                        "new: 5 draws of fixed functions, 1 unsupported, 1 fail; 1 of 2 closed "
                         "cases hold; in 12 ms\n"
-                        "  linear                     00aa\n"
+                        "  linear                     00aa  within bounds\n"
                         "  stencil                    unsupported: lacks x\n"
                         "  mips                       fail: is wrong\n"
-                        "  blend                      00cc\n"
+                        "  blend                      00cc  no bounds\n"
+                        "  samples                    00dd  known fault: it errs\n"
                         "  mips                       fail: does not hold\n"
                         "old: unsupported: has no fixed functions\n");
     json_decref(rows);
@@ -64,7 +69,7 @@ static void a_passport_keeps_the_digests_that_are_ok(void **state)
     const struct rg_device_info infos[2] = {{.name = "old"}, {.name = "new"}};
     json_t *rows = make_rows(), *passport = rg_doctor_fixed_passport(rows, infos, 2);
     const json_t *kept = rg_fixed_kept(passport, "new");
-    assert_int_equal(json_object_size(kept), 2);
+    assert_int_equal(json_object_size(kept), 3);
     assert_string_equal(json_string_value(json_object_get(kept, "linear")), "00aa");
     assert_string_equal(json_string_value(json_object_get(kept, "blend")), "00cc");
     assert_null(rg_fixed_kept(passport, "old"));
@@ -120,6 +125,12 @@ static void a_pair_is_judged_with_its_reason(void **state)
     expect_why(0, (struct rg_fixed_told){.digest = 1, .is_constant = true}, RG_FAIL,
                "leaves a picture that is the same everywhere");
     expect_why(1, (struct rg_fixed_told){.digest = 1, .other = 2}, RG_OK, "");
+    struct rg_fixed_told beyond = {.digest = 1, .other = 2, .is_bounded = true};
+    beyond.beyond = (struct rg_fixed_beyond){2, "stencil", 0, 5, 6, 0, 3, 1, 2};
+    expect_why(1, beyond, RG_FAIL,
+               "stencil at x 5, y 6, layer 0, channel 0 is 3, not from 1 to 2, and 1 more");
+    snprintf(beyond.known, sizeof(beyond.known), "known");
+    expect_why(1, beyond, RG_OK, "");
     snprintf(due, sizeof(due), "leaves what its neighbour does, whose %s is %d",
              rg_fixed_draws[1].field, rg_fixed_draws[1].to);
     expect_why(1, (struct rg_fixed_told){.digest = 2, .other = 2}, RG_FAIL, due);
