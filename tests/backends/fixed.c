@@ -154,7 +154,7 @@ static void draws_are_told_from_their_neighbours(void **state)
     }
     if (device->info.software) {
         assert_at_least(drawn, rg_fixed_count() - 2);
-        assert_at_least(bounded, drawn - 4);
+        assert_at_least(bounded, drawn - 3);
     }
 }
 

@@ -79,7 +79,7 @@ struct rg_span rg_plane_step(const struct rg_plane *plane, const double values[3
 struct rg_span rg_plane_offset(const struct rg_scene *scene, const struct rg_primitive *primitive,
                                double slack);
 
-// --- texels (decode.c, texture.c) ---
+// --- texels (decode.c, texture.c, cube.c) ---
 
 enum { RG_SCENE_FACES = 6 };
 
@@ -89,12 +89,19 @@ struct rg_texture {
     struct rg_span texels[RG_SCENE_FACES][RG_FIXED_LEVELS]
                          [RG_FIXED_TEXTURE_PX * RG_FIXED_TEXTURE_PX][4];
     struct rg_span border[4];
-    double weight; // error of a weight of a filter
+    struct rg_span corners[RG_SCENE_FACES][4][4]; // of a cube
+    double weight;                                // error of a weight of a filter
 };
 
 // Decodes a level of 32 x 32 texels in blocks.
 void rg_decode_blocks(enum rg_fixed_texels texels, const uint8_t *blocks, struct rg_span (*out)[4]);
 void rg_scene_texture(struct rg_scene *scene);
+// Where a direction meets a face of a cube; false: surely nowhere.
+bool rg_cube_place(const struct rg_span direction[3], int face, struct rg_span *u,
+                   struct rg_span *v);
+// A texel of level 0 of a face, or one beyond its edges; rg_cube_corners comes first.
+const struct rg_span *rg_cube_texel(const struct rg_texture *texture, int face, int x, int y);
+void rg_cube_corners(struct rg_texture *texture);
 // The texture function of the state's sampler at u and v, in textures.
 void rg_texture_look(const struct rg_scene *scene, struct rg_span u, struct rg_span v, int layer,
                      int level, struct rg_span out[4]);
@@ -136,14 +143,6 @@ struct rg_sample {
 // Tests and blends a fragment into a sample. Returns whether it passes the tests.
 enum rg_cover rg_sample_merge(const struct rg_scene *scene, const struct rg_fragment *fragment,
                               int facing, enum rg_cover cover, struct rg_sample *sample);
-
-// --- formats (round.c) ---
-
-// Values in a format that a span may become: to either neighbour.
-struct rg_span rg_round_unorm(struct rg_span a, int bits);
-struct rg_span rg_round_float(struct rg_span a, int mantissa_bits, int least_exponent);
-struct rg_span rg_round_colour(int format, struct rg_span a);
-struct rg_span rg_round_depth(int depth, struct rg_span a);
 
 // --- all of it (scene.c) ---
 

@@ -31,7 +31,9 @@ static const struct {
     {"gradients", LEVELS},
     {"gather", "Texture Gather; " FILTERED},
     {"depth compare", "OpenGL, Texture Comparison Modes; Vulkan, Depth Compare Operation"},
-    {"cube seams", NULL},
+    {"cube seams",
+     "OpenGL, Cube Map Texture Selection, Seamless Cube Map Filtering; Vulkan, Cube Map Face "
+     "Selection, Cube Map Edge Handling; " FILTERED},
     {"array layers", FILTERED},
     {"wrap modes", FILTERED},
     {"border colour", FILTERED},

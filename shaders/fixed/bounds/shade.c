@@ -89,6 +89,25 @@ static void look_layer(const struct rg_scene *scene, const struct rg_fragment *f
     }
 }
 
+static void look_cube(const struct rg_scene *scene, const struct rg_fragment *f,
+                      struct rg_span out[4])
+{
+    const struct rg_span direction[] = {
+        rg_span_add(value(f, false, 0), rg_span_at(-0.625)),
+        rg_span_less(rg_span_at(1.25), value(f, false, 1)),
+        rg_span_add(rg_span_scale(value(f, false, 2), 0.5), rg_span_at(-1))};
+    bool is_first = true;
+    for (int face = 0; face < RG_SCENE_FACES; face++) {
+        struct rg_span u, v, one[4];
+        if (!rg_cube_place(direction, face, &u, &v))
+            continue;
+        rg_texture_look(scene, u, v, face, 0, one);
+        for (int c = 0; c < 4; c++)
+            out[c] = is_first ? one[c] : rg_span_join(out[c], one[c]);
+        is_first = false;
+    }
+}
+
 static void look_shadow(const struct rg_scene *scene, const struct rg_fragment *f,
                         struct rg_span out[4])
 {
@@ -207,6 +226,9 @@ void rg_fragment_shade(const struct rg_scene *scene, struct rg_fragment *f)
         return;
     case RG_FIXED_FRAGMENT_LAYERED:
         look_layer(scene, f, out);
+        return;
+    case RG_FIXED_FRAGMENT_CUBE:
+        look_cube(scene, f, out);
         return;
     case RG_FIXED_FRAGMENT_SHADOW:
         look_shadow(scene, f, out);

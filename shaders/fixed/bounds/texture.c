@@ -59,6 +59,8 @@ void rg_scene_texture(struct rg_scene *scene)
     for (int layer = 0; layer < texture->layers; layer++)
         for (int level = 0; level < texture->levels; level++)
             decode_level(scene, layer, level);
+    if (scene->state->texture == RG_FIXED_CUBE)
+        rg_cube_corners(texture);
 }
 
 // --- addressing (OpenGL, Coordinate Wrapping and Texel Selection; Vulkan, Wrapping Operation) ---
@@ -82,6 +84,8 @@ static int wrap(int mode, int i, int px)
 static const struct rg_span *texel(const struct rg_scene *scene, int x, int y, int layer, int level)
 {
     const int px = RG_FIXED_TEXTURE_PX >> level;
+    if (scene->state->texture == RG_FIXED_CUBE)
+        return rg_cube_texel(&scene->texture, layer, x, y);
     const int at_x = wrap(scene->state->wrap_u, x, px), at_y = wrap(scene->state->wrap_v, y, px);
     return at_x < 0 || at_y < 0 ? scene->texture.border
                                 : scene->texture.texels[layer][level][at_y * px + at_x];

@@ -27,7 +27,8 @@ VK_PIPELINE, VK_TEXTURE, VK_RECORD = (f"backends/vulkan/api/fixed/{name}.c" for 
 # Bounds of those draws.
 ROUND, COVER, PLANE, TEXTURE, DECODE, MERGE, SCENE, BOUNDS, SECTIONS, CORNERS, SHADE = (
     f"shaders/fixed/bounds/{name}.c" for name in
-    ("round", "cover", "plane", "texture", "decode", "merge", "scene", "bounds", "sections", "corners", "shade"))
+    ("span", "cover", "plane", "texture", "decode", "merge", "scene", "bounds", "sections", "corners", "shade"))
+CUBE = "shaders/fixed/bounds/cube.c"
 OF_BOUNDS, JUDGED = ("bounds of fixed functions",), "harness/measure/serving/fixed.c"
 
 # Native devices.
@@ -118,6 +119,8 @@ ROWS = [
     Fault(DECODE, "const bool has_four = «always_four || a > b»;", "a > b", "BC3 has blocks of three colours", tests=OF_BOUNDS),
     Fault(DECODE, "const int half = b[3] & 1 ? «y / 2» : x / 2;", "x / 2", "halves of ETC2 lie side by side", tests=OF_BOUNDS),
     Fault(DECODE, "    else if («beyond == 0»)\n", "false", "ETC2 has no T", tests=OF_BOUNDS),
+    Fault(CUBE, "    if («in_x || in_y»)\n", "false", "texels beyond an edge are those of a corner", tests=OF_BOUNDS),
+    Fault(CUBE, "place[faces[face].axis] = «faces[face].sign» *", "1", "faces meet where the cube has none", tests=OF_BOUNDS),
     Fault(MERGE, "passes == RG_COVER_YES ? now : «rg_span_join(*old, now)»;", "now", "what may be covered surely is", tests=OF_BOUNDS),
     Fault(MERGE, "operation == RG_FIXED_DECREMENT ? «(value + 255) & 255»", "value", "stencils do not wrap in bounds", tests=OF_BOUNDS),
     Fault(MERGE, "if («scene->state->write_off >> c & 1»)", "false", "every channel is written in bounds", tests=OF_BOUNDS),

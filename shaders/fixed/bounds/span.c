@@ -2,7 +2,9 @@
 //
 // Either neighbour of a value is allowed (OpenGL, Conversion from Floating-Point to Normalized
 // Fixed-Point, and 16-Bit Floating-Point Numbers; Vulkan, sections of the same names).
-#include "shaders/fixed/bounds/scene.h"
+#include "shaders/fixed/bounds/span.h"
+
+#include "shaders/fixed/fixed.h"
 
 // A value this near to a code is that code, since the double's own errors are not the device's.
 static const double near_code = 1e-6;
