@@ -175,11 +175,14 @@ static bool hold_all(struct held *h, double start_ms)
     for (int i = 0; ok && i < rg_fixed_count() && !rg_interrupted(); i++)
         ok = hold(h, i);
     json_decref(now);
-    snprintf(told, sizeof(told), "%d digests are %s", h->same, h->others);
+    snprintf(told, sizeof(told), "%d %s %s", h->same, h->same == 1 ? "digest is" : "digests are",
+             h->others);
     if (h->allowed)
-        rg_text_add(told, sizeof(told), ", ", "%d differ as the APIs allow", h->allowed);
+        rg_text_add(told, sizeof(told), ", ", "%d %s as the APIs allow", h->allowed,
+                    h->allowed == 1 ? "differs" : "differ");
     if (h->other)
-        rg_text_add(told, sizeof(told), ", ", "and %d are not", h->other);
+        rg_text_add(told, sizeof(told), ", ", "and %d %s not", h->other,
+                    h->other == 1 ? "is" : "are");
     const double seconds = (rg_now_ms() - start_ms) / 1000;
     return rg_interrupted() || (ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS,
                                                h->same + h->allowed + h->other > 0, told, seconds));

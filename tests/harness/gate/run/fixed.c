@@ -155,7 +155,7 @@ static void digests_of_the_baseline_are_counted(void **state)
                 "0000 and not 1111, which is the baseline's");
     assert_case(1, "fixed/stencil.gl", RG_ENDING_DIFFERS, true,
                 "leaves no digest and not 3333, which is the baseline's");
-    assert_case(2, "fixed.gl", RG_ENDING_PASS, true, "1 digests are the baseline's, and 2 are not");
+    assert_case(2, "fixed.gl", RG_ENDING_PASS, true, "1 digest is the baseline's, and 2 are not");
     assert_int_equal(gate.result_count, 2);
     assert_string_equal(results[1].cell, "fixed/stencil");
     assert_string_equal(results[1].device, "gl");
@@ -233,13 +233,13 @@ static void two_drivers_may_differ_as_the_apis_allow(void **state)
         const char *said, *all;
     } rows[] = {
         {true, true, false, RG_ENDING_PASS, "differs from old's, and both are within bounds",
-         "2 digests are old's, 1 differ as the APIs allow"},
+         "2 digests are old's, 1 differs as the APIs allow"},
         {true, true, true, RG_ENDING_DIFFERS, "differs from old's, and both are within bounds",
-         "2 digests are old's, 1 differ as the APIs allow"},
+         "2 digests are old's, 1 differs as the APIs allow"},
         {false, true, false, RG_ENDING_DIFFERS, "0000 and not 1111, which is old's",
-         "2 digests are old's, and 1 are not"},
+         "2 digests are old's, and 1 is not"},
         {true, false, false, RG_ENDING_DIFFERS, "0000 and not 1111, which is old's",
-         "2 digests are old's, and 1 are not"},
+         "2 digests are old's, and 1 is not"},
     };
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         begin(false, left("1111", "3333"), left("0000", "3333"));
