@@ -103,6 +103,9 @@ static void a_short_name_stands_for_a_device_from_then_on(void **state)
     assert_true(rg_device_name_read(&rest, &name));
     assert_string_equal(name.name, "new");
     assert_string_equal(name.full, "vulkan@DRIVER=/opt/mesa;A=b=c");
+    rest = "ne"; // its beginning is another name
+    assert_true(rg_device_name_read(&rest, &name));
+    assert_string_equal(name.full, "ne");
     rest = "new=vulkan@DRIVER=/opt/mesa;A=b=c"; // the same name for the same device again
     assert_true(rg_device_name_read(&rest, &name));
     char with[RG_DEVICE_NAME_SIZE];

@@ -347,7 +347,8 @@ static void headings_have_units(void **state)
                                            {"spin_yaw_deg_s", "deg/s", "spin yaw, deg/s"},
                                            {"memory_mb", "MB", "memory, MB"},
                                            {"move_threshold", "height", "move threshold, height"},
-                                           {"rays_px", "1", "rays px"}};
+                                           {"rays_px", "1", "rays px"},
+                                           {"model", "file", "model"}};
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         char text[64];
         rg_digits_heading(cases[i][0], cases[i][1], text, sizeof(text));

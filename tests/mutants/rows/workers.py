@@ -424,4 +424,5 @@ ROWS = [
     Fault("harness/devices/workers/channel.c", "else if (errno != EAGAIN && «errno != EINTR»)", "true", "a signal breaks what is sent", tests=("channels",)),
     Fault("harness/devices/workers/channel.c", "if (got == 0 || (got < 0 && «errno != EINTR» && errno != EAGAIN))", "true", "a signal ends a channel that is read", tests=("channels",)),
     Fault("harness/devices/workers/channel.c", "if (ready == 0 || («ready < 0 && errno == EINTR»))", "false", "a signal ends a channel that is waited for", tests=("channels",)),
+    Fault("harness/devices/names.c", "if («!strcmp(known.all[i].name, name)»)\n            return known.all[i].full;", "!strncmp(known.all[i].name, name, strlen(name))", "A device whose name is the beginning of a short name, as cpu is of cpu-old, is taken for the device with the short name.", tests=("names of devices",)),
 ]

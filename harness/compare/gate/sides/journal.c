@@ -127,8 +127,8 @@ struct rg_gate_journal *rg_gate_journal_open(const char *folder, json_t *key, bo
     if (!fresh)
         read_journal(j, key);
     if (j->had)
-        rg_info("%s: has times of %d launches of a gate that was interrupted, which goes on",
-                folder, j->had);
+        rg_info("%s: has times of %d launch%s of a gate that was interrupted, which goes on",
+                folder, j->had, j->had == 1 ? "" : "es");
     json_decref(key);
     return j;
 }

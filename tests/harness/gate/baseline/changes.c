@@ -64,7 +64,7 @@ static void edit_row(int what, struct rg_baseline_row *row)
     }
 }
 
-enum { TIMED = 8, MOVED = 12, NAMED, DRAWN, TIMED_NOW }; // what follows those of a row's cell
+enum { TIMED = 8, MOVED = 12, NAMED, DRAWN, TIMED_NOW, LOST }; // what follows those of a row's cell
 
 // One thing that is otherwise in the row of rain on vulkan, or in the whole.
 static void edit(int what, struct rg_baseline *now)
@@ -82,6 +82,8 @@ static void edit(int what, struct rg_baseline *now)
         json_object_set_new(now->devices[1].parts, "driver", json_string("Mesa 26"));
     if (what == NAMED)
         snprintf(row->cell, sizeof(row->cell), "snow");
+    if (what == LOST)
+        row->state_count--;
     if (what == TIMED_NOW)
         now->rows[3].launches = made_launches(3);
     if (what != DRAWN)
@@ -109,6 +111,7 @@ static const char *const told[] = {
     ("~ fixed function 'linear' of gl: another digest\n+ fixed function 'stencil' of gl: new\n"
      "- fixed function 'nearest' of gl: gone\n"),
     "~ flow.vulkan: timed now\n",
+    "~ rain.vulkan: no state 'dry'\n",
     "",
 };
 

@@ -13,6 +13,7 @@
 #include "harness/compare/gate/pictures/pictures.h"
 #include "harness/compare/gate/sides/alike.h"
 #include "harness/devices/frames/frame.h"
+#include "harness/record/output.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
 #include "tests/tools/process/logged.h"
@@ -26,6 +27,14 @@ static struct rg_comparison found; // what comparing gives
 static bool draws, compares, is_written;
 static int written;
 static struct rg_drawn a, b;
+
+static int64_t asked_bytes; // of room in a folder
+
+bool rg_output_can_be_written(const char *folder, int64_t bytes)
+{
+    asked_bytes = bytes;
+    return !access(folder, W_OK);
+}
 
 bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
                        struct rg_picture *picture)
@@ -233,6 +242,11 @@ static void a_picture_has_a_name_that_file_systems_take(void **state)
     assert_false(rg_gate_pictures_can_be_written(long_name, 1));
     assert_non_null(strstr(rg_last_error(), "...: is too long a name for a folder"));
     assert_true(rg_gate_pictures_can_be_written("/tmp", 1));
+    // Four pictures of 3 bytes a pixel, and both sides' light.
+    const int64_t pixels = 1000;
+    asked_bytes = 0;
+    assert_true(rg_gate_pictures_can_be_written("/tmp", pixels));
+    assert_equals(asked_bytes, 4 * 3 * pixels + 2 * rg_picture_file_bytes("a.exr", pixels));
     assert_false(rg_gate_pictures_can_be_written("/nonexistent/out", 1));
 }
 

@@ -230,6 +230,7 @@ static void what_is_no_journal_is_told_and_left_out(void **state)
         const char *format, *codes, *rows, *said;
     } rows[] = {
         {"2", CODES, ROW("[0, -2, 0, 0.5, false]"), ": has times of 2 launches of a gate"},
+        {"2", CODES, "{\"a\": [[4, 0.5, 1, 2, true]]}", ": has times of 1 launch of a gate"},
         {"3", CODES, ROW("[0, -2, 0, 0.5, false]"),
          ": has format 3 of a gate's journal, and this is 2; the gate begins anew"},
         {"2", CODES, ROW("[0, -2, 0, 0, false]"), ": is damaged or no journal"},
@@ -246,7 +247,7 @@ static void what_is_no_journal_is_told_and_left_out(void **state)
         struct rg_gate_journal *journal = reopen(1, false);
         if (logged_lines != 1 || !strstr(logged, rows[i].said))
             fail_msg("row %zu: %s", i, logged);
-        assert_int_equal(rg_gate_journal_find(journal, "a", 4, &found), i == 0);
+        assert_int_equal(rg_gate_journal_find(journal, "a", 4, &found), i < 2);
         assert_true(rg_gate_journal_close(journal, false));
     }
 }

@@ -70,7 +70,13 @@ static bool find(const struct rg_blame *blame, const struct rg_fall *fall, doubl
                  struct rg_culprit *culprit)
 {
     const struct rg_digest_run run = {.subject = {.technique = &made_technique}, .frames = 2};
-    return rg_culprit_find(&run, blame, fall, &made_device, &made_truth, end_ms, culprit);
+    const bool ok = rg_culprit_find(&run, blame, fall, &made_device, &made_truth, end_ms, culprit);
+    log_forget();
+    rg_log_listen(log_last, NULL);
+    rg_error("later errors are told"); // though those of the search are not
+    rg_log_listen(NULL, NULL);
+    assert_string_equal(logged, "later errors are told");
+    return ok;
 }
 
 // One item of 3600 remains, the one that differs, and of 64 inputs the part of 64 bytes with the

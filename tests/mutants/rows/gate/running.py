@@ -385,4 +385,6 @@ ROWS = [
     Fault("harness/commands/comparing/gate.c", "if («*folder && !rg_hold_folder(folder, &hold)») {", "*folder && (rg_hold_folder(folder, &hold), false)", "two gates write into one folder", tests=("ends of a gate",)),
     Fault("harness/commands/comparing/shrink.c", "            «exit = rg_exit_of_error();» // a full disk says", ";", "a case that cannot be written passes", tests=("ends of shrink",)),
     Fault("harness/commands/comparing/shrink.c", "    «remove_folder();»\n    return rg_interrupted()", ";", "shrink leaves its temporary files", tests=("ends of shrink",)),
+    Fault("harness/compare/gate/pictures/pictures.c", "rg_output_can_be_written(folder, «RG_GATE_PICTURES * BYTES_A_PIXEL * pixels + linear»)", "BYTES_A_PIXEL * pixels + linear", "The room asked for is that of one PNG instead of four, so a disk that is nearly full is found out only after all the work.", tests=("pictures that are alike",)),
+    Fault("harness/compare/gate/sides/journal.c", "if («j->had»)\n        rg_info(\"%s: has times of", "j->had > 1", "A gate that goes on with one kept launch does not say so.", tests=("journal of a gate",)),
 ]
