@@ -244,7 +244,7 @@ RUNTIMES = {
 shift 4
 exec "$@"
 """),
-    "Podman": ("podman", """[ "$1 $2 $3 $4 $5 $6 $7 $8 $9" = "run --rm --env SLURM_* --volume $PWD:$PWD --workdir $PWD raingauge" ] || exit 9
+    "Podman": ("podman", """[ "$1 $2 $3 $4 $5 $6 $7 $8 $9" = "run --rm --env SLURM_* --volume $PWD:$PWD --workdir $PWD raingauge:full" ] || exit 9
 shift 9
 exec env -i PATH="$PATH" RG_PROBE_S="$RG_PROBE_S" $(env | grep ^SLURM_) "$@"
 """),
