@@ -86,8 +86,7 @@ static bool hold(const struct rg_device *device, const struct pair *pair,
         return false;
     rg_fixed_bounds_hold(bounds, picture->bytes, picture->size, &told->beyond);
     rg_fixed_bounds_free(bounds);
-    const char *known =
-        rg_fixed_known_fault(pair->feature, device->info.device, told->beyond.count);
+    const char *known = rg_fixed_known_fault(pair->feature, device->info.device, &told->beyond);
     snprintf(told->known, sizeof(told->known), "%s", known ? known : "");
     return true;
 }

@@ -149,7 +149,7 @@ static struct rg_span stored(int store, int c, struct rg_span a)
     case 2:
         return in_codes(rg_round_unorm(a, c < 3 ? 10 : 2), tens);
     default:
-        return rg_round_float(rg_span_clamp(a, 0, INFINITY), c < 2 ? 6 : 5, -14);
+        return rg_round_small_float(rg_span_clamp(a, 0, INFINITY), c < 2 ? 6 : 5);
     }
 }
 

@@ -15,9 +15,6 @@
 // does, and the feature has closed cases alone. Sections have the same names in OpenGL 4.6 and
 // Vulkan 1.3 if only one is given.
 const char *rg_fixed_sections(const char *feature);
-// Why a driver is known to leave so many values of a draw beyond their bounds, by a fault of its
-// own; NULL: it is not.
-const char *rg_fixed_known_fault(const char *feature, const char *device, int count);
 
 // The least that Vulkan demands, with its standard places of samples.
 extern const struct rg_fixed_precision rg_fixed_precision_least;
@@ -67,6 +64,11 @@ struct rg_fixed_beyond {
 // not: it has one value beyond, which is its size.
 bool rg_fixed_bounds_hold(const struct rg_fixed_bounds *bounds, const void *bytes, size_t size,
                           struct rg_fixed_beyond *beyond);
+
+// Why a driver is known to leave these values of a draw beyond their bounds, by a fault of its own;
+// NULL: it is not.
+const char *rg_fixed_known_fault(const char *feature, const char *device,
+                                 const struct rg_fixed_beyond *beyond);
 
 enum { RG_FIXED_BEYOND_TEXT = 200 };
 // One line: "colour 0 at x 3, y 4, layer 0, channel 1 is 17, not from 20 to 24, and 5 more".

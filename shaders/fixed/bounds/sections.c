@@ -82,21 +82,25 @@ const char *rg_fixed_sections(const char *feature)
     return NULL;
 }
 
-// A device whose name has this part leaves at most so many values beyond.
+// A device whose name has this part leaves at most so many values beyond, the first in this part of
+// the picture.
 static const struct {
-    const char *feature, *device;
+    const char *feature, *device, *part;
     int most;
     const char *why;
 } faults[] = {
     // In triangles with corners of several w, the value lies outside the pixel.
-    {"centroid interpolation", "llvmpipe", 6, "Mesa divides by w at the pixel's centre"},
+    {"centroid interpolation", "llvmpipe", "colour 0", 6,
+     "Mesa divides by w at the pixel's centre"},
 };
 
-const char *rg_fixed_known_fault(const char *feature, const char *device, int count)
+const char *rg_fixed_known_fault(const char *feature, const char *device,
+                                 const struct rg_fixed_beyond *beyond)
 {
     for (size_t i = 0; i < sizeof(faults) / sizeof(faults[0]); i++)
-        if (!strcmp(faults[i].feature, feature) && strstr(device, faults[i].device) && count > 0 &&
-            count <= faults[i].most)
+        if (!strcmp(faults[i].feature, feature) && strstr(device, faults[i].device) &&
+            !strcmp(beyond->part, faults[i].part) && beyond->count > 0 &&
+            beyond->count <= faults[i].most)
             return faults[i].why;
     return NULL;
 }

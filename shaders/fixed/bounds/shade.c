@@ -39,26 +39,35 @@ static struct rg_span step(const struct rg_fragment *f, int c, bool in_y)
 // --- levels of detail (OpenGL, Scale Factor and Level of Detail; Vulkan, Scale Factor Operation,
 // LOD) ---
 
-// The scale lies between the greatest step and the sum of both coordinates' greatest steps.
-static struct rg_span lod_of(struct rg_span u, struct rg_span v)
+// From the absolute steps of both coordinates in x and in y. The scale is at least the greatest
+// step. It is at most the sum of both coordinates' greatest steps in OpenGL, and in Vulkan the
+// square root of two times the sum of both steps in one direction.
+static struct rg_span lod_of(const struct rg_span u[2], const struct rg_span v[2])
 {
-    const struct rg_span most = rg_span_most(u, v), sum = rg_span_add(u, v);
-    return (struct rg_span){log2(fmax(most.low * RG_FIXED_TEXTURE_PX, 1e-9)),
-                            log2(fmax(sum.high * RG_FIXED_TEXTURE_PX, 1e-9))};
+    const double least = rg_span_most(rg_span_most(u[0], u[1]), rg_span_most(v[0], v[1])).low;
+    const double sum = fmax(u[0].high, u[1].high) + fmax(v[0].high, v[1].high);
+    const double along = fmax(u[0].high + v[0].high, u[1].high + v[1].high);
+    return (struct rg_span){log2(fmax(least * RG_FIXED_TEXTURE_PX, 1e-9)),
+                            log2(fmax(fmax(sum, sqrt(2) * along) * RG_FIXED_TEXTURE_PX, 1e-9))};
 }
 
-static struct rg_span greatest_step(const struct rg_fragment *f, int c)
+static void steps_of(const struct rg_fragment *f, int c, struct rg_span steps[2])
 {
-    return rg_span_most(rg_span_absolute(step(f, c, false)), rg_span_absolute(step(f, c, true)));
+    for (int in_y = 0; in_y < 2; in_y++)
+        steps[in_y] = rg_span_absolute(step(f, c, in_y));
 }
 
 static void look(const struct rg_scene *scene, const struct rg_fragment *f, struct rg_span out[4])
 {
     const struct rg_span u = value(f, false, 0), v = value(f, false, 1);
-    if (scene->state->mip == RG_FIXED_MIP_OFF)
+    struct rg_span of_u[2], of_v[2];
+    if (scene->state->mip == RG_FIXED_MIP_OFF) {
         rg_texture_look(scene, u, v, 0, 0, out);
-    else
-        rg_texture_look_lod(scene, u, v, lod_of(greatest_step(f, 0), greatest_step(f, 1)), out);
+        return;
+    }
+    steps_of(f, 0, of_u);
+    steps_of(f, 1, of_v);
+    rg_texture_look_lod(scene, u, v, lod_of(of_u, of_v), out);
 }
 
 static void look_gradient(const struct rg_scene *scene, const struct rg_fragment *f,
@@ -66,10 +75,10 @@ static void look_gradient(const struct rg_scene *scene, const struct rg_fragment
 {
     const struct rg_span u = value(f, false, 0), v = value(f, false, 1);
     const double by = scene->state->value / 256.0;
-    rg_texture_look_lod(
-        scene, u, v,
-        lod_of(rg_span_absolute(rg_span_scale(u, by)), rg_span_absolute(rg_span_scale(v, by))),
-        out);
+    // The shader's gradients: u in x alone, v in y alone.
+    const struct rg_span of_u[2] = {rg_span_absolute(rg_span_scale(u, by))};
+    const struct rg_span of_v[2] = {{0, 0}, rg_span_absolute(rg_span_scale(v, by))};
+    rg_texture_look_lod(scene, u, v, lod_of(of_u, of_v), out);
 }
 
 // A layer is the nearest whole number.

@@ -32,6 +32,15 @@ struct rg_span rg_round_float(struct rg_span a, int mantissa_bits, int least_exp
                             isfinite(a.high) ? ceil(a.high / high) * high : a.high};
 }
 
+// 11 and 10 bits: a device rounds to the nearest or towards zero (OpenGL, Unsigned 11-Bit
+// Floating-Point Numbers).
+struct rg_span rg_round_small_float(struct rg_span a, int mantissa_bits)
+{
+    const double high = step_of(a.high, mantissa_bits, -14);
+    const struct rg_span rounded = rg_round_float(a, mantissa_bits, -14);
+    return (struct rg_span){rounded.low, isfinite(a.high) ? rint(a.high / high) * high : a.high};
+}
+
 struct rg_span rg_round_colour(int format, struct rg_span a)
 {
     return format == RG_FIXED_RGBA8     ? rg_round_unorm(a, 8)

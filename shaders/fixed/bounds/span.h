@@ -78,6 +78,7 @@ static inline struct rg_span rg_span_least(struct rg_span a, struct rg_span b)
 // Values in a format that a span may become: to either neighbour.
 struct rg_span rg_round_unorm(struct rg_span a, int bits);
 struct rg_span rg_round_float(struct rg_span a, int mantissa_bits, int least_exponent);
+struct rg_span rg_round_small_float(struct rg_span a, int mantissa_bits);
 struct rg_span rg_round_colour(int format, struct rg_span a);
 struct rg_span rg_round_depth(int depth, struct rg_span a);
 

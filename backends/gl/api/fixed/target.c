@@ -178,6 +178,9 @@ static void note_precision(const struct gl_fixed_job *draw)
     struct rg_fixed_precision *precision = &draw->picture->precision;
     *precision = rg_fixed_precision_least;
     glGetIntegerv(GL_SUBPIXEL_BITS, &precision->subpixel_bits);
+    GLint samples = 0; // which may be more than asked for
+    glGetIntegerv(GL_SAMPLES, &samples);
+    precision->has_places = !draw->state->samples || samples == RG_FIXED_SAMPLES;
     for (GLuint i = 0; i < RG_FIXED_SAMPLES && draw->state->samples; i++) {
         GLfloat place[2];
         glGetMultisamplefv(GL_SAMPLE_POSITION, i, place);
