@@ -30,10 +30,10 @@ static struct rg_drawn a, b;
 
 static int64_t asked_bytes; // of room in a folder
 
-bool rg_output_can_be_written(const char *folder, int64_t bytes)
+bool rg_output_can_be_written(const char *into, int64_t bytes)
 {
     asked_bytes = bytes;
-    return !access(folder, W_OK);
+    return !access(into, W_OK);
 }
 
 bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
