@@ -146,7 +146,7 @@ static void each_draw_has_its_row(void **state)
         snprintf(
             due, sizeof(due),
             "{\"feature\":\"%s\",\"status\":\"ok\",\"digest\":\"%016x\",\"neighbour\":\"%016x\""
-            ",\"why\":\"\"}",
+            ",\"bounds\":\"none\",\"why\":\"\"}",
             rg_fixed_draws[i].feature, i + 1, i + 2);
         expect_row(row, "draws", i, due);
     }
@@ -176,7 +176,7 @@ static void what_a_driver_draws_wrongly_fails(void **state)
     expect_row(row, "draws", 0, due);
     snprintf(due, sizeof(due),
              "{\"feature\":\"%s\",\"status\":\"fail\",\"digest\":\"%016x\",\"neighbour\":\"%016x\","
-             "\"why\":\"leaves a picture that is the same everywhere\"}",
+             "\"bounds\":\"none\",\"why\":\"leaves a picture that is the same everywhere\"}",
              rg_fixed_draws[1].feature, 2, 3);
     expect_row(row, "draws", 1, due);
     snprintf(due, sizeof(due),
