@@ -282,6 +282,7 @@ size_t rg_fixed_make_texels(const struct rg_fixed_state *state, int layer, int l
 struct rg_fixed_precision {
     int subpixel_bits, subtexel_bits, mip_bits;
     bool has_places; // the device says where samples lie
+    bool is_opengl;  // whose scale factor is at most the sum of both coordinates' greatest steps
     double places[RG_FIXED_SAMPLES][2];
 };
 

@@ -38,7 +38,8 @@ struct rg_fixed_bounds_part {
     struct rg_span *values; // [layer][y][x][channel]
 };
 
-enum { RG_FIXED_BOUNDS_PARTS = 12 };
+// Colours, depth, stencil, stores, counts, caught vertices and queries.
+enum { RG_FIXED_BOUNDS_PARTS = RG_FIXED_EQUATIONS + 2 + RG_FIXED_STORES + 3 };
 struct rg_fixed_bounds {
     int count;
     struct rg_fixed_bounds_part parts[RG_FIXED_BOUNDS_PARTS];

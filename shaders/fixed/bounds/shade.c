@@ -1,4 +1,4 @@
-// What fragments of shaders/fixed/draw.frag leave, by the intervals of their attributes.
+// Values of the fragments of shaders/fixed/draw.frag, by the intervals of their attributes.
 #include "shaders/fixed/bounds/scene.h"
 
 static void corners_of(const struct rg_fragment *f, bool is_colour, int c, double values[3])
@@ -42,13 +42,15 @@ static struct rg_span step(const struct rg_fragment *f, int c, bool in_y)
 // From the absolute steps of both coordinates in x and in y. The scale is at least the greatest
 // step. It is at most the sum of both coordinates' greatest steps in OpenGL, and in Vulkan the
 // square root of two times the sum of both steps in one direction.
-static struct rg_span lod_of(const struct rg_span u[2], const struct rg_span v[2])
+static struct rg_span lod_of(const struct rg_scene *scene, const struct rg_span u[2],
+                             const struct rg_span v[2])
 {
     const double least = rg_span_most(rg_span_most(u[0], u[1]), rg_span_most(v[0], v[1])).low;
     const double sum = fmax(u[0].high, u[1].high) + fmax(v[0].high, v[1].high);
     const double along = fmax(u[0].high + v[0].high, u[1].high + v[1].high);
+    const double most = scene->precision->is_opengl ? sum : fmax(sum, sqrt(2) * along);
     return (struct rg_span){log2(fmax(least * RG_FIXED_TEXTURE_PX, 1e-9)),
-                            log2(fmax(fmax(sum, sqrt(2) * along) * RG_FIXED_TEXTURE_PX, 1e-9))};
+                            log2(fmax(most * RG_FIXED_TEXTURE_PX, 1e-9))};
 }
 
 static void steps_of(const struct rg_fragment *f, int c, struct rg_span steps[2])
@@ -67,7 +69,7 @@ static void look(const struct rg_scene *scene, const struct rg_fragment *f, stru
     }
     steps_of(f, 0, of_u);
     steps_of(f, 1, of_v);
-    rg_texture_look_lod(scene, u, v, lod_of(of_u, of_v), out);
+    rg_texture_look_lod(scene, u, v, lod_of(scene, of_u, of_v), out);
 }
 
 static void look_gradient(const struct rg_scene *scene, const struct rg_fragment *f,
@@ -78,7 +80,7 @@ static void look_gradient(const struct rg_scene *scene, const struct rg_fragment
     // The shader's gradients: u in x alone, v in y alone.
     const struct rg_span of_u[2] = {rg_span_absolute(rg_span_scale(u, by))};
     const struct rg_span of_v[2] = {{0, 0}, rg_span_absolute(rg_span_scale(v, by))};
-    rg_texture_look_lod(scene, u, v, lod_of(of_u, of_v), out);
+    rg_texture_look_lod(scene, u, v, lod_of(scene, of_u, of_v), out);
 }
 
 // A layer is the nearest whole number.

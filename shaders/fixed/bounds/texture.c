@@ -186,9 +186,8 @@ void rg_texture_look(const struct rg_scene *scene, struct rg_span u, struct rg_s
 {
     const int px = RG_FIXED_TEXTURE_PX >> level;
     const double error = scene->texture.weight;
-    if (scene->state->mag == RG_FIXED_NEAREST) { // of the nearest place on the grid of weights
-        nearest(scene, to_texels(u, px, 0, error / 2), to_texels(v, px, 0, error / 2), layer, level,
-                out);
+    if (scene->state->mag == RG_FIXED_NEAREST) {
+        nearest(scene, to_texels(u, px, 0, 0), to_texels(v, px, 0, 0), layer, level, out);
         return;
     }
     filter(scene, to_texels(u, px, 0.5, error), to_texels(v, px, 0.5, error), layer, level, out);
@@ -257,9 +256,8 @@ void rg_texture_gather(const struct rg_scene *scene, struct rg_span u, struct rg
                        int channel, struct rg_span out[4])
 {
     static const int order[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    const double error = scene->texture.weight / 2;
-    const struct rg_span x = to_texels(u, RG_FIXED_TEXTURE_PX, 0.5, error);
-    const struct rg_span y = to_texels(v, RG_FIXED_TEXTURE_PX, 0.5, error);
+    const struct rg_span x = to_texels(u, RG_FIXED_TEXTURE_PX, 0.5, 0);
+    const struct rg_span y = to_texels(v, RG_FIXED_TEXTURE_PX, 0.5, 0);
     for (int k = 0; k < 4; k++) {
         struct rg_span all = {INFINITY, -INFINITY};
         for (int j = (int)floor(y.low); j <= (int)floor(y.high); j++)
@@ -281,9 +279,8 @@ static struct rg_span passes(int compare, struct rg_span depth, double texel)
 struct rg_span rg_texture_compare(const struct rg_scene *scene, struct rg_span u, struct rg_span v,
                                   struct rg_span depth)
 {
-    const double error = scene->texture.weight / 2;
-    const struct rg_span x = to_texels(u, RG_FIXED_TEXTURE_PX, 0.5, error);
-    const struct rg_span y = to_texels(v, RG_FIXED_TEXTURE_PX, 0.5, error);
+    const struct rg_span x = to_texels(u, RG_FIXED_TEXTURE_PX, 0.5, 0);
+    const struct rg_span y = to_texels(v, RG_FIXED_TEXTURE_PX, 0.5, 0);
     struct rg_span all = {INFINITY, -INFINITY};
     for (int j = (int)floor(y.low); j <= (int)floor(y.high) + 1; j++)
         for (int i = (int)floor(x.low); i <= (int)floor(x.high) + 1; i++)

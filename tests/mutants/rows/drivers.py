@@ -29,7 +29,7 @@ ROUND, COVER, PLANE, TEXTURE, DECODE, MERGE, SCENE, BOUNDS, SECTIONS, CORNERS, S
     f"shaders/fixed/bounds/{name}.c" for name in
     ("span", "cover", "plane", "texture", "decode", "merge", "scene", "bounds", "sections", "corners", "shade"))
 CUBE = "shaders/fixed/bounds/cube.c"
-OF_BOUNDS, JUDGED = ("bounds of fixed functions",), "harness/measure/serving/fixed.c"
+OF_BOUNDS, JUDGED = ("bounds of places", "bounds of texels", "bounds of draws"), "harness/measure/serving/fixed.c"
 
 # Native devices.
 GL_SAMPLER, VK_SAMPLER, VK_STATE = "backends/gl/api/sampler.c", "backends/vulkan/api/sampler.c", "backends/vulkan/api/pipeline.c"

@@ -177,6 +177,7 @@ static void note_precision(const struct gl_fixed_job *draw)
 {
     struct rg_fixed_precision *precision = &draw->picture->precision;
     *precision = rg_fixed_precision_least;
+    precision->is_opengl = true;
     glGetIntegerv(GL_SUBPIXEL_BITS, &precision->subpixel_bits);
     GLint samples = 0; // which may be more than asked for
     glGetIntegerv(GL_SAMPLES, &samples);
