@@ -163,6 +163,15 @@ static int count(const json_t *draws, const char *status)
     return found;
 }
 
+static int count_known(const json_t *draws)
+{
+    size_t i;
+    json_t *draw;
+    int found = 0;
+    json_array_foreach(draws, i, draw) found += *text_of(draw, "known") != 0;
+    return found;
+}
+
 static void print_draw(const json_t *draw)
 {
     const char *status = text_of(draw, "status");
@@ -186,12 +195,16 @@ void rg_doctor_fixed_print(const json_t *devices)
         const json_t *draws = json_object_get(device, "draws");
         const json_t *closed = json_object_get(device, "closed");
         const int all = (int)json_array_size(draws), ok = count(draws, "ok");
-        const int lacking = count(draws, "unsupported");
+        const int lacking = count(draws, "unsupported"), known = count_known(draws);
+        char told[40] = "";
+        if (known)
+            snprintf(told, sizeof(told), ", %d known fault%s", known, known == 1 ? "" : "s");
         if (all)
-            printf("%s: %d draws of fixed functions, %d unsupported, %d fail; %d of %d closed "
+            printf("%s: %d draws of fixed functions, %d unsupported, %d fail%s; %d of %d closed "
                    "cases hold; in %.0f ms\n",
-                   text_of(device, "name"), all, lacking, all - ok - lacking, count(closed, "ok"),
-                   (int)json_array_size(closed), json_real_value(json_object_get(device, "ms")));
+                   text_of(device, "name"), all, lacking, all - ok - lacking, told,
+                   count(closed, "ok"), (int)json_array_size(closed),
+                   json_real_value(json_object_get(device, "ms")));
         else
             printf("%s: %s: %s\n", text_of(device, "name"), text_of(device, "status"),
                    text_of(device, "why"));

@@ -51,8 +51,8 @@ static void rows_are_printed_with_what_fails(void **state)
     printed_begin();
     rg_doctor_fixed_print(rows);
     assert_string_equal(printed_end(),
-                        "new: 5 draws of fixed functions, 1 unsupported, 1 fail; 1 of 2 closed "
-                        "cases hold; in 12 ms\n"
+                        "new: 5 draws of fixed functions, 1 unsupported, 1 fail, 1 known fault; 1 "
+                        "of 2 closed cases hold; in 12 ms\n"
                         "  linear                     00aa  within bounds\n"
                         "  stencil                    unsupported: lacks x\n"
                         "  mips                       fail: is wrong\n"
