@@ -5,27 +5,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/log.h"
 #include "harness/commands/cli/shard.h"
 #include "harness/compare/verify/checks.h"
 #include "harness/compare/verify/shards.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/frames/trace.h"
-#include "harness/record/disk/parts.h"
 #include "harness/record/output.h"
 #include "tests/harness/cli/asked.h"
+#include "tests/harness/cli/told/parts.h"
 
 // --- stand-ins ---
 
-static const char *broken; // the step that fails
-static bool is_interrupted, is_found;
+static bool is_interrupted;
 static int checks_end;
-
-static bool does(const char *step)
-{
-    return !broken || strcmp(broken, step) != 0 || rg_error("%s fails", step);
-}
 
 bool rg_interrupted(void)
 {
@@ -59,18 +52,6 @@ bool rg_output_write_file(const char *path, const char *text)
 {
     asked_note("write %s: %s; ", path, text);
     return does("write");
-}
-
-bool rg_parts_read(struct rg_parts *parts, const char *kind, const char *path)
-{
-    asked_note("%s records of %s; ", kind, path);
-    *parts = (struct rg_parts){.count = is_found ? 2 : 0};
-    return does("parts");
-}
-
-void rg_parts_free(struct rg_parts *parts)
-{
-    asked_note("free %d", parts->count);
 }
 
 int rg_shards_exit(const struct rg_parts *parts, const char *kind, const char *path, bool partial)

@@ -6,25 +6,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/base/log.h"
 #include "harness/commands/cli/shard.h"
 #include "harness/commands/comparing/outputs.h"
 #include "harness/compare/gate/shards/shards.h"
 #include "harness/console/exit.h"
 #include "harness/record/disk/hold.h"
 #include "tests/harness/cli/asked.h"
+#include "tests/harness/cli/told/parts.h"
 
 // --- stand-ins ---
 
-// What each step does; `broken` names the step that fails.
 static int gate_ends, gate_beyond;
-static bool is_told, is_found; // the report is complete; shards left records
-static const char *broken;
-
-static bool does(const char *step)
-{
-    return !broken || strcmp(broken, step) != 0 || rg_error("%s fails", step);
-}
+static bool is_told; // the report is complete
 
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
 {
@@ -81,18 +74,6 @@ void rg_hold_release(struct rg_hold *hold)
 {
     assert_int_equal(hold->fd, -1);
     asked_note(hold->folder ? "release; " : "");
-}
-
-bool rg_parts_read(struct rg_parts *parts, const char *kind, const char *path)
-{
-    asked_note("%s records of %s; ", kind, path);
-    *parts = (struct rg_parts){.count = is_found ? 2 : 0};
-    return does("parts");
-}
-
-void rg_parts_free(struct rg_parts *parts)
-{
-    asked_note("free %d", parts->count);
 }
 
 int rg_shards_exit(const struct rg_parts *parts, const char *kind, const char *path, bool partial)

@@ -4,7 +4,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/base/log.h"
 #include "harness/compare/shrink/case.h"
 #include "harness/compare/shrink/culprit.h"
 #include "harness/compare/shrink/folder.h"
@@ -12,18 +11,13 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "tests/harness/cli/asked.h"
+#include "tests/harness/cli/told/steps.h"
 
 // --- stand-ins ---
 
 static int search_ends, signal_number;
 static bool has_culprit;
-static const char *broken; // the step that fails
-static char folder[600];   // for files that are tried
-
-static bool does(const char *step)
-{
-    return !broken || strcmp(broken, step) != 0 || rg_error("%s fails", step);
-}
+static char folder[600]; // for files that are tried
 
 bool rg_interrupted(void)
 {
