@@ -31,7 +31,8 @@ static void load(void)
         memcpy(&entry, &symbol, sizeof(entry)); // ISO C has no cast from object to function
     }
     functions = entry ? entry() : NULL;
-    const char *error = !found ? "raingauge_oiio.so is not beside raingauge; install raingauge-oiio"
+    const char *error = !found ? "raingauge_oiio.so is not beside raingauge; install it again, or "
+                                 "Debian's raingauge-oiio"
                         : functions ? NULL
                                     : dlerror();
     if (!functions)
@@ -122,8 +123,8 @@ static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg
     char program[PATH_MAX], name[32], most[24];
     struct rg_caged caged;
     if (!rg_program_part("raingauge_picture_reader", program, sizeof(program)))
-        return rg_why_set(
-            why, "raingauge_picture_reader is not beside raingauge; install raingauge-oiio");
+        return rg_why_set(why, "raingauge_picture_reader is not beside raingauge; install it "
+                               "again, or Debian's raingauge-oiio");
     const char *extension = strrchr(path, '.');
     snprintf(name, sizeof(name), "picture%s", extension ? extension : "");
     snprintf(most, sizeof(most), "%lld", (long long)most_bytes);
