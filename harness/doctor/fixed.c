@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/text/add.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/devices/devices.h"
@@ -98,13 +99,18 @@ static int draw_all(struct rg_device *device, json_t *row)
     json_object_set_new(row, "draws", draws);
     json_object_set_new(row, "closed", closed);
     json_object_set_new(row, "ms", json_real(rg_now_ms() - start_ms));
-    const int exit = rg_exit_of_all(counts);
-    const int failed = drawn - counts[RG_OK] - counts[RG_UNSUPPORTED];
+    const int exit = rg_exit_of_all(counts), lacking = counts[RG_LACKING];
+    const int failed = drawn - counts[RG_OK] - counts[RG_UNSUPPORTED] - lacking;
     if (failed)
         json_object_set_new(row, "why",
                             json_sprintf("%d draw%s", failed, failed == 1 ? " fails" : "s fail"));
+    else if (lacking)
+        json_object_set_new(row, "why",
+                            json_sprintf("raingauge itself lacked what %d draw%s", lacking,
+                                         lacking == 1 ? " needs" : "s need"));
     rg_outcome_set(row, exit == RG_EXIT_PASS          ? RG_OK
                         : exit == RG_EXIT_UNSUPPORTED ? RG_UNSUPPORTED
+                        : exit == RG_EXIT_HARNESS     ? RG_LACKING
                                                       : RG_FAIL);
     return exit;
 }
@@ -154,21 +160,13 @@ json_t *rg_doctor_fixed_passport(const json_t *devices, const struct rg_device_i
 
 // --- printing ---
 
-static int count(const json_t *draws, const char *status)
+static int count_with(const json_t *draws, const char *key, const char *text)
 {
     size_t i;
     json_t *draw;
     int found = 0;
-    json_array_foreach(draws, i, draw) found += !strcmp(text_of(draw, "status"), status);
-    return found;
-}
-
-static int count_known(const json_t *draws)
-{
-    size_t i;
-    json_t *draw;
-    int found = 0;
-    json_array_foreach(draws, i, draw) found += *text_of(draw, "known") != 0;
+    json_array_foreach(draws, i, draw) found +=
+        json_object_get(draw, key) && (!text || !strcmp(text_of(draw, key), text));
     return found;
 }
 
@@ -194,16 +192,21 @@ void rg_doctor_fixed_print(const json_t *devices)
     {
         const json_t *draws = json_object_get(device, "draws");
         const json_t *closed = json_object_get(device, "closed");
-        const int all = (int)json_array_size(draws), ok = count(draws, "ok");
-        const int lacking = count(draws, "unsupported"), known = count_known(draws);
-        char told[40] = "";
+        const int all = (int)json_array_size(draws), ok = count_with(draws, "status", "ok");
+        const int unsupported = count_with(draws, "status", "unsupported");
+        const int known = count_with(draws, "known", NULL);
+        const int lacking = count_with(draws, "fault", "harness");
+        char told[100] = "";
+        if (lacking)
+            rg_text_add(told, sizeof(told), "", ", %d not drawn by a lack of raingauge's own",
+                        lacking);
         if (known)
-            snprintf(told, sizeof(told), ", %d known fault%s", known, known == 1 ? "" : "s");
+            rg_text_add(told, sizeof(told), "", ", %d known fault%s", known, known == 1 ? "" : "s");
         if (all)
             printf("%s: %d draws of fixed functions, %d unsupported, %d fail%s; %d of %d closed "
                    "cases hold; in %.0f ms\n",
-                   text_of(device, "name"), all, lacking, all - ok - lacking, told,
-                   count(closed, "ok"), (int)json_array_size(closed),
+                   text_of(device, "name"), all, unsupported, all - ok - unsupported - lacking,
+                   told, count_with(closed, "status", "ok"), (int)json_array_size(closed),
                    json_real_value(json_object_get(device, "ms")));
         else
             printf("%s: %s: %s\n", text_of(device, "name"), text_of(device, "status"),

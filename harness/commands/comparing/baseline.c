@@ -124,10 +124,10 @@ static int print_failures(const struct rg_baseline *made)
     return rg_exit_of_all(counts);
 }
 
-// Whether raingauge itself lacked something: such a row must not be expected of a device.
-static bool has_lacking(const struct rg_baseline *made)
+// Whether raingauge itself lacked something: what came of it must not be expected of a device.
+static bool has_lacking(const struct rg_baseline *made, const struct rg_baseline_making *how)
 {
-    bool any = false;
+    bool any = how->is_lacking;
     for (int64_t i = 0; !any && i < made->count; i++)
         any = made->rows[i].outcome == RG_LACKING;
     return any;
@@ -146,17 +146,17 @@ static int write_it(const struct baseline_options *o, const struct rg_baseline *
 // Writes the baseline. `left_out` is the enum rg_exit of devices that failed to open, and have no
 // row.
 static int keep(const struct baseline_options *o, const struct before *before,
-                const struct rg_baseline *made, int left_out)
+                const struct rg_baseline *made, const struct rg_baseline_making *how, int left_out)
 {
     print_keys(made);
     const int failures = print_failures(made);
     const bool is_there = before->is_there;
     const int changes = is_there ? rg_baseline_print_changes(&before->baseline, made, stdout) : 0;
-    if (has_lacking(made)) {
+    if (has_lacking(made, how)) {
         rg_error("%s: stays as it is, for raingauge itself lacked what some cells need; run this "
                  "again once it is there",
                  o->output);
-        return failures;
+        return rg_exit_worse(failures, RG_EXIT_HARNESS);
     }
     if (is_there && !changes) {
         printf("%s: nothing changes\n", o->output);
@@ -187,13 +187,13 @@ static int make(const struct baseline_options *o, const struct rg_gate_cells *ce
                                                 .launches = o->pictures_only ? 0 : o->launches};
     struct rg_baseline made = {.count = 0};
     struct rg_devices devices;
-    bool clean = true;
+    struct rg_baseline_making how;
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit == RG_EXIT_PASS) {
         const int left_out = rg_devices_exit(&devices);
-        if (rg_baseline_make(&request, &devices, &made, &clean))
-            exit = rg_exit_worse(rg_exit_worse(keep(o, before, &made, left_out), left_out),
-                                 clean ? RG_EXIT_PASS : RG_EXIT_FAIL);
+        if (rg_baseline_make(&request, &devices, &made, &how))
+            exit = rg_exit_worse(rg_exit_worse(keep(o, before, &made, &how, left_out), left_out),
+                                 how.has_failed ? RG_EXIT_FAIL : RG_EXIT_PASS);
         else
             exit =
                 rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : rg_exit_of_error();

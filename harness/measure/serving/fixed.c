@@ -199,26 +199,40 @@ json_t *rg_fixed_hash(uint64_t hash)
     return json_sprintf("%016" PRIx64, hash);
 }
 
-json_t *rg_fixed_digests(struct rg_device *device, int *failed, bool bounded[RG_FIXED_MAX_DRAWS])
+static void take_left(struct rg_device *device, int i, struct rg_fixed_left *left)
+{
+    struct rg_fixed_told told;
+    char why[RG_FIXED_WHY];
+    if (!rg_fixed_ask(device, i, &told)) {
+        left->outcomes[i] = rg_fixed_failure(device).outcome;
+        left->failed = left->failed == RG_OK ? left->outcomes[i] : left->failed;
+        return;
+    }
+    left->outcomes[i] = rg_fixed_judge(i, &told, why);
+    if (left->outcomes[i] != RG_OK)
+        return;
+    left->is_within[i] = told.is_bounded && !told.beyond.count;
+    left->digests = left->digests ? left->digests : json_object();
+    json_object_set_new(left->digests, rg_fixed_draws[i].feature, rg_fixed_hash(told.digest));
+}
+
+void rg_fixed_draw_all(struct rg_device *device, struct rg_fixed_left *left)
 {
     const int count = *device->info.limits.no_native ? 0 : rg_fixed_count();
-    json_t *digests = NULL;
-    *failed = 0;
-    for (int i = 0; rg_fixed_goes_on(device, *failed, count - i) && i < count && !rg_interrupted();
+    int failed = 0;
+    *left = (struct rg_fixed_left){0};
+    for (int i = 0; i < RG_FIXED_MAX_DRAWS; i++)
+        left->outcomes[i] = RG_NOTHING;
+    for (int i = 0; rg_fixed_goes_on(device, failed, count - i) && i < count && !rg_interrupted();
          i++) {
-        struct rg_fixed_told told;
-        char why[RG_FIXED_WHY];
-        if (!rg_fixed_ask(device, i, &told)) {
-            rg_fixed_failure(device);
-            ++*failed;
-        } else if (rg_fixed_judge(i, &told, why) == RG_OK) {
-            if (bounded)
-                bounded[i] = told.is_bounded && !told.beyond.count;
-            digests = digests ? digests : json_object();
-            json_object_set_new(digests, rg_fixed_draws[i].feature, rg_fixed_hash(told.digest));
-        }
+        take_left(device, i, left);
+        failed += rg_outcome_is_broken(left->outcomes[i]);
     }
-    return digests;
+}
+
+void rg_fixed_left_free(struct rg_fixed_left *left)
+{
+    json_decref(left->digests);
 }
 
 static json_t *find(const json_t *passport, const char *name)

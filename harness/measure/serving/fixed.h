@@ -46,11 +46,17 @@ enum rg_outcome rg_fixed_judge(int row, const struct rg_fixed_told *told, char w
 
 // A digest in 16 hexadecimal digits.
 json_t *rg_fixed_hash(uint64_t hash);
-// Draws rg_fixed_draws, and returns the digests of those that are OK by their features. NULL: none
-// is. One logged line for each draw that the driver fails, of which `failed` gets the number.
-// `bounded` tells which draws are within bounds; NULL: nobody asks. The caller releases the
-// digests.
-json_t *rg_fixed_digests(struct rg_device *device, int *failed, bool bounded[RG_FIXED_MAX_DRAWS]);
+
+// What a device leaves of rg_fixed_draws.
+struct rg_fixed_left {
+    json_t *digests; // of the draws that are OK, by feature; NULL: none is
+    enum rg_outcome outcomes[RG_FIXED_MAX_DRAWS]; // RG_NOTHING: not tried
+    bool is_within[RG_FIXED_MAX_DRAWS];           // the draw's bounds; false: it has none
+    enum rg_outcome failed; // the first draw that could not be made; RG_OK: none
+};
+// Draws them all, with one logged line for each that could not be made.
+void rg_fixed_draw_all(struct rg_device *device, struct rg_fixed_left *left);
+void rg_fixed_left_free(struct rg_fixed_left *left);
 // Puts such digests, or NULL, into a device of a passport (harness/record/passport/passport.h).
 void rg_fixed_put(json_t *passport, const char *device, json_t *digests);
 // The digests in a passport; NULL: the device is not in it, or has none.

@@ -14,8 +14,9 @@
 
 // --- stand-ins ---
 
-static enum rg_outcome ends[4];              // of two cells on two devices
-static bool can_be_made, is_clean, is_raced; // `raced`: another writes the file meanwhile
+static enum rg_outcome ends[4];    // of two cells on two devices
+static bool can_be_made, is_raced; // `raced`: another writes the file meanwhile
+static struct rg_baseline_making how;
 static int changes;
 
 static void add_row(struct rg_baseline *made, int i)
@@ -31,10 +32,10 @@ static void add_row(struct rg_baseline *made, int i)
 }
 
 bool rg_baseline_make(const struct rg_baseline_request *request, struct rg_devices *devices,
-                      struct rg_baseline *made, bool *clean)
+                      struct rg_baseline *made, struct rg_baseline_making *making)
 {
     asked_note("%d cells, %d launches", (int)request->cells->count, request->launches);
-    *clean = is_clean;
+    *making = how;
     for (int d = 0; d < devices->count; d++) {
         struct rg_baseline_device *device = &made->devices[made->device_count++];
         snprintf(device->name, sizeof(device->name), "%s", devices->devices[d]->info.name);
@@ -84,7 +85,8 @@ static int setup(void **state)
 {
     const int failed = asked_setup(state);
     memset(ends, 0, sizeof(ends));
-    can_be_made = is_clean = true;
+    can_be_made = true;
+    how = (struct rg_baseline_making){0};
     is_raced = false;
     changes = 0;
     write_file("cells.txt", "a/one raster 16x16 1\na/two raster 16x16 1\n");
@@ -147,7 +149,7 @@ static void a_first_baseline_is_written(void **state)
     assert_non_null(strstr(asked_seen, "; write 4 rows"));
     ends[1] = RG_OK;
     assert_int_equal(asked_run(MADE), RG_EXIT_PASS);
-    is_clean = false;
+    how.has_failed = true;
     assert_int_equal(asked_run(MADE), RG_EXIT_FAIL);
 }
 
@@ -158,6 +160,10 @@ static void lacks_are_not_kept(void **state)
     ends[3] = RG_LACKING;
     asked_expect(MADE, "memory 0; " OPENED "2 cells, 24 launches", RG_EXIT_HARNESS);
     expect_printed("a/two.second: error: it ended\n");
+    assert_non_null(strstr(asked_logged, "b.json: stays as it is, for raingauge itself lacked"));
+    ends[3] = RG_OK; // nor are lacks of fixed functions, which have no rows
+    how.is_lacking = true;
+    asked_expect(MADE, "memory 0; " OPENED "2 cells, 24 launches", RG_EXIT_HARNESS);
     assert_non_null(strstr(asked_logged, "b.json: stays as it is, for raingauge itself lacked"));
 }
 

@@ -180,7 +180,7 @@ ROWS = [
     Fault(WARNINGS, "|| «!strncmp(info->name, \"cpu\", 3)»)", "false", "cpu is warned of as software", tests=OF_WARNINGS),
     Fault(WARNINGS, "&& «machine->cores_allowed < machine->cores_online»)", "false", "cores that may not be used are not told", tests=OF_WARNINGS),
     Fault(DRAWS, "if («!strcmp(text_of(draw, \"status\"), \"ok\")»)\n                json_object_set", "true", "digests of wrong draws are kept", tests=OF_FEATURES),
-    Fault(DRAWS, "all, lacking, «all - ok - lacking»,", "all - ok", "draws that are unsupported fail", tests=OF_FEATURES),
+    Fault(DRAWS, "all, unsupported, all - ok «- unsupported» - lacking,", "- 0", "draws that are unsupported fail", tests=OF_FEATURES),
     Fault(DRAWS, "if («strcmp(text_of(draw, \"status\"), \"ok\") != 0»)", "true", "closed cases that hold have a line", tests=OF_FEATURES),
     Fault(DRAWS, "failure.fault == RG_FAULT_INPUT ? «RG_EXIT_USAGE» :", "RG_EXIT_FAIL", "a device that does not exist is a driver's failure", tests=OF_FEATURES),
     Fault(DRAWS, "*info = device->info;", ";", "a device that draws is not described", tests=OF_FEATURES),
@@ -236,7 +236,8 @@ ROWS = [
     # --- what blind draws showed ---
     Fault("harness/doctor/fixed.c", "    «++*failed;»\n", ";", "a driver that fails draws on", tests=("fixed functions in doctor",)),
     Fault("harness/doctor/fixed.c", "json_object_set_new(row, \"neighbour\", rg_fixed_hash(«told->other»));", "told->digest", "a neighbour has the draw's digest", tests=("fixed functions in doctor",)),
-    Fault("harness/doctor/fixed.c", "const int failed = drawn - counts[RG_OK] «- counts[RG_UNSUPPORTED]»;", "- 0", "draws that a device lacks count as failed", tests=("fixed functions in doctor",)),
+    Fault("harness/doctor/fixed.c", "const int failed = drawn - counts[RG_OK] «- counts[RG_UNSUPPORTED]» - lacking;", "- 0", "draws that a device lacks count as failed", tests=("fixed functions in doctor",)),
+    Fault("harness/doctor/fixed.c", "- counts[RG_UNSUPPORTED] «- lacking»;", "- 0", "a lack of raingauge's own is the driver's failure", tests=("fixed functions in doctor",)),
     Fault("harness/doctor/warnings.c", "if («machine->quota_cpus > 0 && machine->quota_cpus < machine->cores_allowed»)", "machine->quota_cpus > 0", "a quota of all cores is warned of", tests=("warnings of doctor",)),
     Fault("harness/doctor/warnings.c", "if («!gpu && !machine->gpu_nodes»)", "!gpu", "a GPU that no driver opens is not warned of", tests=("warnings of doctor",)),
 ]

@@ -116,11 +116,15 @@ struct rg_baseline_request {
     int launches; // of each device, to time each cell; 0: nothing is timed
 };
 
+// What failed beside the rows, which tell their own failures.
+struct rg_baseline_making {
+    bool has_failed; // a device was closed badly, or failed a fixed function
+    bool is_lacking; // raingauge itself lacked what a fixed function needs: the digest is not kept
+};
 // Runs all cells on all devices, which it closes, into a zeroed baseline. False, and one logged
-// line, if it cannot be made or the user interrupts. `clean` becomes false if a device was closed
-// badly; the baseline is complete even then.
+// line, if it cannot be made or the user interrupts. The baseline is complete unless it is lacking.
 bool rg_baseline_make(const struct rg_baseline_request *request, struct rg_devices *devices,
-                      struct rg_baseline *baseline, bool *clean);
+                      struct rg_baseline *baseline, struct rg_baseline_making *making);
 
 // Prints one line per cell that has changed from `then` to `now`, and returns their number. Times
 // have changed if a gate of the same cells would say so.

@@ -16,7 +16,7 @@ struct make {
     const struct rg_baseline_request *asked;
     struct rg_baseline *made;
     struct rg_side sides[RG_MAX_DEVICES];
-    bool clean;                  // no device was closed badly, or failed a fixed function
+    struct rg_baseline_making *how;
     struct rg_timed_cell *cells; // one per row; rows that are not OK are not timed
 };
 
@@ -69,7 +69,7 @@ static bool take_all(struct make *m, const struct rg_devices *devices, struct rg
             row->seconds = (rg_now_ms() - start_ms) / 1000;
             rg_progress_add(bar, 1);
         }
-    m->clean = rg_truth_close(&truth) && m->clean;
+    m->how->has_failed |= !rg_truth_close(&truth);
     return ok;
 }
 
@@ -87,14 +87,15 @@ static bool take_fixed(struct make *m, const struct rg_devices *devices, struct 
 {
     for (int i = 0; i < devices->count && !rg_interrupted(); i++) {
         struct rg_device *device = devices->devices[i];
-        int failed;
+        struct rg_fixed_left left;
         if (!is_well(m, i))
             continue;
         rg_progress_label(bar, "fixed functions on %s", device->info.name);
-        json_t *digests = rg_fixed_digests(device, &failed, NULL);
-        m->clean = m->clean && !failed;
-        rg_fixed_put(m->made->passport, device->info.name, digests);
-        json_decref(digests);
+        rg_fixed_draw_all(device, &left);
+        m->how->has_failed |= left.failed != RG_OK && left.failed != RG_LACKING;
+        m->how->is_lacking |= left.failed == RG_LACKING;
+        rg_fixed_put(m->made->passport, device->info.name, left.digests);
+        rg_fixed_left_free(&left);
     }
     return !rg_interrupted();
 }
@@ -172,26 +173,26 @@ static bool take_times(struct make *m, struct rg_progress *bar)
     ok = ok && time_all(m, &times, bar);
     for (int i = 0; i < m->made->device_count; i++) {
         rg_side_close(&m->sides[i]);
-        m->clean = m->clean && !m->sides[i].was_closed_badly;
+        m->how->has_failed |= m->sides[i].was_closed_badly;
     }
     rg_yardsticks_close(&room);
     return ok;
 }
 
 bool rg_baseline_make(const struct rg_baseline_request *request, struct rg_devices *devices,
-                      struct rg_baseline *baseline, bool *clean)
+                      struct rg_baseline *baseline, struct rg_baseline_making *making)
 {
-    struct make m = {.asked = request, .made = baseline, .clean = true};
+    struct make m = {.asked = request, .made = baseline, .how = making};
     struct rg_progress bar;
     const int64_t rows = request->cells->count * devices->count;
+    *making = (struct rg_baseline_making){0};
     rg_interrupt_watch();
     rg_progress_start(&bar, rows * (1 + request->launches));
     bool ok = set_devices(baseline, devices) && take_all(&m, devices, &bar) &&
               take_fixed(&m, devices, &bar);
-    m.clean = rg_devices_close(devices) && m.clean;
+    making->has_failed |= !rg_devices_close(devices);
     ok = ok && (!request->launches || take_times(&m, &bar));
     rg_progress_end(&bar);
     free(m.cells);
-    *clean = m.clean;
     return ok && !rg_interrupted();
 }

@@ -17,11 +17,11 @@
 struct held {
     struct rg_running_gate *run;
     const char *device, *driver;
-    const char *others;       // whose they must be: "the baseline's"
-    struct rg_side *a, *b;    // a: NULL with a baseline
-    const json_t *then, *now; // digests
-    bool bounded_a[RG_FIXED_MAX_DRAWS], bounded_b[RG_FIXED_MAX_DRAWS]; // and within the bounds
-    int same, allowed, other;
+    const char *others;    // whose they must be: "the baseline's"
+    struct rg_side *a, *b; // a: NULL with a baseline
+    const json_t *then;    // digests
+    struct rg_fixed_left left_a, now;
+    int same, allowed, other, undrawn;
 };
 
 bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_pair *pair)
@@ -107,13 +107,22 @@ static bool add_case(const struct held *h, const char *cell, enum rg_ending endi
 // Whether two drivers' digests of a draw may differ: both pictures are within the draw's bounds.
 static bool is_allowed(const struct held *h, int draw)
 {
-    return h->a && h->bounded_a[draw] && h->bounded_b[draw];
+    return h->a && h->left_a.is_within[draw] && h->now.is_within[draw];
+}
+
+// Whether nothing is known of a draw, by a failure of the driver or of raingauge itself.
+static bool is_undrawn(const struct held *h, int draw)
+{
+    const enum rg_outcome outcome = h->now.outcomes[draw];
+    return rg_outcome_is_broken(outcome) || outcome == RG_NOTHING;
 }
 
 static void put_difference(const struct held *h, int draw, bool allowed, char *text, size_t size)
 {
-    const char *was = digest_of(h->then, draw), *is = digest_of(h->now, draw);
-    if (allowed)
+    const char *was = digest_of(h->then, draw), *is = digest_of(h->now.digests, draw);
+    if (is_undrawn(h, draw))
+        snprintf(text, size, "could not be drawn");
+    else if (allowed)
         snprintf(text, size, "differs from %s, and both are within bounds", h->others);
     else
         snprintf(text, size, "%s and not %s, which is %s", is ? is : "leaves no digest", was,
@@ -124,19 +133,25 @@ static struct rg_judged judge(struct held *h, int draw, int64_t row, bool holds)
 {
     const struct rg_gate_request *asked = h->run->asked;
     struct rg_known_result *result = &h->run->gate->results[h->run->gate->result_count++];
-    *result = (struct rg_known_result){.cell = rg_gate_fixed_cell(draw),
-                                       .device = h->device,
-                                       .driver = h->driver,
-                                       .outcome = holds ? RG_OK : RG_FAIL,
-                                       .pixels = NAN,
-                                       .difference = NAN};
+    const bool is_left = holds || !is_undrawn(h, draw);
+    const enum rg_outcome drawn = h->now.outcomes[draw];
+    *result = (struct rg_known_result){
+        .cell = rg_gate_fixed_cell(draw),
+        .device = h->device,
+        .driver = h->driver,
+        .outcome = !is_left ? drawn
+                   : holds  ? RG_OK
+                            : RG_FAIL,
+        .is_foreign = !is_left && (drawn == RG_NOTHING ? h->now.failed : drawn) == RG_LACKING,
+        .pixels = NAN,
+        .difference = NAN};
     return rg_known_judge(asked->known, row, result, rg_ending_of(result->outcome), asked->today);
 }
 
 static bool hold(struct held *h, int draw)
 {
     const struct rg_gate_request *asked = h->run->asked;
-    const char *was = digest_of(h->then, draw), *is = digest_of(h->now, draw);
+    const char *was = digest_of(h->then, draw), *is = digest_of(h->now.digests, draw);
     const char *cell = rg_gate_fixed_cell(draw);
     const bool same = was && is && !strcmp(was, is);
     const bool allowed = was && is && !same && is_allowed(h, draw);
@@ -144,7 +159,8 @@ static bool hold(struct held *h, int draw)
     char own[160] = "", message[200];
     h->same += same;
     h->allowed += allowed;
-    h->other += was && !same && !allowed;
+    h->undrawn += was && is_undrawn(h, draw);
+    h->other += was && !same && !allowed && !is_undrawn(h, draw);
     if (!was || (same && row < 0))
         return true;
     if (!same)
@@ -152,7 +168,7 @@ static bool hold(struct held *h, int draw)
     const struct rg_judged judged = judge(h, draw, row, same || (allowed && !asked->strict));
     const char *word = rg_judged_word(&judged);
     snprintf(message, sizeof(message), "%s%s%s", word, *word && *own ? ": " : "", own);
-    return add_case(h, cell, judged.ending, true, message, 0);
+    return add_case(h, cell, judged.ending, !is_undrawn(h, draw), message, 0);
 }
 
 // --- a device ---
@@ -169,12 +185,10 @@ static bool hold_all(struct held *h, double start_ms)
 {
     char told[300];
     bool ok = true;
-    int failed;
-    json_t *now = rg_fixed_digests(h->b->device, &failed, h->bounded_b);
-    h->now = now;
+    rg_fixed_draw_all(h->b->device, &h->now);
     for (int i = 0; ok && i < rg_fixed_count() && !rg_interrupted(); i++)
         ok = hold(h, i);
-    json_decref(now);
+    rg_fixed_left_free(&h->now);
     snprintf(told, sizeof(told), "%d %s %s", h->same, h->same == 1 ? "digest is" : "digests are",
              h->others);
     if (h->allowed)
@@ -183,6 +197,8 @@ static bool hold_all(struct held *h, double start_ms)
     if (h->other)
         rg_text_add(told, sizeof(told), ", ", "and %d %s not", h->other,
                     h->other == 1 ? "is" : "are");
+    if (h->undrawn)
+        rg_text_add(told, sizeof(told), ", ", "%d could not be drawn", h->undrawn);
     const double seconds = (rg_now_ms() - start_ms) / 1000;
     return rg_interrupted() || (ok && add_case(h, RG_GATE_FIXED, RG_ENDING_PASS,
                                                h->same + h->allowed + h->other > 0, told, seconds));
@@ -203,20 +219,19 @@ static bool launch_and_hold(struct held *h)
 {
     const double start_ms = rg_now_ms();
     bool ok = true;
-    int failed;
     if ((h->a && !launch(h, h->a, &ok)) || !launch(h, h->b, &ok))
         return ok;
     if (!h->a)
         return hold_all(h, start_ms);
-    json_t *then = rg_fixed_digests(h->a->device, &failed, h->bounded_a);
-    h->then = then;
-    if (failed)
-        ok = skip(h, RG_ENDING_ERROR, "A's driver fails while it draws them");
-    else if (!json_object_size(then))
+    rg_fixed_draw_all(h->a->device, &h->left_a);
+    h->then = h->left_a.digests;
+    if (h->left_a.failed != RG_OK)
+        ok = skip(h, rg_ending_of(h->left_a.failed), "A could not draw them");
+    else if (!json_object_size(h->then))
         ok = skip(h, RG_ENDING_UNSUPPORTED, "A draws none of them");
     else
         ok = hold_all(h, start_ms);
-    json_decref(then);
+    rg_fixed_left_free(&h->left_a);
     return ok;
 }
 

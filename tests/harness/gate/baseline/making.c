@@ -22,7 +22,7 @@ static struct {
     int breaks, breaks_at; // the row that cannot be timed from this launch on
     int disturbed, until;  // the row whose launches before this one do not count
     bool devices_close_well, truth_closes_well, sides_close_well;
-    int fixed_failed;
+    enum rg_outcome fixed_failed;
 } script;
 static struct rg_device devices[2];
 
@@ -71,12 +71,11 @@ bool rg_truth_close(struct rg_truth *truth)
     return script.truth_closes_well;
 }
 
-json_t *rg_fixed_digests(struct rg_device *device, int *failed, bool bounded[RG_FIXED_MAX_DRAWS])
+void rg_fixed_draw_all(struct rg_device *device, struct rg_fixed_left *left)
 {
-    assert_null(bounded);
     note(" F", device->info.name);
-    *failed = script.fixed_failed;
-    return json_pack("{s:s}", "linear", device->info.name);
+    *left = (struct rg_fixed_left){.failed = script.fixed_failed};
+    left->digests = json_pack("{s:s}", "linear", device->info.name);
 }
 
 bool rg_devices_close(struct rg_devices *of)
@@ -136,7 +135,7 @@ bool rg_times_take(int row, bool b_first, struct rg_quads *quads, void *user)
 
 static const char text_of_cells[] = "rain raster 16x16 1\nflow raster 16x16 1\n";
 static struct rg_baseline made;
-static bool clean;
+static struct rg_baseline_making how;
 
 static int set_up(void **state)
 {
@@ -168,8 +167,7 @@ static int end(void **state)
 static bool make(int launches)
 {
     struct rg_devices opened = {.count = 2, .devices = {&devices[0], &devices[1]}};
-    return rg_baseline_make(&(struct rg_baseline_request){&cells, launches}, &opened, &made,
-                            &clean);
+    return rg_baseline_make(&(struct rg_baseline_request){&cells, launches}, &opened, &made, &how);
 }
 
 #define TAKEN " T0C T1C T2C T3C Fgl Fvulkan closed"
@@ -182,7 +180,7 @@ static void rows_are_taken_then_timed_in_turn(void **state)
     (void)state;
     assert_true(make(5));
     assert_string_equal(events, TIMED " 0123 3210 1230 2103 2301");
-    assert_true(clean && made.count == ROWS && made.device_count == 2);
+    assert_true(!how.has_failed && !how.is_lacking && made.count == ROWS && made.device_count == 2);
     for (int i = 0; i < ROWS; i++) {
         const struct rg_baseline_row *row = &made.rows[i];
         assert_string_equal(row->cell, i % 2 ? "flow" : "rain");
@@ -262,17 +260,18 @@ static void disturbed_launches_are_repeated(void **state)
     assert_int_equal(made.rows[2].launches.count, 0);
 }
 
-static void what_closes_badly_or_fails_leaves_it_unclean(void **state)
+static void failures_beside_the_rows_are_told(void **state)
 {
     (void)state;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         begin(state);
         script.devices_close_well = i != 0;
         script.truth_closes_well = i != 1;
         script.sides_close_well = i != 2;
-        script.fixed_failed = i == 3;
+        script.fixed_failed = i == 3 ? RG_CRASH : i == 4 ? RG_LACKING : RG_OK;
         assert_true(make(1));
-        assert_false(clean);
+        assert_int_equal(how.has_failed, i < 4);
+        assert_int_equal(how.is_lacking, i == 4);
         rg_baseline_free(&made);
     }
 }
@@ -286,7 +285,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_cell_that_fails_is_not_timed, begin, end),
         cmocka_unit_test_setup_teardown(a_cell_that_breaks_off_has_no_times, begin, end),
         cmocka_unit_test_setup_teardown(disturbed_launches_are_repeated, begin, end),
-        cmocka_unit_test_setup_teardown(what_closes_badly_or_fails_leaves_it_unclean, begin, end),
+        cmocka_unit_test_setup_teardown(failures_beside_the_rows_are_told, begin, end),
     };
     return cmocka_run_group_tests(tests, set_up, free_cells);
 }

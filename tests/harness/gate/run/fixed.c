@@ -18,7 +18,7 @@
 
 static struct rg_device devices[RG_SIDES];
 static json_t *digests[RG_SIDES]; // that a side's device leaves
-static int failed[RG_SIDES];
+static enum rg_outcome failed[RG_SIDES];
 static const char *falls;        // the device that does not start
 static bool is_within[RG_SIDES]; // the bounds of linear
 static double now_ms;
@@ -41,13 +41,19 @@ bool rg_side_launch(struct rg_side *side)
     return true;
 }
 
-json_t *rg_fixed_digests(struct rg_device *device, int *count, bool bounded[RG_FIXED_MAX_DRAWS])
+// A draw without a digest failed on a side that failed, and else left a wrong picture.
+void rg_fixed_draw_all(struct rg_device *device, struct rg_fixed_left *left)
 {
+    const int side = side_of(device);
     now_ms += 750;
-    *count = failed[side_of(device)];
-    for (int i = 0; i < rg_fixed_count(); i++)
-        bounded[i] = is_within[side_of(device)] && !strcmp(rg_fixed_draws[i].feature, "linear");
-    return json_incref(digests[side_of(device)]);
+    *left = (struct rg_fixed_left){.failed = failed[side], .digests = json_incref(digests[side])};
+    for (int i = 0; i < rg_fixed_count(); i++) {
+        const char *feature = rg_fixed_draws[i].feature;
+        left->is_within[i] = is_within[side] && !strcmp(feature, "linear");
+        left->outcomes[i] = json_object_get(digests[side], feature) ? RG_OK
+                            : failed[side] != RG_OK                 ? failed[side]
+                                                                    : RG_FAIL;
+    }
 }
 
 // One backend with fixed functions and one without, whatever the build has.
@@ -168,6 +174,30 @@ static void digests_of_the_baseline_are_counted(void **state)
     end();
 }
 
+// A draw that was not made ends as what kept it from that, and is not compared.
+static void digests_that_fail_have_the_failure(void **state)
+{
+    (void)state;
+    static const struct {
+        enum rg_outcome failed;
+        enum rg_ending ending;
+    } rows[] = {{RG_CRASH, RG_ENDING_CRASH},
+                {RG_LACKING, RG_ENDING_LACKING},
+                {RG_NOTHING, RG_ENDING_NOTHING_MEASURED}};
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        begin(true, left("1111", "3333"), left("1111", NULL));
+        failed[RG_SIDE_B] = rows[i].failed;
+        assert_true(rg_gate_hold_fixed(&run));
+        assert_int_equal(gate.report.case_count, 2);
+        assert_case(0, "fixed/stencil.gl", rows[i].ending, false, "could not be drawn");
+        assert_case(1, "fixed.gl", RG_ENDING_PASS, true,
+                    "2 digests are the baseline's, 1 could not be drawn");
+        assert_int_equal(results[0].outcome, rows[i].failed);
+        assert_int_equal(results[0].is_foreign, rows[i].failed == RG_LACKING);
+        end();
+    }
+}
+
 static void expectations_name_them(void **state)
 {
     (void)state;
@@ -276,9 +306,9 @@ static void two_drivers_that_leave_nothing_to_compare_say_so(void **state)
         if (i < 2) {
             falls = i ? "gl" : "old";
         } else if (i == 2) {
-            failed[RG_SIDE_A] = 1;
-            ending = RG_ENDING_ERROR;
-            why = "A's driver fails while it draws them";
+            failed[RG_SIDE_A] = RG_TIMEOUT;
+            ending = RG_ENDING_TIMEOUT;
+            why = "A could not draw them";
         } else if (i == 3) {
             json_object_clear(digests[RG_SIDE_A]);
             ending = RG_ENDING_UNSUPPORTED;
@@ -337,6 +367,7 @@ int main(void)
     rg_log_listen(log_last, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(digests_of_the_baseline_are_counted),
+        cmocka_unit_test(digests_that_fail_have_the_failure),
         cmocka_unit_test(expectations_name_them),
         cmocka_unit_test(what_cannot_be_compared_is_skipped_and_says_why),
         cmocka_unit_test(two_drivers_may_differ_as_the_apis_allow),

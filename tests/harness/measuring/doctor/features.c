@@ -33,7 +33,9 @@ static json_t *make_rows(void)
         "              {\"feature\": \"blend\", \"status\": \"ok\", \"digest\": \"00cc\","
         "               \"bounds\": \"none\"},"
         "              {\"feature\": \"samples\", \"status\": \"ok\", \"digest\": \"00dd\","
-        "               \"bounds\": \"beyond\", \"known\": \"it errs\"}],"
+        "               \"bounds\": \"beyond\", \"known\": \"it errs\"},"
+        "              {\"feature\": \"lines\", \"status\": \"error\", \"why\": \"no room\","
+        "               \"fault\": \"harness\"}],"
         "  \"closed\": [{\"feature\": \"linear\", \"status\": \"ok\", \"why\": \"\"},"
         "               {\"feature\": \"mips\", \"status\": \"fail\", \"why\": \"does not "
         "hold\"}]},"
@@ -51,13 +53,15 @@ static void rows_are_printed_with_what_fails(void **state)
     printed_begin();
     rg_doctor_fixed_print(rows);
     assert_string_equal(printed_end(),
-                        "new: 5 draws of fixed functions, 1 unsupported, 1 fail, 1 known fault; 1 "
-                        "of 2 closed cases hold; in 12 ms\n"
+                        "new: 6 draws of fixed functions, 1 unsupported, 1 fail, 1 not drawn by a "
+                        "lack of raingauge's own, 1 known fault; 1 of 2 closed cases hold; in 12 "
+                        "ms\n"
                         "  linear                     00aa  within bounds\n"
                         "  stencil                    unsupported: lacks x\n"
                         "  mips                       fail: is wrong\n"
                         "  blend                      00cc  no bounds\n"
                         "  samples                    00dd  known fault: it errs\n"
+                        "  lines                      error: no room\n"
                         "  mips                       fail: does not hold\n"
                         "old: unsupported: has no fixed functions\n");
     json_decref(rows);

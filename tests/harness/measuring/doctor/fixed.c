@@ -25,7 +25,7 @@ enum { NONE = -1 };
 
 static struct rg_device device = {.info = {.name = "new", .full = "new", .driver = "1.0"}};
 static int lacking, constant, alike, broken[2]; // rows that end so; NONE: no row
-static bool closes;
+static bool closes, is_want; // `is_want`: the broken rows lack something of raingauge's own
 static char logged[2048];
 static int renewed;
 
@@ -63,7 +63,10 @@ bool rg_fixed_ask(struct rg_device *of, int row, struct rg_fixed_told *told)
         told->other = row < rg_fixed_count() ? told->digest : 0;
     if (row == lacking)
         snprintf(told->lacks, sizeof(told->lacks), "room");
-    return (row != broken[0] && row != broken[1]) || rg_driver_error("new: lost in draw %d", row);
+    if (row != broken[0] && row != broken[1])
+        return true;
+    return is_want ? rg_harness_error("no room for draw %d", row)
+                   : rg_driver_error("new: lost in draw %d", row);
 }
 
 struct rg_failure rg_fixed_failure(struct rg_device *of)
@@ -86,6 +89,7 @@ static int begin(void **state)
     (void)state;
     lacking = constant = alike = broken[0] = broken[1] = NONE;
     closes = true;
+    is_want = false;
     renewed = 0;
     *logged = *device.info.limits.no_native = 0;
     rg_log_listen(hear, NULL);
@@ -223,6 +227,22 @@ static void a_driver_that_fails_is_left(void **state)
     json_decref(row);
 }
 
+// What raingauge itself lacks is no fault of the driver.
+static void lacks_of_our_own_are_no_failures(void **state)
+{
+    (void)state;
+    broken[0] = 2;
+    is_want = true;
+    json_t *row = draw("new", RG_EXIT_HARNESS);
+    expect_ends(row, "error", "raingauge itself lacked what 1 draw needs");
+    assert_string_equal(json_string_value(json_object_get(row, "fault")), "harness");
+    json_decref(row);
+    alike = 3; // beside a draw that fails
+    row = draw("new", RG_EXIT_FAIL);
+    expect_ends(row, "fail", "1 draw fails");
+    json_decref(row);
+}
+
 static void devices_that_draw_nothing_say_why(void **state)
 {
     (void)state;
@@ -250,6 +270,7 @@ int main(void)
         cmocka_unit_test_setup(each_draw_has_its_row, begin),
         cmocka_unit_test_setup(what_a_driver_draws_wrongly_fails, begin),
         cmocka_unit_test_setup(a_driver_that_fails_is_left, begin),
+        cmocka_unit_test_setup(lacks_of_our_own_are_no_failures, begin),
         cmocka_unit_test_setup(devices_that_draw_nothing_say_why, begin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
