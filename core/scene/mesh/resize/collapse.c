@@ -9,7 +9,7 @@
 #include "core/scene/mesh/resize/resize.h"
 #include "core/scene/vector.h"
 
-enum { NONE = -1, QUADRIC = 10 };
+enum { NONE = -1, QUADRIC = 10, DIGIT_BITS = 8, DIGITS = 1 << DIGIT_BITS };
 
 // Planes' weight at a border, which keeps it where it is, and of length, which decides where the
 // surface is flat.
@@ -42,7 +42,7 @@ struct state {
     uint64_t attempts;
     bool *touched, *fixed; // by vertex: in this round; more than two faces share an edge
     bool *border;          // by vertex
-    struct collapse *collapses;
+    struct collapse *collapses, *sorted; // of this round; `sorted` is room
 };
 
 static void position_of(const struct state *s, uint32_t vertex, double p[3])
@@ -292,11 +292,43 @@ static size_t find_collapses(struct state *s)
 static int compare(const void *a, const void *b)
 {
     const struct collapse *x = a, *y = b;
-    if (x->cost < y->cost || x->cost > y->cost)
-        return x->cost < y->cost ? -1 : 1;
     if (x->from != y->from)
         return x->from < y->from ? -1 : 1;
     return x->to < y->to ? -1 : x->to > y->to;
+}
+
+static unsigned digit_of(const struct collapse *c, int shift)
+{
+    uint64_t bits;
+    memcpy(&bits, &c->cost, sizeof(bits));
+    return bits >> shift & (DIGITS - 1);
+}
+
+// Sorts by cost, digit by digit, since the bits of numbers from 0 on are in the numbers' order;
+// then the few of one cost among themselves.
+static void sort(struct state *s, size_t count)
+{
+    for (int shift = 0; shift < 64; shift += DIGIT_BITS) {
+        size_t ends[DIGITS] = {0}, sum = 0;
+        for (size_t i = 0; i < count; i++)
+            ends[digit_of(&s->collapses[i], shift)]++;
+        for (int digit = 0; digit < DIGITS; digit++) {
+            const size_t begin = sum;
+            sum += ends[digit];
+            ends[digit] = begin; // until they are filled in
+        }
+        for (size_t i = 0; i < count; i++)
+            s->sorted[ends[digit_of(&s->collapses[i], shift)]++] = s->collapses[i];
+        struct collapse *other = s->collapses;
+        s->collapses = s->sorted;
+        s->sorted = other;
+    }
+    for (size_t i = 0, end; i < count; i = end) {
+        for (end = i + 1; end < count && s->collapses[end].cost == s->collapses[i].cost;)
+            end++;
+        if (end - i > 1)
+            qsort(s->collapses + i, end - i, sizeof(*s->collapses), compare);
+    }
 }
 
 // False when nothing could collapse.
@@ -308,7 +340,7 @@ static bool run_round(struct state *s)
     const size_t needed = (size_t)(s->face_count - s->wanted) / 2;
     int left = s->face_count;
     double limit = INFINITY;
-    qsort(s->collapses, count, sizeof(*s->collapses), compare);
+    sort(s, count);
     if (needed < count)
         limit = SLACK * s->collapses[needed].cost;
     memset(s->touched, 0, s->vertex_count);
@@ -341,7 +373,8 @@ static bool begin(struct state *s, const char *name)
         !(s->touched = rg_alloc(vertices, sizeof(*s->touched), name)) ||
         !(s->fixed = rg_alloc(vertices, sizeof(*s->fixed), name)) ||
         !(s->border = rg_alloc(vertices, sizeof(*s->border), name)) ||
-        !(s->collapses = rg_alloc(corners, sizeof(*s->collapses), name)))
+        !(s->collapses = rg_alloc(corners, sizeof(*s->collapses), name)) ||
+        !(s->sorted = rg_alloc(corners, sizeof(*s->sorted), name)))
         return false;
     drop_flat(s);
     for (int face = 0; face < s->face_count; face++)
@@ -375,5 +408,6 @@ int rg_resize_collapse(const struct rg_mesh *mesh, int wanted, uint32_t *indices
     free(s.fixed);
     free(s.border);
     free(s.collapses);
+    free(s.sorted);
     return begun ? s.face_count : NONE;
 }

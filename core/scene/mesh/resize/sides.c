@@ -13,6 +13,23 @@ static int compare(const void *a, const void *b)
     return x->corner < y->corner ? -1 : x->corner > y->corner;
 }
 
+// Most vertices have a few sides; the middle of a fan has thousands.
+static void sort(struct rg_side *sides, uint32_t count)
+{
+    enum { FEW = 16 };
+    if (count > FEW) {
+        qsort(sides, count, sizeof(*sides), compare);
+        return;
+    }
+    for (uint32_t i = 1; i < count; i++) {
+        const struct rg_side side = sides[i];
+        uint32_t at = i;
+        for (; at > 0 && compare(&sides[at - 1], &side) > 0; at--)
+            sides[at] = sides[at - 1];
+        sides[at] = side;
+    }
+}
+
 // The key of the side from a corner, or of a vertex with itself.
 static uint64_t key_of(const uint32_t *indices, size_t corner)
 {
@@ -46,8 +63,7 @@ size_t rg_resize_sides(const uint32_t *indices, int face_count, size_t vertex_co
     }
     for (size_t v = 0; v < vertex_count; v++) {
         const uint32_t first = v ? ends[v - 1] : 0;
-        if (ends[v] - first > 1)
-            qsort(sides + first, ends[v] - first, sizeof(*sides), compare);
+        sort(sides + first, ends[v] - first);
     }
     return sum;
 }

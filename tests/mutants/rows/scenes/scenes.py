@@ -111,6 +111,7 @@ ROWS = [
     Fault(EDGES, "const double sign = «second && second->goes_down == first->goes_down ? -1 : 1»;", "1", "a face that is inside out makes an outline"),
     Fault(EDGES, "if (sides[i].goes_down != sides[0].goes_down)\n            return i;", "if (0) return i;", "sides are paired as they come"),
     Fault(FACES, "if («edge->count > (uint32_t)(r->wanted - r->face_count)» || !is_free", "false", "refining makes a face too many"),
+    Fault(COLLAPSE, "unsigned digit_of(const struct collapse *c, int shift)\n{\n    uint64_t bits;\n    memcpy(&bits, &c->cost, sizeof(bits));\n    return «bits >> shift & (DIGITS - 1)»;", "bits >> shift & (DIGITS / 2 - 1)", "decimating takes dear collapses first"),
     Fault(COLLAPSE, "«!keeps_topology(s, c)» ||", "false", "decimating pinches the surface"),
     Fault(COLLAPSE, "«!keeps_facing(s, c->from, c->to)»", "false", "decimating folds the surface"),
     Fault(COLLAPSE, "const double error = error_at(s->quadrics[«from»], q);", "to", "decimating does not ask what a collapse costs"),
