@@ -149,7 +149,7 @@ DRIVEN = --no-suite host
 SANITIZED = --suite sanitized --suite host
 NEEDED = python3 tests/tools/needed.py
 
-test: $(BUILD)/build.ninja $(ASAN)/build.ninja $(TSAN)/build.ninja
+test: $(BUILD)/build.ninja $(ASAN)/build.ninja
 	@$(MAKE) --no-print-directory setup FOR=tests
 	@$(ALL_LEVELS)
 	@echo "== building the program and its tests in $(BUILD)"
@@ -160,15 +160,14 @@ test: $(BUILD)/build.ninja $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs $(AT_ONCE) $(DRIVEN) || true
 	@echo "== testing under sanitizers, the CPU devices and the harness"
 	@meson test -C $(ASAN) --no-rebuild --print-errorlogs $(AT_ONCE) $(SANITIZED) || true
-	@echo "== testing in $(TSAN): whether threads race"
-	@meson test -C $(TSAN) --print-errorlogs --suite watched || true
-	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json \
-	  $(TSAN)/meson-logs/testlog.json
+	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json
 
-thorough: whole
+thorough: whole $(TSAN)/build.ninja
 	@echo "== testing at length, all devices"
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs --setup thorough --suite thorough || true
-	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog-thorough.json
+	@echo "== testing in $(TSAN): whether threads race"
+	@meson test -C $(TSAN) --print-errorlogs --suite watched || true
+	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog-thorough.json $(TSAN)/meson-logs/testlog.json
 
 # With daemons of its own in a temporary folder. These packages are of this test alone.
 test-farm: build
@@ -187,7 +186,7 @@ claims-selftest: whole
 	@echo "== deciding claims whose truth is known, while another process is busy; hours"
 	@python3 tests/harness/results/launching/selftest.py $(BUILD)
 
-# `make test` has gcc's analyzer and cppcheck look; clang-tidy takes five more minutes. It is of the version that formats.
+# `make test` has cppcheck look; the others take minutes. clang-tidy is of the version that formats.
 LINTERS = clang-tidy cppcheck
 lint: build
 	@lacks() { ! dpkg-query -W -f '$${Status}' $$1 2>/dev/null | grep -q 'ok installed'; }; \

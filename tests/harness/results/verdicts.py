@@ -19,7 +19,7 @@ import sys
 import tempfile
 
 KEPT = pathlib.Path(__file__).resolve().parents[3] / "results" / "tables"
-FILES, DEVICES = 3, 20  # a file per command, a device per trial
+FILES, DEVICES = 1, 20  # a file per command, a device per trial
 TRIALS = FILES * DEVICES
 MOST_WRONG = 0.05 * TRIALS
 LAUNCHES = 192
