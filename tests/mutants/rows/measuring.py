@@ -52,6 +52,7 @@ ROWS = [
     Fault(SESSION, "«rg_device_sync(clock->session->device)» && clock->ok &&", "true", "a stage is not waited for"),
     Fault(SESSION, "clock->last_ms = now_ms;", "", "a stage's time has those before it"),
     Fault(SESSION, "ok = technique->step(session->instance) && «technique->draw(session->instance)»;", "true", "frames are simulated and not drawn"),
+    Fault(SESSION, "return «rg_dispatched_run(told, device)»;", "(rg_dispatched_run(told, device), true)", "a kernel that fails alone has run", tests=("sessions in workers",)),
     Fault(JOB, "return wall_ms / «frames»;", "1", "a sample's time is not shared among its frames"),
     Fault(JOB, "told.frame + «frames» <= job->check_frames", "0", "a sample goes on behind its window"),
     Fault(JOB, "rg_session_run(job->device, &job->subject, «job->check_frames»);", "0", "a window begins at frame 0"),

@@ -195,13 +195,44 @@ static void digests_are_the_same(void **state)
     close_pair(&pair);
 }
 
+// A kernel replayed alone leaves what it left in its run, and one that fails has not run.
+static void kernels_alone_do_the_same(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(0);
+    const struct rg_digest_run run = {pair.subject, 1};
+    struct rg_dispatches dispatches = {0};
+    assert_true(rg_digests_dispatches(&run, pair.devices[LOCAL], 1, &dispatches));
+    assert_at_least(dispatches.count, 1);
+    const struct rg_dispatched *due = &dispatches.rows[0];
+    assert_true(due->was_kept);
+    for (int i = 0; i < 2; i++) {
+        struct rg_dispatched again = *due;
+        memset(again.after, 0, sizeof(again.after));
+        assert_true(rg_digests_dispatch(&again, pair.devices[i]));
+        for (int slot = 0; slot < RG_MAX_SLOTS; slot++) {
+            assert_int_equal(again.after[slot].size, due->after[slot].size);
+            if (again.after[slot].size)
+                assert_memory_equal(again.after[slot].bytes, due->after[slot].bytes,
+                                    due->after[slot].size);
+            rg_contents_free(&again.after[slot]);
+        }
+        again.extent.width = -1;
+        assert_false(rg_digests_dispatch(&again, pair.devices[i]));
+        rg_failure_take();
+    }
+    rg_dispatches_free(&dispatches);
+    close_pair(&pair);
+}
+
 // File names, choices and numbers reach the worker unchanged: of drops of one size, and of the
 // default spectrum.
 static void settings_arrive_as_they_are(void **state)
 {
     (void)state;
-    static const char *const rains[] = {"spectrum=off drops_m2_s=20 atlas=small geometry=off seed=7",
-                                        "kept_share=0.001 atlas=small geometry=off seed=7"};
+    static const char *const rains[] = {
+        "spectrum=off drops_m2_s=20 atlas=small geometry=off seed=7",
+        "kept_share=0.001 atlas=small geometry=off seed=7"};
     for (int rain = 0; rain < 2; rain++) {
         struct pair pair = open_pair("streaks", rains[rain], FRAMES);
         size_t sizes[2];
@@ -342,6 +373,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(stages_are_told_in_the_same_order),
         cmocka_unit_test(laws_and_textures_are_the_same),
         cmocka_unit_test(digests_are_the_same),
+        cmocka_unit_test(kernels_alone_do_the_same),
         cmocka_unit_test(settings_arrive_as_they_are),
         cmocka_unit_test(what_the_worker_refuses_is_refused_here),
         cmocka_unit_test(a_session_ends_with_its_worker),
