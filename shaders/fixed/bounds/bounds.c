@@ -122,9 +122,9 @@ static bool add_depth(const struct rg_scene *scene, struct rg_fixed_bounds *boun
 static struct rg_span stencil_of(const uint64_t values[4])
 {
     struct rg_span all = {INFINITY, -INFINITY};
-    for (int i = 0; i < 256; i++)
-        if (values[i / 64] >> i % 64 & 1)
-            all = rg_span_reach(all, i);
+    for (int word = 0; word < 4; word++)
+        for (uint64_t rest = values[word]; rest; rest &= rest - 1)
+            all = rg_span_reach(all, 64 * word + __builtin_ctzll(rest));
     return all;
 }
 

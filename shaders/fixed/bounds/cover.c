@@ -82,16 +82,35 @@ static double farthest(const struct rg_scene *scene, int layer, const struct rg_
     return most;
 }
 
-static double area_of(const struct rg_outline *outline, double *length)
+// Which way it turns, and whether slack of its edges decides that.
+static void turn(struct rg_outline *outline)
 {
-    double area = 0;
-    *length = 0;
+    double area = 0, length = 0;
     for (int i = 0; i < outline->count; i++) {
         const double *a = outline->corners[i], *b = outline->corners[(i + 1) % outline->count];
         area += a[0] * b[1] - b[0] * a[1];
-        *length += fabs(b[0] - a[0]) + fabs(b[1] - a[1]);
+        length += fabs(b[0] - a[0]) + fabs(b[1] - a[1]);
     }
-    return area / 2;
+    area /= 2;
+    outline->side = area < 0 ? -1 : 1;
+    outline->facing = fabs(area) <= length * outline->slack ? 0 : area > 0 ? 1 : -1;
+}
+
+// What no place changes: the edges, and the box around them.
+static void measure(struct rg_outline *outline)
+{
+    const double slack = outline->slack;
+    for (int c = 0; c < 2; c++) {
+        struct rg_span all = {INFINITY, -INFINITY};
+        for (int i = 0; i < outline->count; i++) {
+            all = rg_span_reach(all, outline->corners[i][c]);
+            outline->edges[i][c] =
+                outline->corners[(i + 1) % outline->count][c] - outline->corners[i][c];
+        }
+        outline->box[c] = rg_span_widen(all, slack);
+    }
+    for (int i = 0; i < outline->count; i++)
+        outline->slacks[i] = slack * (fabs(outline->edges[i][0]) + fabs(outline->edges[i][1]));
 }
 
 bool rg_outline_of(const struct rg_scene *scene, const struct rg_primitive *primitive,
@@ -110,46 +129,34 @@ bool rg_outline_of(const struct rg_scene *scene, const struct rg_primitive *prim
     outline->count = count;
     for (int i = 0; i < count; i++)
         project(scene, primitive->layer, &corners[i], outline->corners[i]);
-    double length;
-    const double area = area_of(outline, &length);
-    outline->facing = fabs(area) <= length * outline->slack ? 0 : area > 0 ? 1 : -1;
+    turn(outline);
+    measure(outline);
     return count > 0;
 }
 
 // --- places ---
 
-// Twice the area between an edge and a place, and by how much slack changes it.
-static double edge(const struct rg_outline *outline, int i, double x, double y, double *slack)
+// Twice the area between an edge and a place.
+static double edge(const struct rg_outline *outline, int i, double x, double y)
 {
-    const double *a = outline->corners[i], *b = outline->corners[(i + 1) % outline->count];
-    const double dx = b[0] - a[0], dy = b[1] - a[1];
-    *slack = outline->slack * (fabs(dx) + fabs(dy));
-    return dx * (y - a[1]) - dy * (x - a[0]);
+    const double *a = outline->corners[i], *step = outline->edges[i];
+    return step[0] * (y - a[1]) - step[1] * (x - a[0]);
 }
 
 static bool is_far(const struct rg_outline *outline, double x, double y)
 {
-    double least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
-    for (int i = 0; i < outline->count; i++)
-        for (int c = 0; c < 2; c++) {
-            least[c] = fmin(least[c], outline->corners[i][c]);
-            most[c] = fmax(most[c], outline->corners[i][c]);
-        }
-    const double slack = outline->slack;
-    return x < least[0] - slack || x > most[0] + slack || y < least[1] - slack ||
-           y > most[1] + slack;
+    const struct rg_span *box = outline->box;
+    return x < box[0].low || x > box[0].high || y < box[1].low || y > box[1].high;
 }
 
 enum rg_cover rg_outline_cover(const struct rg_outline *outline, double x, double y)
 {
-    double length;
-    const double side = area_of(outline, &length) < 0 ? -1 : 1;
     enum rg_cover cover = outline->facing ? RG_COVER_YES : RG_COVER_MAYBE;
     if (is_far(outline, x, y))
         return RG_COVER_NO;
     for (int i = 0; i < outline->count; i++) {
-        double slack;
-        const double distance = side * edge(outline, i, x, y, &slack);
+        const double distance = outline->side * edge(outline, i, x, y);
+        const double slack = outline->slacks[i]; // by how much the edge's own changes that
         if (outline->facing && distance < -slack)
             return RG_COVER_NO;
         if (distance <= slack)

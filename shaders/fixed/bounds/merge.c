@@ -50,14 +50,15 @@ static enum rg_cover test_depth(const struct rg_scene *scene, const struct rg_fr
 
 static void operate(int operation, const uint64_t in[4], uint64_t out[4])
 {
-    for (int value = 0; value < 256; value++) {
-        const int next = operation == RG_FIXED_INCREMENT   ? (value + 1) & 255
-                         : operation == RG_FIXED_DECREMENT ? (value + 255) & 255
-                         : operation == RG_FIXED_INVERT    ? 255 - value
-                                                           : value;
-        if (in[value / 64] >> value % 64 & 1)
+    for (int word = 0; word < 4; word++)
+        for (uint64_t rest = in[word]; rest; rest &= rest - 1) {
+            const int value = 64 * word + __builtin_ctzll(rest);
+            const int next = operation == RG_FIXED_INCREMENT   ? (value + 1) & 255
+                             : operation == RG_FIXED_DECREMENT ? (value + 255) & 255
+                             : operation == RG_FIXED_INVERT    ? 255 - value
+                                                               : value;
             out[next / 64] |= (uint64_t)1 << next % 64;
-    }
+        }
 }
 
 static void change_stencil(const struct rg_scene *scene, int facing, enum rg_cover passes,
@@ -99,35 +100,56 @@ static struct rg_span equate(int equation, struct rg_span source, struct rg_span
     }
 }
 
-static struct rg_span blend(const struct rg_scene *scene, const struct rg_fragment *f, int target,
-                            int c, struct rg_span old)
+struct factors {
+    struct rg_span source, target;
+};
+
+static struct factors factors_of(const struct rg_scene *scene, const struct rg_fragment *f,
+                                 int target, int c)
 {
     const struct rg_fixed_state *state = scene->state;
-    const struct rg_span source = rounded(state->format, f->colours[target][c]);
-    if (!state->blend)
-        return source;
     const struct rg_span factor =
         rounded(state->format, state->blend == RG_FIXED_BLEND_SRC1_COLOUR  ? f->second[c]
                                : state->blend == RG_FIXED_BLEND_SRC1_ALPHA ? f->second[3]
                                                                            : f->colours[target][3]);
-    const struct rg_span rest = rounded(state->format, rg_span_less(rg_span_at(1), factor));
-    const struct rg_span source_part = rounded(state->format, rg_span_times(source, factor));
-    const struct rg_span target_part = rounded(state->format, rg_span_times(old, rest));
+    return (struct factors){factor, rounded(state->format, rg_span_less(rg_span_at(1), factor))};
+}
+
+static struct rg_span blend(const struct rg_scene *scene, const struct factors *factors, int target,
+                            struct rg_span source, struct rg_span old)
+{
+    const struct rg_fixed_state *state = scene->state;
+    const struct rg_span source_part =
+        rounded(state->format, rg_span_times(source, factors->source));
+    const struct rg_span target_part = rounded(state->format, rg_span_times(old, factors->target));
     const int equation = state->blend == RG_FIXED_BLEND_EQUATIONS ? target : 0;
     return rounded(state->format, equate(equation, source, source_part, old, target_part));
+}
+
+static void write_target(const struct rg_scene *scene, const struct rg_fragment *fragment, int i,
+                         enum rg_cover passes, struct rg_span colours[4])
+{
+    const struct rg_fixed_state *state = scene->state;
+    struct factors factors = {0};
+    if (state->blend)
+        factors = factors_of(scene, fragment, i, 0);
+    for (int c = 0; c < 4; c++) {
+        struct rg_span *old = &colours[c], now = rounded(state->format, fragment->colours[i][c]);
+        if (state->write_off >> c & 1)
+            continue;
+        if (state->blend == RG_FIXED_BLEND_SRC1_COLOUR) // others are the same for all channels
+            factors = factors_of(scene, fragment, i, c);
+        if (state->blend)
+            now = blend(scene, &factors, i, now, *old);
+        *old = passes == RG_COVER_YES ? now : rg_span_join(*old, now);
+    }
 }
 
 static void write(const struct rg_scene *scene, const struct rg_fragment *fragment,
                   enum rg_cover passes, struct rg_sample *sample)
 {
     for (int i = 0; i <= scene->state->more_targets; i++)
-        for (int c = 0; c < 4; c++) {
-            struct rg_span *old = &sample->colours[i][c];
-            if (scene->state->write_off >> c & 1)
-                continue;
-            const struct rg_span now = blend(scene, fragment, i, c, *old);
-            *old = passes == RG_COVER_YES ? now : rg_span_join(*old, now);
-        }
+        write_target(scene, fragment, i, passes, sample->colours[i]);
 }
 
 enum rg_cover rg_sample_merge(const struct rg_scene *scene, const struct rg_fragment *fragment,

@@ -53,12 +53,16 @@ static double weight(const struct rg_plane *plane, int i, double x, double y)
     return plane->b[i][X] * x + plane->b[i][Y] * y + plane->b[i][W];
 }
 
+static double weight_error(const struct rg_plane *plane, int i, double x, double y)
+{
+    return plane->b_error[i][X] * fabs(x) + plane->b_error[i][Y] * fabs(y) + plane->b_error[i][W];
+}
+
 static double error_of(const struct rg_plane *plane, const double values[3], double x, double y)
 {
     double sum = 0;
     for (int i = 0; i < 3; i++)
-        sum += fabs(values[i]) * (plane->b_error[i][X] * fabs(x) + plane->b_error[i][Y] * fabs(y) +
-                                  plane->b_error[i][W]);
+        sum += fabs(values[i]) * weight_error(plane, i, x, y);
     return sum;
 }
 
@@ -76,7 +80,54 @@ static double reach_of(const struct rg_plane *plane, double x, double y)
     double sum = 0;
     for (int i = 0; i < 3; i++)
         sum += fabs(weight(plane, i, x, y) * plane->w[i]);
-    return plane->slack * fmax(sum, 1);
+    return plane->slack * rg_greater(sum, 1);
+}
+
+void rg_plane_at(const struct rg_plane *plane, double x, double y, double reach,
+                 struct rg_place *place)
+{
+    const double far = reach + reach_of(plane, x, y);
+    place->least = INFINITY;
+    place->error = 0;
+    for (int i = 0; i < 3; i++) {
+        place->errors[i] = weight_error(plane, i, x, y);
+        place->error += place->errors[i];
+        for (int corner = 0; corner < 4; corner++)
+            place->weights[i][corner] =
+                weight(plane, i, x + (corner & 1 ? far : -far), y + (corner & 2 ? far : -far));
+    }
+    for (int corner = 0; corner < 4; corner++) {
+        place->over[corner] =
+            place->weights[0][corner] + place->weights[1][corner] + place->weights[2][corner];
+        place->least = rg_lesser(place->least, place->over[corner]);
+    }
+}
+
+// Sums of values by their weights at the four corners, and these sums' error.
+static double sums_of(const struct rg_place *place, const double values[3], double sums[4])
+{
+    double error = 0;
+    for (int corner = 0; corner < 4; corner++)
+        sums[corner] = 0;
+    for (int i = 0; i < 3; i++) {
+        error += fabs(values[i]) * place->errors[i];
+        for (int corner = 0; corner < 4; corner++)
+            sums[corner] += values[i] * place->weights[i][corner];
+    }
+    return error;
+}
+
+static struct rg_span all_of(const double sums[4])
+{
+    struct rg_span all = {INFINITY, -INFINITY};
+    for (int corner = 0; corner < 4; corner++)
+        all = rg_span_reach(all, sums[corner]);
+    return all;
+}
+
+static double farthest(struct rg_span a)
+{
+    return rg_greater(fabs(a.low), fabs(a.high));
 }
 
 static struct rg_span within(struct rg_span a, const double values[3])
@@ -84,41 +135,29 @@ static struct rg_span within(struct rg_span a, const double values[3])
     struct rg_span all = rg_span_at(values[0]);
     for (int i = 1; i < 3; i++)
         all = rg_span_reach(all, values[i]);
-    const double rounding = ldexp(fmax(fabs(all.low), fabs(all.high)), -22);
+    const double rounding = 0x1p-22 * farthest(all);
     return rg_span_clamp(a, all.low - rounding, all.high + rounding);
 }
 
-struct rg_span rg_plane_affine(const struct rg_plane *plane, const double over_w[3], double x,
-                               double y, double reach)
+struct rg_span rg_plane_affine(const struct rg_place *place, const double over_w[3])
 {
-    struct rg_span all = {INFINITY, -INFINITY};
-    reach += reach_of(plane, x, y);
-    for (int corner = 0; corner < 4; corner++)
-        all = rg_span_reach(all, sum_of(plane, over_w, x + (corner & 1 ? reach : -reach),
-                                        y + (corner & 2 ? reach : -reach)));
-    return rg_span_widen(all, error_of(plane, over_w, x, y));
+    double sums[4];
+    const double error = sums_of(place, over_w, sums);
+    return rg_span_widen(all_of(sums), error);
 }
 
-struct rg_span rg_plane_value(const struct rg_plane *plane, const double values[3], double x,
-                              double y, double reach, bool is_inside)
+struct rg_span rg_plane_value(const struct rg_place *place, const double values[3], bool is_inside)
 {
-    static const double one[] = {1, 1, 1};
-    const double far = reach + reach_of(plane, x, y);
-    const double error = error_of(plane, values, x, y), of_one = error_of(plane, one, x, y);
-    struct rg_span all = {INFINITY, -INFINITY};
-    double least = INFINITY;
-    for (int corner = 0; corner < 4; corner++) {
-        const double at_x = x + (corner & 1 ? far : -far), at_y = y + (corner & 2 ? far : -far);
-        const double over = sum_of(plane, one, at_x, at_y);
-        all = rg_span_reach(all, sum_of(plane, values, at_x, at_y) / over);
-        least = fmin(least, over);
-    }
-    if (least <= of_one)
+    double sums[4];
+    const double error = sums_of(place, values, sums), least = place->least;
+    for (int corner = 0; corner < 4; corner++)
+        sums[corner] /= place->over[corner];
+    struct rg_span all = all_of(sums);
+    if (least <= place->error)
         all = (struct rg_span){-INFINITY, INFINITY};
     else
-        all = rg_span_widen(
-            all,
-            (error + fmax(fabs(all.low), fabs(all.high)) * (of_one + ldexp(least, -22))) / least);
+        all =
+            rg_span_widen(all, (error + farthest(all) * (place->error + 0x1p-22 * least)) / least);
     return is_inside ? within(all, values) : all;
 }
 

@@ -12,15 +12,36 @@ struct rg_sample *rg_scene_sample(const struct rg_scene *scene, int layer, int x
     return &scene->samples[((layer * PX + y) * PX + x) * scene->sample_count + sample];
 }
 
-// --- a fragment ---
+// --- pixels that a primitive may reach ---
 
-static enum rg_cover within_scissor(const struct rg_scene *scene, int layer, int x, int y)
+struct box {
+    int from[2], to[2]; // in x and y, without `to`
+};
+
+// With a pixel more on each side, whatever place in the pixel is meant.
+static struct box box_of(const struct rg_span reach[2])
 {
-    int box[4];
-    rg_fixed_scissor(scene->state, layer, box);
-    const bool is_in = x >= box[0] && y >= box[1] && x < box[0] + box[2] && y < box[1] + box[3];
-    return !scene->state->scissor || is_in ? RG_COVER_YES : RG_COVER_NO;
+    struct box box;
+    for (int c = 0; c < 2; c++) {
+        box.from[c] = (int)rg_span_clamp(rg_span_at(reach[c].low - 1), 0, PX).low;
+        box.to[c] = (int)rg_span_clamp(rg_span_at(ceil(reach[c].high) + 1), 0, PX).high;
+    }
+    return box;
 }
+
+static struct box within_scissor(const struct rg_scene *scene, int layer, struct box box)
+{
+    int scissor[4];
+    rg_fixed_scissor(scene->state, layer, scissor);
+    for (int c = 0; c < 2 && scene->state->scissor; c++) {
+        const int from = scissor[c], to = scissor[c] + scissor[2 + c];
+        box.from[c] = box.from[c] < from ? from : box.from[c];
+        box.to[c] = box.to[c] > to ? to : box.to[c];
+    }
+    return box;
+}
+
+// --- a fragment ---
 
 static void count(struct rg_span *counter, enum rg_cover cover)
 {
@@ -76,39 +97,35 @@ struct triangle {
     struct rg_plane plane;
     struct rg_span offset;
     double depths[3];
+    struct rg_fragment fragment; // at hand
 };
 
-static struct rg_fragment fragment_of(const struct rg_scene *scene, const struct triangle *t, int x,
-                                      int y)
+// With samples, attributes are those of any place in the pixel (OpenGL Shading Language,
+// Interpolation Qualifiers), and with centroid of one in the primitive too.
+static void place_fragment(const struct rg_scene *scene, struct triangle *t, int x, int y)
 {
-    // With samples, attributes are those of any place in the pixel (OpenGL Shading Language,
-    // Interpolation Qualifiers), and with centroid of one in the primitive too.
-    struct rg_fragment f = {.x = x + 0.5,
-                            .y = y + 0.5,
-                            .primitive = t->primitive,
-                            .plane = &t->plane,
-                            .reach = scene->state->samples ? 0.5 : 0,
-                            .is_inside = !scene->state->samples ||
-                                         scene->state->fragment == RG_FIXED_FRAGMENT_CENTROID};
-    f.depth = rg_plane_affine(&t->plane, t->depths, f.x, f.y, f.reach);
-    f.depth = rg_span_clamp(rg_span_add(f.depth, t->offset), 0, 1);
-    return f;
+    struct rg_fragment *f = &t->fragment;
+    f->x = x + 0.5;
+    f->y = y + 0.5;
+    rg_plane_at(&t->plane, f->x, f->y, scene->state->samples ? 0.5 : 0, &f->place);
+    f->is_inside = !scene->state->samples || scene->state->fragment == RG_FIXED_FRAGMENT_CENTROID;
+    if (scene->state->depth_test) // else nothing reads it
+        f->depth =
+            rg_span_clamp(rg_span_add(rg_plane_affine(&f->place, t->depths), t->offset), 0, 1);
 }
 
-static void draw_pixel(struct rg_scene *scene, const struct triangle *t, int x, int y)
+static void draw_pixel(struct rg_scene *scene, struct triangle *t, int x, int y)
 {
     enum rg_cover covers[RG_FIXED_SAMPLES], most = RG_COVER_NO;
-    if (within_scissor(scene, t->primitive->layer, x, y) == RG_COVER_NO)
-        return;
     for (int i = 0; i < scene->sample_count; i++) {
         covers[i] = rg_outline_cover(&t->outline, x + scene->places[i][0], y + scene->places[i][1]);
         most = covers[i] > most ? covers[i] : most;
     }
     if (most == RG_COVER_NO)
         return;
-    struct rg_fragment f = fragment_of(scene, t, x, y);
-    rg_fragment_shade(scene, &f);
-    merge(scene, &f, t->outline.facing, covers);
+    place_fragment(scene, t, x, y);
+    rg_fragment_shade(scene, &t->fragment);
+    merge(scene, &t->fragment, t->outline.facing, covers);
 }
 
 static bool is_culled(const struct rg_scene *scene, int facing)
@@ -120,6 +137,8 @@ static bool is_culled(const struct rg_scene *scene, int facing)
 static void draw_triangle(struct rg_scene *scene, const struct rg_primitive *primitive)
 {
     struct triangle t = {.primitive = primitive};
+    t.fragment.primitive = primitive;
+    t.fragment.plane = &t.plane;
     if (!rg_outline_of(scene, primitive, &t.outline) || is_culled(scene, t.outline.facing) ||
         !rg_plane_of(scene, primitive, t.outline.slack, &t.plane))
         return;
@@ -127,8 +146,9 @@ static void draw_triangle(struct rg_scene *scene, const struct rg_primitive *pri
         t.depths[i] = primitive->corners[i].place[2];
     if (scene->state->offset_units || scene->state->offset_slope_16)
         t.offset = rg_plane_offset(scene, primitive, t.outline.slack);
-    for (int y = 0; y < PX; y++)
-        for (int x = 0; x < PX; x++)
+    const struct box box = within_scissor(scene, primitive->layer, box_of(t.outline.box));
+    for (int y = box.from[1]; y < box.to[1]; y++)
+        for (int x = box.from[0]; x < box.to[0]; x++)
             draw_pixel(scene, &t, x, y);
 }
 
@@ -146,8 +166,11 @@ static void draw_point(struct rg_scene *scene, const struct rg_primitive *primit
     const double half = scene->state->value / 2.0;
     double place[2];
     project(&primitive->corners[0], place);
-    for (int y = 0; y < PX; y++)
-        for (int x = 0; x < PX; x++) {
+    const double reach = half + scene->grid;
+    const struct box box = box_of((struct rg_span[]){rg_span_widen(rg_span_at(place[0]), reach),
+                                                     rg_span_widen(rg_span_at(place[1]), reach)});
+    for (int y = box.from[1]; y < box.to[1]; y++)
+        for (int x = box.from[0]; x < box.to[0]; x++) {
             struct rg_fragment f = {.x = x + 0.5, .y = y + 0.5, .primitive = primitive};
             const double away = fmax(fabs(f.x - place[0]), fabs(f.y - place[1]));
             enum rg_cover covers[RG_FIXED_SAMPLES];
@@ -206,10 +229,15 @@ static void draw_line(struct rg_scene *scene, const struct rg_primitive *primiti
     double ends[2][2];
     for (int i = 0; i < 2; i++)
         project(&primitive->corners[i], ends[i]);
-    for (int y = 0; y < PX; y++)
-        for (int x = 0; x < PX; x++) {
+    const double reach = 1.5 + scene->grid;
+    struct rg_span all[2];
+    for (int c = 0; c < 2; c++)
+        all[c] = rg_span_widen(rg_span_reach(rg_span_at(ends[0][c]), ends[1][c]), reach);
+    const struct box box = box_of(all);
+    for (int y = box.from[1]; y < box.to[1]; y++)
+        for (int x = box.from[0]; x < box.to[0]; x++) {
             struct rg_fragment f = {.x = x + 0.5, .y = y + 0.5, .primitive = primitive};
-            if (!is_near(ends[0], ends[1], (double[]){f.x, f.y}, 1.5 + scene->grid))
+            if (!is_near(ends[0], ends[1], (double[]){f.x, f.y}, reach))
                 continue;
             colour_line(primitive->corners, ends[0], ends[1], &f);
             merge(scene, &f, 1, covers);
@@ -261,7 +289,7 @@ static void draw(struct rg_scene *scene, const struct rg_primitive *primitive)
 
 // --- all ---
 
-static bool prepare(struct rg_scene *scene)
+static void prepare(struct rg_scene *scene)
 {
     const struct rg_fixed_state *state = scene->state;
     scene->grid = rg_precision_step(scene->precision->subpixel_bits);
@@ -270,17 +298,33 @@ static bool prepare(struct rg_scene *scene)
     for (int i = 0; i < RG_FIXED_SAMPLES; i++)
         for (int c = 0; c < 2; c++)
             scene->places[i][c] = state->samples ? scene->precision->places[i][c] : 0.5;
+}
+
+// What a draw does not use is not there, since it would have to be zeroed.
+static bool make_room(struct rg_scene *scene)
+{
+    const struct rg_fixed_state *state = scene->state;
     const int count = scene->layer_count * PX * PX * scene->sample_count;
     scene->samples = rg_alloc((size_t)count, sizeof(*scene->samples), "bounds");
-    if (!scene->samples)
-        return false;
-    struct rg_sample clear = {.depth = {1, 1}, .stencil = {1}};
+    if (state->stores)
+        scene->stores = rg_alloc(PX * PX, sizeof(*scene->stores), "bounds");
+    if (state->texels)
+        scene->texture.texels =
+            rg_alloc((size_t)rg_fixed_layers(state), sizeof(*scene->texture.texels), "bounds");
+    return scene->samples && (!state->stores || scene->stores) &&
+           (!state->texels || scene->texture.texels);
+}
+
+static void clear(struct rg_scene *scene)
+{
+    const int format = scene->state->format;
+    const int count = scene->layer_count * PX * PX * scene->sample_count;
+    struct rg_sample before = {.depth = {1, 1}, .stencil = {1}};
     for (int i = 0; i < RG_FIXED_EQUATIONS; i++)
         for (int c = 0; c < 4; c++)
-            clear.colours[i][c] = rg_round_colour(state->format, rg_span_at(rg_fixed_before[c]));
+            before.colours[i][c] = rg_round_colour(format, rg_span_at(rg_fixed_before[c]));
     for (int i = 0; i < count; i++)
-        scene->samples[i] = clear;
-    return true;
+        scene->samples[i] = before;
 }
 
 struct rg_scene *rg_scene_draw(const struct rg_fixed_state *state,
@@ -291,10 +335,12 @@ struct rg_scene *rg_scene_draw(const struct rg_fixed_state *state,
         return NULL;
     scene->state = state;
     scene->precision = precision;
-    if (!prepare(scene)) {
+    prepare(scene);
+    if (!make_room(scene)) {
         rg_scene_free(scene);
         return NULL;
     }
+    clear(scene);
     rg_fixed_make_vertices(state, &scene->vertices);
     rg_scene_texture(scene);
     rg_scene_assemble(scene, draw);
@@ -303,7 +349,10 @@ struct rg_scene *rg_scene_draw(const struct rg_fixed_state *state,
 
 void rg_scene_free(struct rg_scene *scene)
 {
-    if (scene)
+    if (scene) {
         free(scene->samples);
+        free(scene->stores);
+        free(scene->texture.texels);
+    }
     free(scene);
 }

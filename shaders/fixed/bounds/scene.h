@@ -45,6 +45,11 @@ struct rg_outline {
     double corners[12][2];
     double slack; // px that an edge may lie elsewhere
     int facing;   // 1: counter-clockwise, -1, or 0: slack decides
+    // Made of the above once for all places.
+    double side;           // 1 or -1: the area's sign
+    double edges[12][2];   // from a corner to the next
+    double slacks[12];     // of twice the area between an edge and a place
+    struct rg_span box[2]; // in x and y, with slack
 };
 
 // False: nothing is left of it.
@@ -65,13 +70,20 @@ struct rg_plane {
 // False: the triangle has no area.
 bool rg_plane_of(const struct rg_scene *scene, const struct rg_primitive *primitive, double slack,
                  struct rg_plane *plane);
-// An attribute with these values at the corners, anywhere within `reach` of a place in x and y.
-// Inside the triangle it lies between those.
-struct rg_span rg_plane_value(const struct rg_plane *plane, const double values[3], double x,
-                              double y, double reach, bool is_inside);
+// What all attributes share at a place of the target: the corners' weights around it.
+struct rg_place {
+    double weights[3][4]; // at the corners of a square
+    double errors[3];     // of the weights
+    double over[4];       // sums of the weights
+    double least, error;  // of those
+};
+// Anywhere within `reach` of a place in x and y.
+void rg_plane_at(const struct rg_plane *plane, double x, double y, double reach,
+                 struct rg_place *place);
+// An attribute with these values at the corners. Inside the triangle it lies between those.
+struct rg_span rg_plane_value(const struct rg_place *place, const double values[3], bool is_inside);
 // The same without perspective; for z / w, values are z of the corners.
-struct rg_span rg_plane_affine(const struct rg_plane *plane, const double over_w[3], double x,
-                               double y, double reach);
+struct rg_span rg_plane_affine(const struct rg_place *place, const double over_w[3]);
 // The attribute's steps from a pixel to its neighbours in x or y, as shaders take derivatives.
 struct rg_span rg_plane_step(const struct rg_plane *plane, const double values[3], double x,
                              double y, bool in_y);
@@ -85,9 +97,8 @@ enum { RG_SCENE_FACES = 6 };
 
 struct rg_texture {
     int layers, levels;
-    // Decoded, level by level: [layer][level][y * width + x][channel]
-    struct rg_span texels[RG_SCENE_FACES][RG_FIXED_LEVELS]
-                         [RG_FIXED_TEXTURE_PX * RG_FIXED_TEXTURE_PX][4];
+    // Decoded, level by level: [layer][level][y * width + x][channel]; NULL: no texture
+    struct rg_span (*texels)[RG_FIXED_LEVELS][RG_FIXED_TEXTURE_PX * RG_FIXED_TEXTURE_PX][4];
     struct rg_span border[4];
     struct rg_span corners[RG_SCENE_FACES][4][4]; // of a cube
     double weight;                                // error of a weight of a filter
@@ -95,6 +106,7 @@ struct rg_texture {
 
 // Decodes a level of 32 x 32 texels in blocks.
 void rg_decode_blocks(enum rg_fixed_texels texels, const uint8_t *blocks, struct rg_span (*out)[4]);
+// Fills the texture's texels.
 void rg_scene_texture(struct rg_scene *scene);
 // Where a direction meets a face of a cube; false: surely nowhere.
 bool rg_cube_place(const struct rg_span direction[3], int face, struct rg_span *u,
@@ -122,9 +134,9 @@ struct rg_span rg_grid_filter(const struct rg_span *texels, int stride, int px, 
 struct rg_fragment {
     double x, y; // the pixel's centre
     const struct rg_primitive *primitive;
-    const struct rg_plane *plane;
-    double reach;   // px around the centre where attributes may be taken
-    bool is_inside; // and all of that within the primitive
+    const struct rg_plane *plane; // NULL: a point's, whose attributes are its corner's
+    struct rg_place place;        // where attributes may be taken
+    bool is_inside;               // and all of that within the primitive
     struct rg_span depth;
     struct rg_span colours[RG_FIXED_EQUATIONS][4], second[4];
     struct rg_span stored[RG_FIXED_STORES][4];
@@ -154,11 +166,11 @@ struct rg_scene {
     struct rg_texture texture;
     int sample_count, layer_count;
     double places[RG_FIXED_SAMPLES][2];
-    struct rg_sample *samples; // [layer][y][x][sample]
-    struct rg_span stores[RG_FIXED_PX * RG_FIXED_PX][RG_FIXED_STORES][4];
-    struct rg_span counts[RG_FIXED_COUNTS]; // of fragments in a column
-    struct rg_span visible;                 // samples
-    int primitive_count, inside_count;      // those with a corner inside the clip volume
+    struct rg_sample *samples;                    // [layer][y][x][sample]
+    struct rg_span (*stores)[RG_FIXED_STORES][4]; // of each pixel; NULL: none are asked for
+    struct rg_span counts[RG_FIXED_COUNTS];       // of fragments in a column
+    struct rg_span visible;                       // samples
+    int primitive_count, inside_count;            // those with a corner inside the clip volume
     struct rg_span caught[3 * RG_FIXED_MAX_VERTICES][8];
 };
 

@@ -17,7 +17,7 @@ static struct rg_span value(const struct rg_fragment *f, bool is_colour, int c)
         return rg_span_at(is_colour ? f->primitive->corners[0].colour[c]
                                     : f->primitive->corners[0].at[c]);
     corners_of(f, is_colour, c, values);
-    return rg_plane_value(f->plane, values, f->x, f->y, f->reach, f->is_inside);
+    return rg_plane_value(&f->place, values, f->is_inside);
 }
 
 static struct rg_span affine(const struct rg_fragment *f, int c)
@@ -26,7 +26,7 @@ static struct rg_span affine(const struct rg_fragment *f, int c)
     corners_of(f, true, c, values);
     for (int i = 0; i < 3; i++)
         values[i] *= f->primitive->corners[i].place[3];
-    return rg_plane_affine(f->plane, values, f->x, f->y, f->reach);
+    return rg_plane_affine(&f->place, values);
 }
 
 static struct rg_span step(const struct rg_fragment *f, int c, bool in_y)

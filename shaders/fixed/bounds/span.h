@@ -8,6 +8,17 @@ struct rg_span {
     double low, high;
 };
 
+// As fmin and fmax, for which a number that is none loses, but without a call.
+static inline double rg_lesser(double a, double b)
+{
+    return a < b || isnan(b) ? a : b;
+}
+
+static inline double rg_greater(double a, double b)
+{
+    return a > b || isnan(b) ? a : b;
+}
+
 static inline struct rg_span rg_span_at(double value)
 {
     return (struct rg_span){value, value};
@@ -21,7 +32,7 @@ static inline struct rg_span rg_span_widen(struct rg_span a, double by)
 // The least interval that holds both.
 static inline struct rg_span rg_span_join(struct rg_span a, struct rg_span b)
 {
-    return (struct rg_span){fmin(a.low, b.low), fmax(a.high, b.high)};
+    return (struct rg_span){rg_lesser(a.low, b.low), rg_greater(a.high, b.high)};
 }
 
 static inline struct rg_span rg_span_reach(struct rg_span a, double value)
@@ -31,7 +42,8 @@ static inline struct rg_span rg_span_reach(struct rg_span a, double value)
 
 static inline struct rg_span rg_span_clamp(struct rg_span a, double low, double high)
 {
-    return (struct rg_span){fmin(fmax(a.low, low), high), fmin(fmax(a.high, low), high)};
+    return (struct rg_span){rg_lesser(rg_greater(a.low, low), high),
+                            rg_lesser(rg_greater(a.high, low), high)};
 }
 
 static inline struct rg_span rg_span_add(struct rg_span a, struct rg_span b)
@@ -53,24 +65,25 @@ static inline struct rg_span rg_span_scale(struct rg_span a, double by)
 static inline struct rg_span rg_span_times(struct rg_span a, struct rg_span b)
 {
     const double ll = a.low * b.low, lh = a.low * b.high, hl = a.high * b.low, hh = a.high * b.high;
-    return (struct rg_span){fmin(fmin(ll, lh), fmin(hl, hh)), fmax(fmax(ll, lh), fmax(hl, hh))};
+    return (struct rg_span){rg_lesser(rg_lesser(ll, lh), rg_lesser(hl, hh)),
+                            rg_greater(rg_greater(ll, lh), rg_greater(hl, hh))};
 }
 
 static inline struct rg_span rg_span_absolute(struct rg_span a)
 {
-    const double high = fmax(fabs(a.low), fabs(a.high));
-    const double low = a.low <= 0 && a.high >= 0 ? 0 : fmin(fabs(a.low), fabs(a.high));
+    const double high = rg_greater(fabs(a.low), fabs(a.high));
+    const double low = a.low <= 0 && a.high >= 0 ? 0 : rg_lesser(fabs(a.low), fabs(a.high));
     return (struct rg_span){low, high};
 }
 
 static inline struct rg_span rg_span_most(struct rg_span a, struct rg_span b)
 {
-    return (struct rg_span){fmax(a.low, b.low), fmax(a.high, b.high)};
+    return (struct rg_span){rg_greater(a.low, b.low), rg_greater(a.high, b.high)};
 }
 
 static inline struct rg_span rg_span_least(struct rg_span a, struct rg_span b)
 {
-    return (struct rg_span){fmin(a.low, b.low), fmin(a.high, b.high)};
+    return (struct rg_span){rg_lesser(a.low, b.low), rg_lesser(a.high, b.high)};
 }
 
 // --- formats ---

@@ -51,22 +51,26 @@ static void values_are_those_of_the_plane(void **state)
     (void)state;
     static const double values[] = {0, 1, 0}, depths[] = {0.25, 0.75, 0.25};
     struct rg_plane plane;
+    struct rg_place place;
     const struct rg_primitive flat = half_square();
     assert_true(rg_plane_of(scene, &flat, scene->grid, &plane));
     // 1 / 20 a pixel, so that a step of the grid is 1 / 5120.
-    assert_span(rg_plane_value(&plane, values, 15, 12, 0, true), 0.25 - 1 / 5120.0,
-                0.25 + 1 / 5120.0);
-    assert_span(rg_plane_value(&plane, values, 10, 12, 0, true), 0, 1 / 5120.0);
-    assert_span(rg_plane_value(&plane, values, 15, 12, 0.5, true), 0.225 - 1 / 5120.0,
-                0.275 + 1 / 5120.0);
-    assert_span(rg_plane_affine(&plane, depths, 20, 12, 0), 0.5 - 0.5 / 5120, 0.5 + 0.5 / 5120);
+    rg_plane_at(&plane, 15, 12, 0, &place);
+    assert_span(rg_plane_value(&place, values, true), 0.25 - 1 / 5120.0, 0.25 + 1 / 5120.0);
+    rg_plane_at(&plane, 10, 12, 0, &place);
+    assert_span(rg_plane_value(&place, values, true), 0, 1 / 5120.0);
+    rg_plane_at(&plane, 15, 12, 0.5, &place);
+    assert_span(rg_plane_value(&place, values, true), 0.225 - 1 / 5120.0, 0.275 + 1 / 5120.0);
+    rg_plane_at(&plane, 20, 12, 0, &place);
+    assert_span(rg_plane_affine(&place, depths), 0.5 - 0.5 / 5120, 0.5 + 0.5 / 5120);
     assert_span(rg_plane_step(&plane, values, 15, 12, false), 0.05 - 0.1 / 256, 0.05 + 0.1 / 256);
     assert_span(rg_plane_step(&plane, values, 15, 12, true), -0.1 / 256, 0.1 / 256);
     // From w 1 to w 3 the middle of the screen has a quarter of the far value.
     const struct rg_primitive deep =
         triangle(corner(10, 10, 1, 0), corner(30, 10, 3, 1), corner(10, 30, 1, 0));
     assert_true(rg_plane_of(scene, &deep, 1e-9, &plane));
-    assert_span(rg_plane_value(&plane, values, 20, 10, 0, true), 0.25, 0.25);
+    rg_plane_at(&plane, 20, 10, 0, &place);
+    assert_span(rg_plane_value(&place, values, true), 0.25, 0.25);
     const struct rg_primitive none =
         triangle(corner(10, 10, 1, 0), corner(20, 20, 1, 1), corner(30, 30, 1, 0));
     assert_false(rg_plane_of(scene, &none, scene->grid, &plane));

@@ -40,6 +40,9 @@ static inline int begin(void **state)
     scene = calloc(1, sizeof(*scene));
     if (!scene)
         return -1;
+    scene->texture.texels = calloc(RG_SCENE_FACES, sizeof(*scene->texture.texels));
+    if (!scene->texture.texels)
+        return -1;
     scene->state = &plain;
     scene->precision = &fine;
     scene->grid = 1 / 256.0;
@@ -50,6 +53,7 @@ static inline int begin(void **state)
 static inline int end(void **state)
 {
     (void)state;
+    free(scene->texture.texels);
     free(scene);
     return 0;
 }

@@ -108,6 +108,7 @@ static void the_scale_is_what_each_api_allows(void **state)
     assert_true(rg_plane_of(scene, &sloped, 1e-9, &plane));
     struct rg_fragment fragment = {
         .x = 15, .y = 12, .primitive = &sloped, .plane = &plane, .is_inside = true};
+    rg_plane_at(&plane, fragment.x, fragment.y, 0, &fragment.place);
     make_stripes(&trilinear);
     for (int level = 0; level < scene->texture.levels; level++)
         for (int i = 0; i < RG_FIXED_TEXTURE_PX * RG_FIXED_TEXTURE_PX; i++)
