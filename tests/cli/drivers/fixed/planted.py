@@ -9,7 +9,7 @@ import json
 import os
 import tempfile
 
-from fixed import APIS, differing, digests, draw
+from fixed import APIS, differing, digests, draw, plain
 from misbehaving import side_by_side
 
 Fault = collections.namedtuple("Fault", "kind api name must may missed", defaults=("", ""))
@@ -101,7 +101,7 @@ def check_planted(runner):
     """of 40 faults that are planted into units of drivers, coarse or fine, at least 95 % change digests of their features alone"""
     if "llvmpipe" not in runner.run(["list", "devices"]).stdout:
         return []
-    plain, found, judged = draw(runner, APIS)[0], {}, {}
+    by_api, found, judged = plain(runner), {}, {}
     with tempfile.TemporaryDirectory() as folder:
         loaded = {api: before_driver(runner, folder, api) for api in APIS}
 
@@ -109,8 +109,8 @@ def check_planted(runner):
             # Compiled code holds the places of samples, so that none may come from a cache or go there.
             uncached = {"MESA_SHADER_CACHE_DISABLE": "true"} if "sample is" in fault.name else {}
             drawn, status, errors = draw(runner, [fault.api], {"RG_PLANTED": fault.name, **loaded[fault.api], **uncached})
-            all_drawn = len(drawn[fault.api]["draws"]) == len(plain[fault.api]["draws"])
-            found[fault] = set(differing(plain[fault.api], drawn[fault.api])) if all_drawn else set()
+            all_drawn = len(drawn[fault.api]["draws"]) == len(by_api[fault.api]["draws"])
+            found[fault] = set(differing(by_api[fault.api], drawn[fault.api])) if all_drawn else set()
             judged[fault] = {row["feature"] for row in drawn[fault.api]["draws"] if row.get("bounds") == "beyond" and "known" not in row}
             return [] if all_drawn else ["%s: exit status %d, %s" % (fault.name, status, errors)]
 
@@ -123,7 +123,7 @@ def check_planted(runner):
             problems.append("%s: changes %s" % (fault.name, sorted(found[fault])))
     if len(rightly) < SHARE * len(FAULTS):
         problems.append("%d of %d are noticed and blamed rightly" % (len(rightly), len(FAULTS)))
-    problems += ["%s: no fault changes it" % feature for feature in sorted(set(digests(plain["gl"])) - set().union(*found.values()))]
+    problems += ["%s: no fault changes it" % feature for feature in sorted(set(digests(by_api["gl"])) - set().union(*found.values()))]
     stay = {fault.name for fault in FAULTS if not judged[fault]}
     problems += ["%s: %s bounds" % (name, "within" if name in stay else "beyond") for name in sorted(stay ^ WITHIN)]
     for kind in KINDS:
