@@ -134,6 +134,6 @@ ROWS = [
     Fault(SHADE, "    case RG_FIXED_FRAGMENT_FLAT:\n        «flat(f, out);»", "colour(f, out);", "flat colours are smooth in bounds", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault(SCENE, "const int from = «scissor[c]», to", "0", "scissors are ignored in bounds", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault(JUDGED, "else if («told->beyond.count && !*told->known»)", "told->beyond.count", "a known fault fails a draw", tests=("fixed functions", "features in doctor")),
-    Fault(JUDGED, "left->is_within[i] = «told.is_bounded && !told.beyond.count»;", "told.is_bounded", "a known fault may differ between drivers", tests=("command line, fixed",)),
+    Fault(JUDGED, "left->is_within[i] = «told.is_bounded && !told.beyond.count»;", "told.is_bounded", "a known fault may differ between drivers", tests=("fixed functions in doctor",)),
     Fault("core/device/device.c", "rg_doing_begin(\"drawing feature\", «feature»);", "\"\"", "a crash does not name its feature", tests=("command line, fixed",)),
 ]

@@ -24,7 +24,8 @@
 enum { NONE = -1 };
 
 static struct rg_device device = {.info = {.name = "new", .full = "new", .driver = "1.0"}};
-static int lacking, constant, alike, broken[2]; // rows that end so; NONE: no row
+// Rows that end so; NONE: no row.
+static int lacking, constant, alike, bounded, faulty, broken[2];
 static bool closes, is_want; // `is_want`: the broken rows lack something of raingauge's own
 static char logged[2048];
 static int renewed;
@@ -61,6 +62,11 @@ bool rg_fixed_ask(struct rg_device *of, int row, struct rg_fixed_told *told)
                                    .is_constant = row == constant};
     if (row == alike)
         told->other = row < rg_fixed_count() ? told->digest : 0;
+    told->is_bounded = row == bounded || row == faulty;
+    if (row == faulty) {
+        told->beyond.count = 1;
+        snprintf(told->known, sizeof(told->known), "it errs");
+    }
     if (row == lacking)
         snprintf(told->lacks, sizeof(told->lacks), "room");
     if (row != broken[0] && row != broken[1])
@@ -87,7 +93,7 @@ static void hear(enum rg_log_level level, const char *line, void *user)
 static int begin(void **state)
 {
     (void)state;
-    lacking = constant = alike = broken[0] = broken[1] = NONE;
+    lacking = constant = alike = bounded = faulty = broken[0] = broken[1] = NONE;
     closes = true;
     is_want = false;
     renewed = 0;
@@ -243,6 +249,40 @@ static void lacks_of_our_own_are_no_failures(void **state)
     json_decref(row);
 }
 
+// What a gate compares: digests of the draws that are OK, whether each is within its bounds, which
+// a known fault is not, and what the others ended as.
+static void all_draws_keep_how_they_ended(void **state)
+{
+    (void)state;
+    struct rg_fixed_left left;
+    const int count = rg_fixed_count();
+    bounded = 3;
+    faulty = 4;
+    lacking = 5;
+    alike = 6;
+    broken[0] = 7;
+    is_want = true;
+    rg_fixed_draw_all(&device, &left);
+    for (int i = 0; i < count; i++) {
+        assert_int_equal(left.outcomes[i], i == lacking     ? RG_UNSUPPORTED
+                                           : i == alike     ? RG_FAIL
+                                           : i == broken[0] ? RG_LACKING
+                                                            : RG_OK);
+        assert_int_equal(left.is_within[i], i == bounded);
+    }
+    assert_int_equal(left.failed, RG_LACKING);
+    assert_int_equal(json_object_size(left.digests), count - 3);
+    rg_fixed_left_free(&left);
+    broken[0] = 1;
+    broken[1] = 2;
+    is_want = false;
+    rg_fixed_draw_all(&device, &left); // which ends after two failures
+    assert_int_equal(left.failed, RG_ERROR);
+    assert_true(left.outcomes[2] == RG_ERROR && left.outcomes[3] == RG_NOTHING);
+    assert_int_equal(json_object_size(left.digests), 1);
+    rg_fixed_left_free(&left);
+}
+
 static void devices_that_draw_nothing_say_why(void **state)
 {
     (void)state;
@@ -271,6 +311,7 @@ int main(void)
         cmocka_unit_test_setup(what_a_driver_draws_wrongly_fails, begin),
         cmocka_unit_test_setup(a_driver_that_fails_is_left, begin),
         cmocka_unit_test_setup(lacks_of_our_own_are_no_failures, begin),
+        cmocka_unit_test_setup(all_draws_keep_how_they_ended, begin),
         cmocka_unit_test_setup(devices_that_draw_nothing_say_why, begin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
