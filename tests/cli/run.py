@@ -21,7 +21,7 @@
            failing  drivers that are there and cannot be used, and what is absent
            all      the same, of every command
            misbehaving  drivers that crash, hang, lie about their end or lose their device
-           ways     the same, in all ways, of the commands that take longer, and files of pictures of all kinds
+           ways     the same, in all ways, of the commands that take longer, files of pictures of all kinds, and native pictures of all switches
            vacuous  commands that are left with nothing to compare or to measure
            idle     the same, all of them
            gates    one device held against another
@@ -110,7 +110,7 @@ SUITES = {
     "failing": lambda runner: runner.check_all(failing.CHECKS),
     "all": lambda runner: runner.check_all(failing.THOROUGH),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
-    "ways": lambda runner: runner.check_all(misbehaving.THOROUGH + compiling.THOROUGH + besides.THOROUGH),
+    "ways": lambda runner: runner.check_all(misbehaving.THOROUGH + compiling.THOROUGH + besides.THOROUGH + native.THOROUGH + pictures.THOROUGH + kept.THOROUGH),
     "vacuous": lambda runner: runner.check_all(vacuous.CHECKS),
     "idle": lambda runner: runner.check_all(vacuous.THOROUGH),
     "gates": lambda runner: runner.check_all(gates.CHECKS),

@@ -28,13 +28,13 @@ def check_render_json(runner):
     return problems
 
 
-def check_shown(runner):
-    """without options render draws the picture that shows a technique, and says by which options; one of them alone is of the defaults"""
+def problems_shown(runner, techniques):
+    """Problems of what render draws of techniques without options."""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         shown = os.path.join(tmp, "shown.png")
         again = os.path.join(tmp, "again.png")
-        for technique in ("drops", "raster", "cartoon"):
+        for technique in techniques:
             lines = runner.run(["render", technique, "-o", shown]).stdout.splitlines()
             if len(lines) != 2 or not lines[1].startswith("  as by --"):
                 problems.append("%s: %s" % (technique, lines))
@@ -42,11 +42,23 @@ def check_shown(runner):
             told = runner.run(["render", technique, "-o", again] + lines[1].split()[2:]).stdout.splitlines()
             if [lines[0].replace(shown, again)] != told or not same_bytes(shown, again):
                 problems.append("%s: drew %s, then %s" % (technique, lines, told))
+    return problems
+
+
+def check_shown(runner):
+    """without options render draws the picture that shows a technique, and says by which options; one of them alone is of the defaults"""
+    problems = problems_shown(runner, ("raster", "cartoon"))
+    with tempfile.TemporaryDirectory() as tmp:
         for args, of in ((["--frame", "3"], ", frame 3, 512x512, "), (["--size", "32x16"], ", frame 60, 32x16, "), (["--set", "seed=2"], ", frame 60, 512x512, ")):
-            told = runner.run(["render", "drops", "-o", shown] + args).stdout.splitlines()
+            told = runner.run(["render", "raster", "-o", os.path.join(tmp, "picture.png")] + args).stdout.splitlines()
             if len(told) != 1 or of not in told[0]:
                 problems.append("%s: %s" % (args, told))
     return problems
+
+
+def check_shown_for_long(runner):
+    """without options render draws the picture that shows drops, which takes many frames"""
+    return problems_shown(runner, ("drops",))
 
 
 def same_bytes(*paths):
@@ -151,3 +163,4 @@ def check_full_stdout(runner):
 
 
 CHECKS = [check_render_json, check_shown, check_diff_json, check_diff_not_finite, check_foreign, check_full_stdout]
+THOROUGH = [check_shown_for_long]

@@ -120,7 +120,7 @@ def check_busy(runner):
     problems = []
     loops = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(2 * os.cpu_count())]
     try:
-        for args in (TABLE + "--json", BUSY + "--json"):
+        for args in ("table raster-1 --rows 1-1 --device cpu --json", BUSY + "--json"):
             ran = runner.run(args.split(), env={"RG_PROBE_S": "0.3"})
             cells = [cell["measured"] for cell in json.loads(ran.stdout)["cells"]]
             if not re.match("raingauge: warning: others take [0-9]+ % of this machine's processors, .*; end them, or measure later\n", ran.stderr):
@@ -129,7 +129,7 @@ def check_busy(runner):
                          if len(cell["taken"]) != len(cell["samples_ms"]) or cell["disturbed"] != sum(share > 0.05 for share in cell["taken"])]
             if not all(sum(cell[name] for cell in cells) for name in ("disturbed", "retaken")):
                 problems.append("no cell is disturbed, or none was taken again: %s" % cells)
-        told = runner.run(TABLE.split(), env={"RG_PROBE_S": "0"}).stderr
+        told = runner.run(BUSY.split(), env={"RG_PROBE_S": "0"}).stderr
         problems += ["told without a probe: %s" % told] if "others take" in told else []
     finally:
         for loop in loops:
