@@ -138,7 +138,7 @@ def check_alone(runner):
     problems = []
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere:
         device, path = miscompiling(runner, folder), os.path.join(folder, "a 'case'\n\x1b[2J;$(false).txt")
-        args = ["shrink", "flow", "--seconds", "1", "--device", device + ",cpu:reference", "-o", path] + SMALL.split()
+        args = ["shrink", "flow", "--frame", "3", "--seconds", "1", "--device", device + ",cpu:reference", "-o", path] + SMALL.split()
         result = runner.run(args)
         says = STAGE + r" alone, 1 of its \d+ items, is in .*\.kernel: cc run\.c -lvulkan -o run && \./run"
         if result.returncode != 0 or result.stderr or "\x1b" in result.stdout or not re.search(says, result.stdout):
