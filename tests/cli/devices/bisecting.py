@@ -12,7 +12,7 @@ import forms
 
 TESTS = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 EXAMPLES = os.path.join(TESTS, os.pardir, "docs", "ci")
-TORUS = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
+KNOT = "raster/knot raster 64x48 2 scene=triangles triangles=1000\n"
 HOSTILE = ["it's", 'a "b" c', "$HOME `id` \\", "x;exit 1", "-n", "Ü ⟨ü⟩", "two  blanks", "{good}", "{budget}", "*", "~", "#x"]
 
 
@@ -53,7 +53,7 @@ def bisect(runner, line, more=(), good="1", bad="9", names="123456789"):
 def check_builds(runner):
     """the first of five builds that crashes is found, and one without a driver is skipped, by the script that docs/ci.md quotes"""
     with tempfile.TemporaryDirectory() as folder:
-        write(folder, "cells.txt", TORUS)
+        write(folder, "cells.txt", KNOT)
         for build, library in (("1", runner.misbehaver), ("2", runner.misbehaver), ("3", None), ("4", runner.crasher), ("5", runner.crasher)):
             if library:
                 write_build(folder, "builds/%s/icd.json" % build, library)
@@ -82,7 +82,7 @@ def check_git(runner):
 
         git("init", "-q", "-b", "main")
         write(folder, ".git/info/exclude", "cells.txt\n")
-        write(folder, "cells.txt", TORUS)
+        write(folder, "cells.txt", KNOT)
         commits = []
         for number in range(8):
             write(folder, "Makefile", "all:\n\t@%s\n# %d\n" % ("false" if number in (3, 4) else "true", number))

@@ -10,11 +10,11 @@ import xml.etree.ElementTree
 import bisecting
 import runners
 import services
-from gates import QUICK, SCHEMA, TORUS, Files
-from wrong import RIGHT, TURNED
+from gates import QUICK, SCHEMA, KNOT, Files
+from wrong import turned_kernels
 
 PNG = b"\x89PNG\r\n\x1a\n"
-THIRD = TORUS.replace("raster/torus", "raster/third")
+THIRD = KNOT.replace("raster/knot", "raster/third")
 KNOWN = os.path.join(runners.TESTS, os.pardir, "results", "expectations.txt")
 
 
@@ -43,7 +43,7 @@ def lint(path):
 
 def drivers(runner, folder, new):
     """The files of a project in CI: an older driver that works, and a newer one."""
-    bisecting.write(folder, "cells.txt", TORUS)
+    bisecting.write(folder, "cells.txt", KNOT)
     bisecting.write_build(folder, "old/icd.json", runner.misbehaver)
     if os.path.exists(new):
         bisecting.write_build(folder, "new/icd.json", new)
@@ -179,9 +179,7 @@ def check_pictures(runner):
     """pictures that differ are written beside the JUnit report, which names them; without differences nothing is written"""
     problems = []
     with Files() as files:
-        kernels = files.path("kernels")
-        os.mkdir(kernels)
-        runner.kernels_with(kernels, "flow_normals.glsl", RIGHT, TURNED)
+        kernels = turned_kernels(runner)
         for more, folder in (([], "gate-pictures"), (["-o", files.path("]] <&>'")], "]] <&>'")):
             for device, status in (("gl", 0), ("gl@RG_KERNEL_DIR=" + kernels, 1)):
                 ran = runner.run(["gate", "gl", device, "--cells", files.cells, "--pictures", "--junit", files.path("gate.xml"), "--json"] + more)
@@ -191,7 +189,7 @@ def check_pictures(runner):
                 wrong = [path for path in cases["flow/pane"] if os.path.dirname(path) != files.path(folder) or path not in told]
                 if "]]" not in folder:
                     wrong += [path for path in cases["flow/pane"] if "[[ATTACHMENT|%s]]" % path not in told]
-                if ran.returncode != status or len(cases["flow/pane"]) != 4 * status or cases["raster/torus"] or wrong:
+                if ran.returncode != status or len(cases["flow/pane"]) != 4 * status or cases["raster/knot"] or wrong:
                     problems.append("%s: exit status %d, %s, %s" % (device, ran.returncode, cases, ran.stderr))
                 if os.path.exists(files.path(folder)) != bool(status):
                     problems.append("%s: the folder" % device)

@@ -8,10 +8,10 @@ import shutil
 import tempfile
 
 import forms
-from gates import TORUS, Files
+from gates import KNOT, Files
 from machine import run_json
 
-SMALL = "raster --set scene=mesh --set model=torus --set faces=300 --size 64x48 --frame 2".split()
+SMALL = "raster --set scene=triangles --set triangles=1000 --size 64x48 --frame 2".split()
 VULKAN, GL, OPENCL = "vulkan", "gl", "opencl"
 
 
@@ -121,7 +121,7 @@ def wrong_names(tree, drivers):
 def check_wrong_names(runner, tree, drivers):
     """a driver named in one of eight wrong ways is no pass of gate and diff, and one line has the remedy"""
     problems = []
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         for name, status, said in wrong_names(tree, drivers):
             api = name.split("@")[0]
             for args in (["gate", api, name, "--pictures", "--cells", files.cells], ["diff"] + SMALL + ["--device", api + "," + name]):
@@ -156,7 +156,7 @@ def above(text, build):
 def check_prefix(runner, tree, drivers):
     """DRIVER=PREFIX runs the driver in that folder, under a short name; both drivers are named first, in text and in JSON"""
     problems = []
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         for api, driver in drivers.items():
             junit = files.path("%s.xml" % api)
             gate = ["gate", api, tree.with_driver(api), "--pictures", "--cells", files.cells, "--require", "new", "--junit", junit]
@@ -170,7 +170,7 @@ def check_prefix(runner, tree, drivers):
                     problems.append("%s: %s" % (args, result.stdout))
             with open(junit) as file:
                 told = file.read()
-            if 'name="raster/torus.new"' not in told or tree.files[api] not in told or "new=" in told:
+            if 'name="raster/knot.new"' not in told or tree.files[api] not in told or "new=" in told:
                 problems.append("JUnit: " + told)
             report, status, messages = run_json(runner, " ".join(diff), {})
             problems += messages + forms.problems("diff", report)
@@ -187,8 +187,8 @@ def check_told(runner, tree, drivers):
     if VULKAN not in drivers:
         return problems
     sides = VULKAN + "," + tree.with_driver(VULKAN)
-    verify = "verify raster --stages --frame 1 --size 64x48 --set scene=mesh --set model=torus --set faces=300 --device".split() + [sides]
-    table = ("sweep raster --frame 1 --size 64x48 --axis faces=300 --set scene=mesh --set model=torus --device".split() +
+    verify = "verify raster --stages --frame 1 --size 64x48 --set scene=triangles --set triangles=1000 --device".split() + [sides]
+    table = ("sweep raster --frame 1 --size 64x48 --axis triangles=1000 --set scene=triangles --device".split() +
              [sides, "-o", tree.folder("tables")])
     for args in (verify, table):
         result = runner.run(args)
@@ -209,7 +209,7 @@ def check_one_build(runner):
     """one build in two files is a warning, and other settings of one driver are not"""
     problems = []
     drivers = {api: driver for api, driver in of_system(runner).items() if api == VULKAN}
-    with tempfile.TemporaryDirectory() as tmp, Files(TORUS) as files:
+    with tempfile.TemporaryDirectory() as tmp, Files(KNOT) as files:
         for api in drivers:
             tree = Tree(os.path.join(tmp, "copy"), drivers, same_build=True)
             result = runner.run(["gate", api, tree.with_driver(api), "--pictures", "--cells", files.cells])
@@ -268,7 +268,7 @@ def check_caches(runner):
     problems = []
     drivers = of_system(runner)
     for api in drivers:
-        with tempfile.TemporaryDirectory() as tmp, Files(TORUS) as files:
+        with tempfile.TemporaryDirectory() as tmp, Files(KNOT) as files:
             user = os.path.join(tmp, "user")
             own = os.path.join(tmp, "own")
             variables = {"XDG_CACHE_HOME": tmp, "MESA_SHADER_CACHE_DIR": user, "POCL_CACHE_DIR": user}

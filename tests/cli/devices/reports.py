@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 import forms
 import runners
 from ci import KNOWN, THIRD, lint
-from gates import QUICK, TORUS, Files
+from gates import QUICK, KNOT, Files
 from runner import LATER
 from wrong import RIGHT, TURNED
 
@@ -36,7 +36,7 @@ def unescaped(text):
 def check_name(runner, value):
     device = 'cpu@RG_TEST_NOTE="%s"' % value.replace('"', '""')
     problems = []
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         junit, bmf, summary = files.path("a.xml"), files.path("a.json"), files.path("a.md")
         args = ["gate", "cpu", device, "--cells", files.cells, "--junit", junit, "--bmf", bmf]
         ran = runner.run(args + ["--budget", "0.05s", "--json"])
@@ -45,7 +45,7 @@ def check_name(runner, value):
         report = strict(ran.stdout)
         name = report["gated"][0]["name"]
         problems += forms.problems("gate", report) + lint(junit)
-        if not name.startswith("raster/torus.cpu@") or shown(value).replace('"', "") not in name.replace('"', ""):
+        if not name.startswith("raster/knot.cpu@") or shown(value).replace('"', "") not in name.replace('"', ""):
             problems.append("%r: JSON has %r" % (value, name))
         case = xml.etree.ElementTree.parse(junit).find("testsuite/testcase")
         if case.get("name") != name or "[[ATTACHMENT" in (case.findtext("system-out") or ""):
@@ -114,7 +114,7 @@ def check_expectations(runner):
             with open(path, "w") as file:
                 file.write(text)
             found, endings, told = gate(runner, folder, ["--expectations", KNOWN_NAME])
-            wanted = {"flow/pane": ending, "raster/torus": "unexpected pass" if text.startswith("fail *") else "pass"}
+            wanted = {"flow/pane": ending, "raster/knot": "unexpected pass" if text.startswith("fail *") else "pass"}
             with open(path) as file:
                 is_as_before = file.read() == text
             if (found, endings) != (status, wanted) or says not in told or (KNOWN_NAME + UNTRUE in told) != is_untrue or not is_as_before:
@@ -136,7 +136,7 @@ def check_expectations(runner):
 def check_unseen(runner):
     """--update keeps expectations of devices that are missing or not asked for, and is refused for a part of the cells"""
     problems = []
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         path, gone = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
         runner.run(["baseline", "--device", "cpu,vulkan", "--pictures", "--cells", files.cells, "-o", path])
         apart, builds = ["--baseline", path], ["--against", runner.slower]
@@ -159,7 +159,7 @@ def check_updates(runner):
     """--update adds new failures to the first file, in every form of report; a file that changes meanwhile, or cannot be written, stays"""
     problems = []
     args = ["gate", "cpu", "cpu@RG_CPU_LEVEL=reference", "--pictures", "--update"]
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         args += ["--cells", files.cells]
         own, fails, fifo = files.path("own.txt", ""), files.path("fails.txt", "# fails\n"), files.path("none/own.txt")
         link = files.path("link.txt")

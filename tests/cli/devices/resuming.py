@@ -5,7 +5,7 @@ import json
 import os
 
 from baselines import change
-from gates import AT_ONCE, TORUS, Files
+from gates import AT_ONCE, KNOT, Files
 from losses import wait_for
 
 
@@ -55,7 +55,7 @@ def check_killed(runner):
 def check_kept(runner):
     """a gate takes neither another gate's launches nor damaged ones; a full disk loses nothing; one gate holds a folder"""
     problems = []
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         folder = files.path("out")
         left_by_a_kill(runner, files, folder)
         path = os.path.join(folder, "gate.journal")
@@ -93,7 +93,7 @@ def check_kept(runner):
 def check_built_anew(runner):
     """a gate does not go on with times of a build that has changed under the same path"""
     problems = []
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         folder, path, other = files.path("out"), files.path("out/gate.journal"), files.path("other")
         sides = ["--against", other, "--device", "cpu"]
         os.symlink(runner.raingauge, other)
@@ -116,7 +116,7 @@ def check_built_anew(runner):
 def check_baseline(runner):
     """a gate with a baseline that was killed goes on too, but not with another baseline"""
     problems = []
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         folder, was, path = files.path("out"), files.path("baseline.json"), files.path("out/gate.journal")
         make = ["baseline", "--device", "cpu", "--launches", "8", "--cells", files.cells, "-o", was]
         runner.run(make)

@@ -8,6 +8,15 @@ from machine import run_json
 from runner import NO_DRIVERS
 
 RIGHT, TURNED, NO_GLSL = "(-slope_x * scale)", "(slope_x * scale)", "(nonsense * scale)"
+TURNED_KERNELS = []  # their folder, once it is made
+
+
+def turned_kernels(runner):
+    """A folder of kernels that draw wrongly, one for all checks of a suite, so that a driver compiles them once."""
+    if not TURNED_KERNELS:
+        TURNED_KERNELS.append(tempfile.TemporaryDirectory())
+        runner.kernels_with(TURNED_KERNELS[0].name, "flow_normals.glsl", RIGHT, TURNED)
+    return TURNED_KERNELS[0].name
 
 
 def with_normals(wrong):

@@ -9,7 +9,7 @@ import tempfile
 from runner import LATER
 
 SMALL = "--size 16x16 --frame 1"
-CELL = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
+CELL = "raster/knot raster 64x48 2 scene=triangles triangles=1000\n"
 # The command lines for one device.
 COMMANDS = {
     "list": "list devices",

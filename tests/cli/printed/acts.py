@@ -14,7 +14,7 @@ import tempfile
 from baselines import change
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-CELL = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
+CELL = "raster/knot raster 64x48 2 scene=triangles triangles=1000\n"
 STEERS = "\x1b]0;x\x07 \u009b31m"
 CASE = "technique raster\nsize 8x8\nframes 1\nset scene=mesh\n%sbehind 1\nstage %s\nasset %s\nclass values\nexpected 30d61a86a480e7ac\nfound 8ce1cf0a188d896c\ntruth %s\ndevice %s\n"
 TRIANGLE = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -106,7 +106,7 @@ def of_cases(place, _):
 
 
 def of_cells(place, _):
-    for line in ("../../escape raster 64x48 2", "a/../../../../escape raster 64x48 2 scene=mesh model=torus faces=300", "a raster 64x48 2 scene=mesh model=" + place.pipe,
+    for line in ("../../escape raster 64x48 2", "a/../../../../escape raster 64x48 2 scene=triangles triangles=1000", "a raster 64x48 2 scene=mesh model=" + place.pipe,
                  "a raster 64x48 2 scene=mesh model=/dev/zero", "a raster 64x48 2 RG_PROGRAM=" + place.program, "a\u009b raster 64x48 2"):
         yield ["gate", "cpu", "cpu", "--pictures", "--cells", place.file("in/cells.txt", line + "\n"), "-o", place.path("out")], {0, 1, 2, 4}, None
 
@@ -117,8 +117,8 @@ def of_expectations(place, _):
     for name in place.names:
         own = "flake *\n  device %s\n  driver %s%s" % (name, place.library, fields)
         yield cells + ["--expectations", place.file("in/known.txt", own)], {0}, None
-        yield cells + ["--fails", place.file("in/fails.txt", "raster/torus.%s,Crash\n" % name)], {0, 1}, None
-    cells[-1] = place.file("in/cells.txt", CELL.replace("torus ", "aabab" * 10 + " ", 1))
+        yield cells + ["--fails", place.file("in/fails.txt", "raster/knot.%s,Crash\n" % name)], {0, 1}, None
+    cells[-1] = place.file("in/cells.txt", CELL.replace("knot ", "aabab" * 10 + " ", 1))
     for pattern in ("(a+)+$", "((a|b|ab)*)*[YZ]", "(.*.*.*.*.*.*)*[YZ]", "(a|b)*a(a|b){200}[YZ]", "(a?b?){100}[YZ]"):
         yield cells + ["--flakes", place.file("in/flakes.txt", pattern + "\n")], {0}, None
     for pattern in ("((a?){60}){60}[YZ]", "((a|b)?(a|b)?){1000}[YZ]", "(.{0,1000}){9}[YZ]"):

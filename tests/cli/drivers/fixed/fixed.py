@@ -8,7 +8,7 @@ import tempfile
 import forms
 import misbehaving
 from baselines import change, gate, make
-from gates import TORUS, Files, endings
+from gates import KNOT, Files, endings
 from runner import LATER
 
 APIS = ("gl", "vulkan")
@@ -262,7 +262,7 @@ def others(report):
 def check_kept(runner):
     """a baseline keeps the digests, and a gate tells which are others: with the feature, unless expectations name it"""
     problems = []
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         path, _ = make(runner, files, "--pictures", device="cpu,gl,vulkan")
         with open(path) as file:
             document = json.load(file)
@@ -331,7 +331,7 @@ def check_drivers(runner):
     problems = []
     if not passport(runner, "vulkan").get("fixed_functions"):
         return problems
-    with Files(TORUS) as files:
+    with Files(KNOT) as files:
         new = other_driver(runner, files)
 
         def held(built, *args, status=None, device=None):
@@ -378,7 +378,7 @@ def check_drivers(runner):
         fallen = runner.run(["gate", new.replace("new=", "old="), "vulkan", "--pictures", "--json", "--cells", files.cells],
                             {"RG_MISBEHAVE": "vkCreateGraphicsPipelines:abort:24"})
         told = endings(json.loads(fallen.stdout))
-        if fallen.returncode != 1 or told != {"raster/torus.vulkan": "pass", "fixed.vulkan": "crash"}:
+        if fallen.returncode != 1 or told != {"raster/knot.vulkan": "pass", "fixed.vulkan": "crash"}:
             problems.append("a first driver that falls: exit status %d, %s, %s" % (fallen.returncode, told, fallen.stderr))
         names = runner.run(["gate", "vulkan", new, "--cells", files.cells, "--gtest_list_tests"]).stdout
         if "fixed" not in names or "fixed" in runner.run(["gate", "vulkan", "vulkan@LP_PERF=no_blend", "--cells", files.cells, "--gtest_list_tests"]).stdout:
