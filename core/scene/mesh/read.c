@@ -2,10 +2,13 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "core/base/cage/cage.h"
@@ -92,40 +95,105 @@ static bool find_importer(char *path, size_t size)
 enum { MEMORY_A_BYTE = 4 };
 
 // Refuses bad paths before anything is opened.
-static bool check_file(const char *path, int64_t *bytes)
+static bool check_file(const char *path, struct stat *st)
 {
-    struct stat st;
-    if (stat(path, &st))
+    if (stat(path, st))
         return rg_system_error(errno, "%s: %s; check the name", path, strerror(errno));
-    if (S_ISDIR(st.st_mode))
+    if (S_ISDIR(st->st_mode))
         return rg_error("%s: is a folder; name a mesh in it", path);
-    if (!S_ISREG(st.st_mode))
+    if (!S_ISREG(st->st_mode))
         return rg_error("%s: is not a regular file; copy the mesh to one", path);
     if (access(path, R_OK))
         return rg_system_error(errno, "%s: %s; change the file's permissions", path,
                                strerror(errno));
-    if (st.st_size == 0)
+    if (st->st_size == 0)
         return rg_error("%s: is empty; write it again", path);
-    if (st.st_size > RG_IMPORT_MAX_FILE_BYTES)
+    if (st->st_size > RG_IMPORT_MAX_FILE_BYTES)
         return rg_error("%s: has %lld bytes; at most %lld are read: decimate the mesh first", path,
-                        (long long)st.st_size, (long long)RG_IMPORT_MAX_FILE_BYTES);
-    *bytes = st.st_size;
-    return rg_memory_allows_piece(MEMORY_A_BYTE * st.st_size) ||
-           rg_memory_refuse(path, MEMORY_A_BYTE * st.st_size, "a coarser mesh");
+                        (long long)st->st_size, (long long)RG_IMPORT_MAX_FILE_BYTES);
+    return rg_memory_allows_piece(MEMORY_A_BYTE * st->st_size) ||
+           rg_memory_refuse(path, MEMORY_A_BYTE * st->st_size, "a coarser mesh");
+}
+
+// The last mesh that was read stays for the next session of its model, of which a command opens
+// many; one reading takes as long as some frames. Not where a file may have changed unseen since:
+// within the grain of its time of change, or one that a .gltf file names.
+static struct {
+    char path[PATH_MAX], member[512];
+    struct timespec changed;
+    ino_t inode;
+    struct rg_mesh *mesh; // NULL: none
+} kept;
+static pthread_mutex_t kept_lock = PTHREAD_MUTEX_INITIALIZER;
+enum { KEPT_MAX_BYTES = 1 << 24, GRAIN_S = 2 };
+
+static void *copy_of(const void *from, size_t bytes)
+{
+    void *to = from ? malloc(bytes) : NULL;
+    return to ? memcpy(to, from, bytes) : NULL;
+}
+
+// To the bit. NULL when there is no memory, which is no error: the file can be read.
+static struct rg_mesh *copy(const struct rg_mesh *mesh)
+{
+    const size_t vectors = 3 * sizeof(float) * (size_t)mesh->vertex_count;
+    struct rg_mesh *made = copy_of(mesh, sizeof(*mesh));
+    if (!made)
+        return NULL;
+    made->positions = copy_of(mesh->positions, vectors);
+    made->normals = copy_of(mesh->normals, vectors);
+    made->indices = copy_of(mesh->indices, 3 * sizeof(uint32_t) * (size_t)mesh->face_count);
+    if (made->positions && made->normals && made->indices)
+        return made;
+    rg_mesh_destroy(made);
+    return NULL;
+}
+
+static struct rg_mesh *take_kept(const char *path, const char *member, const struct stat *st)
+{
+    pthread_mutex_lock(&kept_lock);
+    const bool is_same = kept.mesh && !strcmp(kept.path, path) && !strcmp(kept.member, member) &&
+                         kept.inode == st->st_ino && kept.changed.tv_sec == st->st_ctim.tv_sec &&
+                         kept.changed.tv_nsec == st->st_ctim.tv_nsec;
+    struct rg_mesh *mesh = is_same ? copy(kept.mesh) : NULL;
+    pthread_mutex_unlock(&kept_lock);
+    return mesh;
+}
+
+static void keep(const char *path, const char *member, const struct stat *st,
+                 const struct rg_mesh *mesh)
+{
+    const char *end = strrchr(path, '.');
+    const int64_t bytes = 24 * (int64_t)mesh->vertex_count + 12 * (int64_t)mesh->face_count;
+    if (st->st_ctim.tv_sec + GRAIN_S > time(NULL) || bytes > KEPT_MAX_BYTES ||
+        strlen(path) >= sizeof(kept.path) || strlen(member) >= sizeof(kept.member) ||
+        (end && !strcasecmp(end, ".gltf")))
+        return;
+    pthread_mutex_lock(&kept_lock);
+    rg_mesh_destroy(kept.mesh);
+    snprintf(kept.path, sizeof(kept.path), "%s", path);
+    snprintf(kept.member, sizeof(kept.member), "%s", member);
+    kept.changed = st->st_ctim;
+    kept.inode = st->st_ino;
+    kept.mesh = copy(mesh);
+    pthread_mutex_unlock(&kept_lock);
 }
 
 struct rg_mesh *rg_mesh_read(const char *path, const char *member)
 {
     char program[PATH_MAX];
-    int64_t bytes = 0;
-    if (!check_file(path, &bytes) || !find_importer(program, sizeof(program)))
+    struct stat st;
+    if (!check_file(path, &st) || !find_importer(program, sizeof(program)))
         return NULL;
+    struct rg_mesh *mesh = take_kept(path, member ? member : "", &st);
+    if (mesh)
+        return mesh;
     // Long enough for the CPU time that the importer allows itself, even on a busy machine.
-    struct rg_mesh *mesh =
-        rg_mesh_read_by(program, (int)(60 + 10 * bytes / 1000000), path, path, member);
-    if (mesh) {
+    const int timeout_s = (int)(60 + 10 * (int64_t)st.st_size / 1000000);
+    if ((mesh = rg_mesh_read_by(program, timeout_s, path, path, member))) {
         const char *file = member ? member : path, *slash = strrchr(file, '/');
         snprintf(mesh->name, sizeof(mesh->name), "%s", slash ? slash + 1 : file);
+        keep(path, member ? member : "", &st, mesh);
     }
     return mesh;
 }

@@ -239,6 +239,7 @@ ROWS = [
     Fault("harness/doctor/fixed.c", "json_object_set_new(row, \"neighbour\", rg_fixed_hash(«told->other»));", "told->digest", "a neighbour has the draw's digest", tests=("fixed functions in doctor",)),
     Fault("harness/doctor/fixed.c", "const int failed = drawn - counts[RG_OK] «- counts[RG_UNSUPPORTED]» - lacking;", "- 0", "draws that a device lacks count as failed", tests=("fixed functions in doctor",)),
     Fault("harness/doctor/fixed.c", "- counts[RG_UNSUPPORTED] «- lacking»;", "- 0", "a lack of raingauge's own is the driver's failure", tests=("fixed functions in doctor",)),
+    Fault("harness/doctor/fixed.c", "return failure.fault == RG_FAULT_INPUT ? RG_EXIT_USAGE : «rg_exit_of(failure.outcome)»;", "RG_EXIT_FAIL", "a device that is not there fails its fixed functions", tests=("fixed functions in doctor",)),
     Fault("harness/doctor/warnings.c", "if («machine->quota_cpus > 0 && machine->quota_cpus < machine->cores_allowed»)", "machine->quota_cpus > 0", "a quota of all cores is warned of", tests=("warnings of doctor",)),
     Fault("harness/doctor/warnings.c", "if («!gpu && !machine->gpu_nodes»)", "!gpu", "a GPU that no driver opens is not warned of", tests=("warnings of doctor",)),
 ]

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
@@ -468,6 +469,39 @@ static void test_packaged_models(void **state)
 }
 
 // The head is taller than deep, and the cat is its file's model turned by 90 degrees.
+// Of the processes that this one has waited for.
+static long pages_of_children(void)
+{
+    struct rusage usage;
+    assert_int_equal(getrusage(RUSAGE_CHILDREN, &usage), 0);
+    return usage.ru_minflt;
+}
+
+// No process reads a model again that was the last one, whose copy is the same to the bit.
+static void test_the_last_model_is_kept(void **state)
+{
+    (void)state;
+    struct rg_mesh *first = rg_mesh_load("bunny");
+    const long pages = pages_of_children();
+    struct rg_mesh *again = rg_mesh_load("bunny");
+    assert_int_equal(pages_of_children(), pages);
+    assert_string_equal(again->name, first->name);
+    assert_int_equal(again->hash, first->hash);
+    assert_int_equal(again->face_count, first->face_count);
+    assert_memory_equal(again->normals, first->normals,
+                        3 * sizeof(float) * (size_t)first->vertex_count);
+    assert_memory_equal(again->low, first->low, sizeof(first->low));
+    rg_mesh_destroy(again);
+    again = rg_mesh_load("horse");
+    assert_int_not_equal(again->hash, first->hash);
+    assert_true(pages_of_children() > pages);
+    rg_mesh_destroy(again);
+    again = rg_mesh_load("bunny");
+    assert_int_equal(again->hash, first->hash);
+    rg_mesh_destroy(again);
+    rg_mesh_destroy(first);
+}
+
 static void test_packaged_models_are_upright(void **state)
 {
     (void)state;
@@ -552,6 +586,7 @@ int main(void)
         cmocka_unit_test(test_numbers_that_are_refused),
         cmocka_unit_test(test_no_memory_is_one_line),
         cmocka_unit_test(test_packaged_models),
+        cmocka_unit_test(test_the_last_model_is_kept),
         cmocka_unit_test(test_packaged_models_are_upright),
         cmocka_unit_test(test_stand_ins_have_the_published_counts),
         cmocka_unit_test(test_names),

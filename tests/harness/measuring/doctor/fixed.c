@@ -36,6 +36,10 @@ struct rg_device *rg_devices_open_one(const char *name)
         return &device;
     if (!strcmp(name, "tired"))
         rg_driver_error("tired: is tired");
+    else if (!strcmp(name, "absent"))
+        rg_unsupported("absent: no driver");
+    else if (!strcmp(name, "large"))
+        rg_harness_error("large: no memory");
     else
         rg_error("device '%s': unknown", name);
     return NULL;
@@ -292,6 +296,12 @@ static void devices_that_draw_nothing_say_why(void **state)
     json_decref(row);
     row = draw("other", RG_EXIT_USAGE);
     expect_ends(row, "error", "device 'other': unknown");
+    json_decref(row);
+    row = draw("absent", RG_EXIT_UNSUPPORTED);
+    expect_ends(row, "unsupported", "absent: no driver");
+    json_decref(row);
+    row = draw("large", RG_EXIT_HARNESS);
+    expect_ends(row, "error", "large: no memory");
     json_decref(row);
     snprintf(device.info.limits.no_native, sizeof(device.info.limits.no_native), "is a CPU");
     row = draw("new", RG_EXIT_UNSUPPORTED);

@@ -112,6 +112,8 @@ ROWS = [
     Fault(EDGES, "if (sides[i].goes_down != sides[0].goes_down)\n            return i;", "if (0) return i;", "sides are paired as they come"),
     Fault(FACES, "if («edge->count > (uint32_t)(r->wanted - r->face_count)» || !is_free", "false", "refining makes a face too many"),
     Fault(COLLAPSE, "unsigned digit_of(const struct collapse *c, int shift)\n{\n    uint64_t bits;\n    memcpy(&bits, &c->cost, sizeof(bits));\n    return «bits >> shift & (DIGITS - 1)»;", "bits >> shift & (DIGITS / 2 - 1)", "decimating takes dear collapses first"),
+    Fault("core/scene/mesh/read.c", "struct rg_mesh *mesh = «is_same ? copy(kept.mesh) : NULL»;", "kept.mesh ? copy(kept.mesh) : NULL", "every model is the last one"),
+    Fault("core/scene/mesh/read.c", "struct rg_mesh *mesh = «is_same ? copy(kept.mesh) : NULL»;", "NULL", "a model is read anew for each session"),
     Fault(COLLAPSE, "«!keeps_topology(s, c)» ||", "false", "decimating pinches the surface"),
     Fault(COLLAPSE, "«!keeps_facing(s, c->from, c->to)»", "false", "decimating folds the surface"),
     Fault(COLLAPSE, "const double error = error_at(s->quadrics[«from»], q);", "to", "decimating does not ask what a collapse costs"),

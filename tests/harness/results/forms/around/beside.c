@@ -74,6 +74,15 @@ static void sizes_of_textures_are_beside_print(void **state)
     EXPECT_SHEET(&rig, 0, 0, "atlas|level|print|cpu", "environment|0|32x3606|32x3607",
                  "environment|1|16x1803|fail");
     rg_result_free(&rig.result);
+    sheet_measure_on(&rig, &texture_table, (double[]){1, 1, 0, 1}, 2); // each device has its own
+    for (int i = 0; i < 3; i++) {
+        const struct rg_place place = {.row = i / 2, .device = i ? 1 : 0};
+        sheet_tell(rg_result_at(&rig.result, place), "width_px", 32 + i);
+        sheet_tell(rg_result_at(&rig.result, place), "height_px", 3606);
+    }
+    EXPECT_SHEET(&rig, 0, 0, "atlas|level|print|cpu|reference",
+                 "environment|0|32x3606|32x3606|33x3606", "environment|1|16x1803|fail|34x3606");
+    rg_result_free(&rig.result);
 }
 
 static const struct rg_table range = {
