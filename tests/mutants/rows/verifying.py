@@ -107,6 +107,7 @@ ROWS = [
     Fault(SHRINK, "«restore_defaults(s);»\n    shrink_kind(s, RG_PARAM_CHOICE", ";", "what does not matter stays", tests=SHRINKING),
     Fault(SHRINK, "shrink_kind(s, RG_PARAM_CHOICE, shrink_choice);", ";", "stages that do not matter stay", tests=SHRINKING),
     Fault(SEARCH, "«now->rows[row].weight <= most_weight» &&", "true", "values that change nothing are taken", tests=SHRINKING),
+    Fault(SEARCH, "«blame->first.weight <= most_weight» && !strcmp(", "blame->first.weight < most_weight", "a failure keeps settings that change no work", tests=("search for a smaller run",)),
     Fault(SEARCH, "!strcmp(now->rows[row].stage, s->blame.first.stage)", "true", "another stage is as good", tests=SHRINKING),
     Fault(ENTRIES, "if (!any || «!try_without(s, param, e, ending)»)", "true", "files stay as they are", tests=SHRINKING),
     Fault(FILES, "strchr(name, '/')", "NULL", "a case reads files from anywhere", tests=SHRINKING),

@@ -237,6 +237,12 @@ static enum made_way crash_with_many_drops(const struct rg_digest_run *run)
     return s->drops >= 37 ? MADE_CRASH : MADE_TIRED;
 }
 
+static int64_t work_of_none(const struct rg_digest_run *run)
+{
+    (void)run;
+    return 5;
+}
+
 // A failure is shrunk like a difference. Another failure is not the same. It is about the first
 // stage with its kernel, whatever the truth left there.
 static void a_failure_is_shrunk(void **state)
@@ -258,6 +264,10 @@ static void a_failure_is_shrunk(void **state)
     assert_string_equal(blame.text, "doubtful: its driver ended its process");
     assert_above(made_renewals, 1); // for each run that failed
     assert_int_equal(logged_lines, 0);
+    rg_case_free(&found);
+    made_work = work_of_none; // settings become the defaults where that is no more work
+    assert_int_equal(search("view=jar drops=90", 5, 1000), RG_EXIT_PASS);
+    expect_settings(BOX, 50, 1, 4, 1);
     rg_case_free(&found);
 }
 

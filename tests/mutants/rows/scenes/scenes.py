@@ -21,7 +21,7 @@ WIND, MOTION = "core/techniques/cartoon/rain/wind.c", ("cartoon rain, motion and
 
 ROWS = [
     Fault("core/base/files/file.c", "!fstat(fileno(file), &st) && «st.st_size <= SMALL_BYTES»", "true", "files of lights are parsed, however large", tests=("light file",)),
-    Fault("core/scene/mesh/read.c", "return «rg_memory_allows_piece(MEMORY_A_BYTE * st.st_size)» ||", "true", "meshes are read without room for them", tests=("mesh files",)),
+    Fault("core/scene/mesh/read.c", "return «rg_memory_allows_piece(MEMORY_A_BYTE * st->st_size)» ||", "true", "meshes are read without room for them", tests=("mesh files",)),
     Fault(WIND, "if (!(fabs(knot.time_s) <= FARTHEST && «fabs(knot.turn_deg) <= FARTHEST»))", "true", "a wind may turn so far that its direction is no number", tests=MOTION),
     Fault(WIND, "const bool ok = c == EOF || «strchr(text, '#') != NULL»;", "true", "what a long line goes on with is not looked at", tests=MOTION),
     Fault(WIND, "noise_at(seed, «CARTOON_GUST_WAY», periods)", "CARTOON_GUST", "a gust turns as strongly as it blows", tests=MOTION),
