@@ -24,6 +24,7 @@ ROWS = [
     Fault("harness/record/record.c", "snprintf(to, size - used, «\"%s%s %.10g\"», comma", "\"%s%s %g\"", "rows are named by numbers of six digits", tests=("sheets, cells",)),
     Fault("harness/tables/own/grid.c", "if («rows > RG_TABLE_ROWS»)", "rows >= RG_TABLE_ROWS", "a sweep of as many rows as a table may have is refused", tests=("sweep",)),
     Fault("harness/tables/sheet/beside.c", "«of.device < result->device_count»; of.device++) {\n        const struct rg_record *record = rg_result_at(result, of);\n        const int64_t count", "of.device < 1", "the first device alone counts work", tests=("brief",)),
+    Fault("harness/tables/sheet/beside.c", "fill_texture(«rg_result_at(result, of)», cells[at->device", "record", "all devices have the first one's textures", tests=("sheets, beside",)),
     Fault(SETTLE, "return rule->error / «rule->look_count» / 2;", "1", "each look spends all of the error (settle.c)"),
     Fault(SETTLE, "s.strict = rg_median_sorted(values, s.units, tail_of(rule) / «part_count»);", "1", "each part of a claim spends all of the error"),
     Fault(SETTLE, "if («now == RG_SETTLED_AT_BOUND || (is_again && now == first)»)", "now != RG_SETTLED_OPEN", "no verdict is confirmed"),
