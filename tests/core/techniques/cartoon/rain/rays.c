@@ -12,6 +12,7 @@
 
 #include "tests/core/techniques/cartoon/rain/rig.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/process/folder.h"
 
 #define PLACED_M  2e-6 // the error of places in floats; more along a grazing path
 #define ROUNDED_M 2e-5 // the error of a float ray's meeting with a face
@@ -192,6 +193,25 @@ static void hits_lie_on_the_mesh(void **state)
                 0.02, 20);
 }
 
+// A box whose faces look inwards, as some exporters leave them: the eye sees their backs, and drops
+// hit these.
+static void faces_have_two_sides(void **state)
+{
+    (void)state;
+    static const char box[] = "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\n"
+                              "v -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
+                              "f 6 7 8 5\nf 4 3 2 1\nf 8 7 3 4\nf 6 5 1 2\nf 7 6 2 3\nf 5 8 4 1\n";
+    char path[64], settings[160];
+    snprintf(path, sizeof(path), "%s/box.obj", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(box, file);
+    assert_int_equal(fclose(file), 0);
+    snprintf(settings, sizeof(settings), "scene=mesh mesh=%s drops_s=6000", path);
+    expect_hits(settings, 70, 80, 150, 0.001, 100); // of 178
+    assert_int_equal(unlink(path), 0);
+}
+
 // The face seen in each pixel, with numbers beyond two bytes among them.
 static void the_face_map_names_what_is_seen(void **state)
 {
@@ -272,6 +292,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_face_map_names_what_is_seen),
         cmocka_unit_test(hits_lie_on_the_mesh),
+        cmocka_unit_test_setup_teardown(faces_have_two_sides, make_folder, remove_folder),
         cmocka_unit_test(what_is_seen_to_hit_has_hit),
     };
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
