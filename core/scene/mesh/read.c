@@ -116,12 +116,10 @@ static bool check_file(const char *path, struct stat *st)
 }
 
 // The last mesh that was read stays for the next session of its model, of which a command opens
-// many; one reading takes as long as some frames. Not where a file may have changed unseen since:
-// within the grain of its time of change, or one that a .gltf file names.
+// many; one reading takes as long as some frames.
 static struct {
     char path[PATH_MAX], member[512];
-    struct timespec changed;
-    ino_t inode;
+    struct stat file;
     struct rg_mesh *mesh; // NULL: none
 } kept;
 static pthread_mutex_t kept_lock = PTHREAD_MUTEX_INITIALIZER;
@@ -152,29 +150,36 @@ static struct rg_mesh *copy(const struct rg_mesh *mesh)
 static struct rg_mesh *take_kept(const char *path, const char *member, const struct stat *st)
 {
     pthread_mutex_lock(&kept_lock);
+    const struct stat *was = &kept.file;
     const bool is_same = kept.mesh && !strcmp(kept.path, path) && !strcmp(kept.member, member) &&
-                         kept.inode == st->st_ino && kept.changed.tv_sec == st->st_ctim.tv_sec &&
-                         kept.changed.tv_nsec == st->st_ctim.tv_nsec;
+                         was->st_dev == st->st_dev && was->st_ino == st->st_ino &&
+                         was->st_ctim.tv_sec == st->st_ctim.tv_sec &&
+                         was->st_ctim.tv_nsec == st->st_ctim.tv_nsec;
     struct rg_mesh *mesh = is_same ? copy(kept.mesh) : NULL;
     pthread_mutex_unlock(&kept_lock);
     return mesh;
 }
 
+// Whether another content would show, asked before the file is read: it last changed longer ago
+// than the grain of that time, and is no .gltf file, which names others.
+static bool shows_changes(const char *path, const struct stat *st)
+{
+    const char *end = strrchr(path, '.');
+    return st->st_ctim.tv_sec + GRAIN_S <= time(NULL) && !(end && !strcasecmp(end, ".gltf"));
+}
+
 static void keep(const char *path, const char *member, const struct stat *st,
                  const struct rg_mesh *mesh)
 {
-    const char *end = strrchr(path, '.');
     const int64_t bytes = 24 * (int64_t)mesh->vertex_count + 12 * (int64_t)mesh->face_count;
-    if (st->st_ctim.tv_sec + GRAIN_S > time(NULL) || bytes > KEPT_MAX_BYTES ||
-        strlen(path) >= sizeof(kept.path) || strlen(member) >= sizeof(kept.member) ||
-        (end && !strcasecmp(end, ".gltf")))
+    if (bytes > KEPT_MAX_BYTES || strlen(path) >= sizeof(kept.path) ||
+        strlen(member) >= sizeof(kept.member))
         return;
     pthread_mutex_lock(&kept_lock);
     rg_mesh_destroy(kept.mesh);
     snprintf(kept.path, sizeof(kept.path), "%s", path);
     snprintf(kept.member, sizeof(kept.member), "%s", member);
-    kept.changed = st->st_ctim;
-    kept.inode = st->st_ino;
+    kept.file = *st;
     kept.mesh = copy(mesh);
     pthread_mutex_unlock(&kept_lock);
 }
@@ -188,12 +193,14 @@ struct rg_mesh *rg_mesh_read(const char *path, const char *member)
     struct rg_mesh *mesh = take_kept(path, member ? member : "", &st);
     if (mesh)
         return mesh;
+    const bool may_be_kept = shows_changes(path, &st);
     // Long enough for the CPU time that the importer allows itself, even on a busy machine.
     const int timeout_s = (int)(60 + 10 * (int64_t)st.st_size / 1000000);
     if ((mesh = rg_mesh_read_by(program, timeout_s, path, path, member))) {
         const char *file = member ? member : path, *slash = strrchr(file, '/');
         snprintf(mesh->name, sizeof(mesh->name), "%s", slash ? slash + 1 : file);
-        keep(path, member ? member : "", &st, mesh);
+        if (may_be_kept)
+            keep(path, member ? member : "", &st, mesh);
     }
     return mesh;
 }

@@ -97,7 +97,7 @@ struct triangle {
     struct rg_plane plane;
     struct rg_span offset;
     double depths[3];
-    struct rg_fragment fragment; // at hand
+    struct rg_fragment fragment; // of the pixel that is drawn
 };
 
 // With samples, attributes are those of any place in the pixel (OpenGL Shading Language,

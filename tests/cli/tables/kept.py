@@ -186,26 +186,35 @@ def check_scripts(runner):
     return problems
 
 
-# A table of each technique whose first row takes little time, and the parts of it to measure. That of streaks takes as long as all others.
-COUNTED = {("chin-grid", "creus-5.2", "feng-2", "raster-1", "stuppacher-2", "ye-1"): ()}
-COUNTED_FOR_LONG = {("creus-5.4",): ("--work", "paper", "--variant", "no_geometry")}
+# A table of each technique whose first row takes little time, and the parts of it to measure.
+COUNTED = {
+    ("chin-grid", "creus-5.2", "feng-2", "raster-1", "stuppacher-2", "ye-1"): (),
+    ("creus-5.4",): ("--work", "paper", "--variant", "no_geometry"),
+}
 
 
 def without_first_row(record):
     record["cells"] = [cell for cell in record["cells"] if cell["row_number"] != 1]
 
 
-def problems_counted(runner, counted, changes):
-    """Problems of tables that are measured anew, and of same.py if a record of stuppacher-2 is changed."""
+def check_counted(runner):
+    """rows measured anew have the stored tables' counts, to the last error, and same.py names the cell that differs"""
+    changes = {
+        r"tally\.items is \d+, and 1 was kept": lambda record: record["cells"][0]["tally"].update(items=1),
+        r"tally\.records is \d+, and null was kept": lambda record: record["cells"][0]["tally"].pop("records"),
+        r"status is \"ok\", and \"fail\" was kept": lambda record: record["cells"][0].update(status="fail"),
+        r"published\.fps is 480, and 30 was kept": lambda record: record["cells"][0]["published"].update(fps=30),
+        r"is not kept": without_first_row,
+    }
     with tempfile.TemporaryDirectory() as tmp:
-        for tables, words in counted.items():
+        for tables, words in COUNTED.items():
             runner.run(["table", *tables, *words, "--rows", "1-1", "--quick", "--device", "cpu", "-o", tmp + "/new"])
 
         def same(kept):
             done = subprocess.run([sys.executable, "-B", SAME, tmp + "/new", kept], check=False, capture_output=True, text=True)
             return done.returncode, re.sub(r": \d+ cells count the same", "", done.stdout).splitlines(), done.stderr
 
-        tables = sorted(sum(counted, ()))
+        tables = sorted(sum(COUNTED, ()))
         problems = [] if same(KEPT) == (0, tables, "") else ["measured anew: %s" % (same(KEPT),)]
         shutil.copytree(KEPT, tmp + "/kept")
         for says, change in changes.items():
@@ -216,22 +225,6 @@ def problems_counted(runner, counted, changes):
             if status != 1 or not re.fullmatch("stuppacher-2: row 1, full, paper, cpu: " + says, lines[tables.index("stuppacher-2")]):
                 problems.append("%s: status %d, %s" % (says, status, lines))
     return problems
-
-
-def check_counted(runner):
-    """rows measured anew have the stored tables' counts, to the last error, and same.py names the cell that differs"""
-    return problems_counted(runner, COUNTED, {
-        r"tally\.items is \d+, and 1 was kept": lambda record: record["cells"][0]["tally"].update(items=1),
-        r"tally\.records is \d+, and null was kept": lambda record: record["cells"][0]["tally"].pop("records"),
-        r"status is \"ok\", and \"fail\" was kept": lambda record: record["cells"][0].update(status="fail"),
-        r"published\.fps is 480, and 30 was kept": lambda record: record["cells"][0]["published"].update(fps=30),
-        r"is not kept": without_first_row,
-    })
-
-
-def check_counted_for_long(runner):
-    """rows of streaks measured anew have the stored tables' counts"""
-    return problems_counted(runner, COUNTED_FOR_LONG, {})
 
 
 def check_colours(runner):
@@ -410,4 +403,3 @@ def check_dirty_tree(runner):
 
 CHECKS = [check_printed, check_compact, check_damaged, check_walk, check_scripts, check_colours, check_failed_colours, check_claims, check_lengths, check_dirty_tree]
 LONG = [check_counted]
-THOROUGH = [check_counted_for_long]
