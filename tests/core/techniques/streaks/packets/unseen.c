@@ -1,5 +1,6 @@
 // Particles that the rain reports as unseen (kernels/streaks/taps/unseen.h). In views of all kinds
-// none of them has a corner to draw, and they include most particles out of sight.
+// none of them has a corner to draw, and they include most particles out of sight. The others have
+// the view's depths.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,6 +24,8 @@ struct scene {
     uint depths[RG_MAX_LEVELS + SIDE * SIDE], numbers[RG_MAX_LEVELS + SIDE * SIDE];
     uint surfaces[SURFACES * SCENERY_SURFACE_WORDS];
 };
+
+static const double NEAR = 0.1, FAR = 200; // planes of a view
 
 static uint seed, drawn;
 
@@ -73,8 +76,8 @@ static m4 view_of(float x, float y, float s)
     const double across[3] = {-sin(turn), cos(turn), 0};
     const double ahead[3] = {cos(turn) * cos(tilt), sin(turn) * cos(tilt), sin(tilt)};
     const double down[3] = {-cos(turn) * sin(tilt), -sin(turn) * sin(tilt), cos(tilt)};
-    const double wide = 1 / (double)within(0.1f, 2), near = 0.1, far = 200;
-    const double tall = wide * (double)within(1, 2), range = far / (far - near);
+    const double wide = 1 / (double)within(0.1f, 2), range = FAR / (FAR - NEAR);
+    const double tall = wide * (double)within(1, 2);
     double rows[4][4];
     for (int k = 0; k < 3; k++) {
         rows[0][k] = across[k] * wide;
@@ -85,7 +88,7 @@ static m4 view_of(float x, float y, float s)
     for (int row = 0; row < 4; row++)
         rows[row][3] =
             -(rows[row][0] * (double)x + rows[row][1] * (double)y + rows[row][2] * (double)s);
-    rows[2][3] -= near * range;
+    rows[2][3] -= NEAR * range;
     m4 m;
     float *to = &m.xx;
     for (int i = 0; i < 16; i++)
@@ -133,6 +136,14 @@ static streaks_params params_of(void)
     return p;
 }
 
+// A corner's depth depends on its distance ahead alone.
+static void expect_depth(rg_corner c)
+{
+    const double due = ((double)c.w - NEAR) * FAR / (FAR - NEAR);
+    if (fabs((double)c.z - due) > 2e-4)
+        fail_msg("view %u: %g ahead the depth is %g, not %g", seed, (double)c.w, (double)c.z, due);
+}
+
 // Counts a view's particles that the rain reports as unseen, and those that are not drawn.
 static void look(const rg_ctx rg, const streaks_params p, int *unseen, int *dead)
 {
@@ -145,6 +156,12 @@ static void look(const rg_ctx rg, const streaks_params p, int *unseen, int *dead
         const bool is_dead = rg_project(draw, item).fate == RG_FATE_DEAD;
         if (is_unseen && !is_dead)
             fail_msg("view %u: particle %d is unseen, and drawn", seed, i);
+        if (!is_dead) {
+            expect_depth(item.a);
+            expect_depth(item.b);
+            expect_depth(item.c);
+            expect_depth(item.d);
+        }
         *dead += is_dead;
         *unseen += is_unseen;
     }
