@@ -36,6 +36,16 @@ def sections(roff):
     return dict(zip(parts[1::2], parts[2::2]))
 
 
+def check_makes_no_other_page(runner):
+    """the build's program for pages ends with 2 where it is asked for no page, or for one that it does not know, and names both"""
+    problems = []
+    for args in ([], ["manuals"], ["manual", "completion"]):
+        run = subprocess.run([page(runner, "raingauge_pages")] + args, capture_output=True, text=True, check=False)
+        if (run.returncode, run.stdout, run.stderr) != (2, "", "raingauge_pages manual|completion, run by the build\n"):
+            problems.append("%s: %s" % (args, run))
+    return problems
+
+
 def check_manual_is_roff(runner):
     """each line of the manual page is text or a known macro, with known escapes, and ends in the font it began in"""
     problems = []
@@ -268,7 +278,7 @@ def check_documented_commands(runner):
     return problems if tried > 100 else ["only %d commands" % tried]
 
 
-CHECKS = [check_version, check_usage, check_documented_commands, check_manual_is_roff, check_manual_says_what_help_says, check_manual_lists_statuses, check_completed_words,
+CHECKS = [check_version, check_usage, check_documented_commands, check_makes_no_other_page, check_manual_is_roff, check_manual_says_what_help_says, check_manual_lists_statuses, check_completed_words,
           check_typed_lines]
 if shutil.which("man"):
     CHECKS.append(check_manual_renders)

@@ -8,9 +8,11 @@
 
 #include <cmocka.h>
 #include <dlfcn.h>
+#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -126,6 +128,46 @@ static void libgomp_s_complaint_comes_once(void **state)
     assert_int_equal(count_in(wrong, "raingauge: "), 0);
 }
 
+// In a child that may have so many threads and wants four: how many it then has, and what it says.
+// Its user has no other process, so that the limit counts the child's threads alone.
+static int threads_of(int most, char *said, size_t size)
+{
+    enum { NOBODY_ELSE = 1845321 };
+    int ends[2], status;
+    assert_int_equal(pipe(ends), 0);
+    const pid_t child = fork();
+    if (!child) {
+        const struct rlimit limit = {(rlim_t)most, (rlim_t)most};
+        dup2(ends[1], STDERR_FILENO);
+        if (setrlimit(RLIMIT_NPROC, &limit) || setuid(NOBODY_ELSE))
+            _exit(99);
+        omp_set_num_threads(4);
+        rg_threads_fit();
+        _exit(omp_get_max_threads());
+    }
+    close(ends[1]);
+    const ssize_t got = read(ends[0], said, size - 1);
+    said[got > 0 ? got : 0] = 0;
+    close(ends[0]);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WEXITSTATUS(status);
+}
+
+static void no_more_threads_than_there_can_be(void **state)
+{
+    (void)state;
+    char said[512];
+    if (getuid() != 0)
+        skip(); // limits of other users are root's to set
+    assert_int_equal(threads_of(4, said, sizeof(said)), 4);
+    assert_string_equal(said, "");
+    assert_int_equal(threads_of(3, said, sizeof(said)), 3);
+    assert_string_equal(said,
+                        "raingauge: warning: 3 of 4 threads can be started: Resource temporarily "
+                        "unavailable; allow more processes or memory (ulimit -u, -v), or set "
+                        "OMP_NUM_THREADS\n");
+}
+
 int main(int argc, char **argv)
 {
     if (argc > 1 && !strcmp(argv[1], "settle"))
@@ -135,6 +177,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(variables_are_set_right),
         cmocka_unit_test(complaints_come_once),
         cmocka_unit_test(libgomp_s_complaint_comes_once),
+        cmocka_unit_test(no_more_threads_than_there_can_be),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

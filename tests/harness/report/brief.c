@@ -207,6 +207,17 @@ static void findings_are_told_worst_first(void **state)
                     "\n<details><summary>All that fail</summary>\n\n| found | where | why |\n"
                     "|---|---|---|\n" CRASH DIFFERS ERRED
                     "| fail | flow, law on gl | too much |\n\n</details>\n");
+    // Three of them are all in the table above.
+    static const char *const three[][2] = {
+        {"gate",
+         "{'gated': [{'name': 'b', 'ending': 'differs', 'message': 'in 3 pixels'}, {'name': "
+         "'c', 'ending': 'crash', 'message': 'SIGSEGV'}]}"},
+        {"verify", "{'checks': [{'technique': 'ye', 'check': 'image', 'device': 'cpu', 'status': "
+                   "'ok', 'detail': ''}, {'technique': 'ye', 'check': 'image', 'device': 'gl', "
+                   "'status': 'error', 'detail': ''}]}"},
+        {NULL}};
+    expect_markdown(three, "## raingauge\n\nOf 2 cases of the gate, 2 fail.\nOf 2 checks, 1 fail.\n"
+                           "\n| found | where | why |\n|---|---|---|\n" CRASH DIFFERS ERRED);
 }
 
 // A text stays in its cell: marks are escaped, line ends are blanks, and it ends after 300 bytes,

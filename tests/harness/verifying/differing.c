@@ -228,7 +228,7 @@ static void a_law_that_fails_once_fails(void **state)
 
 // --- images ---
 
-// Makes a texel of the picture brighter on cpu.
+// Makes green and blue of a texel of the picture brighter on cpu.
 static bool draw_brighter_on_cpu(struct rg_instance *instance)
 {
     uint16_t texels[16 * 16 * 4];
@@ -238,6 +238,7 @@ static bool draw_brighter_on_cpu(struct rg_instance *instance)
         return true;
     assert_true(rg_image_read(instance->target, 0, 0, texels));
     texels[4 * (16 * 9 + 5) + 1] = 0x4c00; // 16
+    texels[4 * (16 * 9 + 5) + 2] = 0x4c00; // two values are one pixel
     return rg_image_write(instance->target, 0, 0, texels);
 }
 

@@ -251,4 +251,6 @@ ROWS = [
     Fault("harness/commands/tables/verdicts.c", "else if («form == RG_RESULT_TEX»)", "false", "verdicts have no form for TeX", tests=("verdicts that are stored",)),
     Fault("harness/commands/list.c", "if («arguments->count > 1») {\n        rg_error(\"list:", "false", "words that list knows not are skipped", tests=("words that commands refuse",)),
     Fault("harness/commands/tables/sweep.c", "if («*devices»)\n            return rg_error(\"--axis device: stands", "false", "the last axis of devices counts", tests=("words that commands refuse",)),
+    Fault(THREADS, "const int wanted = «omp_get_max_threads() - 1»;", "omp_get_max_threads()", "one thread more than asked for has to be possible", tests=("numbers of threads",)),
+    Fault("harness/commands/pages/main.c", "stderr), «2»;", "0", "the build goes on with a page that is none", tests=("command line, pages",)),
 ]

@@ -364,4 +364,5 @@ ROWS = [
     Fault(TREND, "return !result->is_of_textures && «rg_result_first_missing(result) > result->last_row»;", "rg_result_first_missing(result) >= result->last_row", "a trend needs no last row", tests=("sheets, trends",)),
     Fault("harness/tables/sheet/digits.c", "else if («!strcmp(unit, \"1\") || !strcmp(unit, \"file\")»)", "!strcmp(unit, \"1\")", "The heading of a column of files has a unit: 'model, file'.", tests=("brief",)),
     Fault("harness/tables/claims/parts.c", "sum / squares * «(e->count - 1)»;", "e->count", "a trend over all rows is told for one row too many", tests=("reasons of verdicts",)),
+    Fault("harness/tables/sheet/beside.c", "low, high, «rg_record_disturbed(record) ? \" busy\" : \"\"»);", "\"\"", "disturbed cells are not marked beside their intervals", tests=("sheets, beside",)),
 ]

@@ -275,4 +275,5 @@ ROWS = [
     Fault(MUTANTS, "    «v.settings = settings;»", ";", "a contrast is drawn in the others' scene", tests=("verify",)),
     Fault("harness/compare/verify/checks.c", "\"detail\", «rg_json_text(row->detail)»);", "json_string(row->detail)", "a text that is no UTF-8 has no check", tests=("checks and units of verify",)),
     Fault("harness/compare/shrink/culprit.c", "find(&p, blame, &all, culprit);\n    «rg_log_hold(false);»", ";", "After a search for what crashes or hangs, every later error of the command is kept silent.", tests=("kernels at fault",)),
+    Fault(DEVICES, "«(long long)m.differing_pixels», m.max, m.max_x, m.max_y);", "(long long)m.differing_values", "values that differ are counted as pixels", tests=("differing",)),
 ]

@@ -64,4 +64,5 @@ ROWS = [
     Fault(PICTURES, "{folder, «slash ? slash + 1 : name»}};", "name", "a picture that has moved is not found", tests=("pictures that the page takes",)),
     Fault(PICTURES, "rg_encode(&picture, «1», codes.texels);", "2", "linear light is shown twice as bright", tests=("pictures that the page takes",)),
     Fault(RECORDS, "«json_object_del(measured, \"passes_share\");»", ";", "shares that the page does not show are in it", tests=("the page",)),
+    Fault(BRIEF, "if («failures > WORST») {", "failures >= WORST", "three failures are listed twice", tests=("the page in short",)),
 ]

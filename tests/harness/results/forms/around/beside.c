@@ -292,6 +292,33 @@ static void narrow_pages_have_less(void **state)
     rg_result_free(&rig.result);
 }
 
+// A cell that others disturbed says so with each kind of mark; its neighbour says nothing.
+static void disturbed_cells_are_marked(void **state)
+{
+    (void)state;
+    static const char *const due[] = {
+        [RG_BESIDE_INTERVALS] = "5|400|40.0 [32.0, 50.0] busy 0.10x|4.00 [3.20, 5.00] 0.01x",
+        [RG_BESIDE_TEXTS] = "5|400|40.0 +-25% busy 0.10x|4.00 +-25% 0.01x",
+        [RG_BESIDE_LETTERS] = "5|400|40.0! 0.10x|4.00~ 0.01x",
+    };
+    struct rig rig;
+    sheet_measure_on(&rig, &sheet_axis_table, (double[]){40, 4, 1, 1, 20, 2, 1, 1, 10, 1, 1, 1}, 2);
+    for (struct rg_place at = rg_result_start(&rig.result); rg_result_next(&rig.result, &at);) {
+        struct rg_record *record = rg_result_at(&rig.result, at);
+        record->frame_ms.low = record->frame_ms.median / 1.25;
+        record->frame_ms.high = record->frame_ms.median * 1.25;
+        record->taken[0] = at.device == 0 ? 2 * RG_MOST_TAKEN : 0;
+    }
+    for (int marks = 0; marks < (int)(sizeof(due) / sizeof(due[0])); marks++) {
+        const struct rg_beside_layout layout = {0, (enum rg_beside_marks)marks, false, false};
+        struct rg_sheet sheet;
+        rg_beside_make(&rig.result, (struct rg_place){0}, &layout, &sheet);
+        expect_line(&sheet, 0, due[marks]);
+        rg_sheet_free(&sheet);
+    }
+    rg_result_free(&rig.result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -303,6 +330,7 @@ int main(void)
         cmocka_unit_test(rows_that_are_missing_have_no_line),
         cmocka_unit_test(work_and_errors_have_columns),
         cmocka_unit_test(narrow_pages_have_less),
+        cmocka_unit_test(disturbed_cells_are_marked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
