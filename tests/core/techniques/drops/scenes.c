@@ -161,6 +161,12 @@ const struct scene scenes[] = {
      6,
      {{0, 3, 35.1, 20.2, 0, 0}},
      {{9, 29, 0, 43, 44, 41.0 / 4096}}},
+    // Columns 32 to 63 are a tile. Only from above is the water in row 23 one with the rest.
+    {"water that hangs from whole rows of a tile, when its drop merges",
+     "smooth=off erode=off critical_mass_mg=100",
+     3,
+     {{0, 12, 20.1, 8.3, 0, 0}, {0, 11, 22.2, 8.4, 0, 0}},
+     {{1, 32, 14, 32, 9, 0.6}, {1, 40, 23, 6, 6, 0.5}}},
     {0},
 };
 
