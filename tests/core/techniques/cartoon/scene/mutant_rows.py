@@ -65,6 +65,7 @@ ROWS = [Row(*row) for row in (
     ("a contour by one face", "ink.h", "v3_dot(n, to_eye) * v3_dot(m, to_eye)", "v3_dot(n, to_eye)", OUTLINES),
     ("creases as wide as contours", "ink.h", "? p.crease_px : 0.0f", "? p.contour_px : 0.0f", OUTLINES),
     ("lines do not thin", "ink.h", "* (p.full_m / far)", "* (p.full_m / p.full_m)", OUTLINES),
+    ("a line is as wide as at its nearer end", "ink.h", "rg_max(rg_max(a.w, b.w), p.full_m)", "rg_max(rg_min(a.w, b.w), p.full_m)", OUTLINES),
     ("half as wide", "ink.h", "s.reach = 0.5f * width_px + 0.5f;", "s.reach = 0.25f * width_px + 0.5f;", OUTLINES),
     ("sharp sides", "ink.h", "s.reach = 0.5f * width_px + 0.5f;", "s.reach = 0.5f * width_px + 1.0f;", OUTLINES),
     ("nothing hides lines", "ink.h", "depth <= farthest + r.slack ? 1 : 0", "depth <= 2.0f ? 1 : 0", OUTLINES),

@@ -309,6 +309,22 @@ static void add_sheet(struct shape *s, double x0, double x1, double y0, double y
     shape_quad(s, corners);
 }
 
+// The left side of a sheet that falls away, from 3 m ahead to 6 m. It crosses a pixel's row for
+// each third of a column, and is as wide as its farther end.
+static void a_receding_line_has_its_far_end_s_width(void **state)
+{
+    const double corners[4][3] = {{-1, -1, 1}, {1, -1, 1}, {1, 1, -2}, {-1, 1, -2}};
+    const double eye[3] = {0, 0, 4};
+    const struct pen pen = {3, 0, 40, 3};
+    struct shape *s = shape_new();
+    shape_quad(s, corners);
+    struct drawing d = outline(*state, s, eye, origin, pen);
+    const double across = ink_of_rect(&d, 0, 100, SIZE / 2, 140) / 40;
+    assert_below(fabs(across / sqrt(1 + 1 / 9.0) - 1.5), 0.04);
+    drawing_free(&d);
+    free(s);
+}
+
 // A sheet has its boundary drawn, seen from either side, and not its diagonal. A line has the width
 // that was asked for, and less beyond a distance.
 static void a_sheet_has_a_boundary(void **state)
@@ -455,6 +471,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(edges_of_odd_faces),
         cmocka_unit_test(a_cube_from_a_corner),
         cmocka_unit_test(a_ball_has_a_round_contour),
+        cmocka_unit_test(a_receding_line_has_its_far_end_s_width),
         cmocka_unit_test(a_sheet_has_a_boundary),
         cmocka_unit_test(a_wall_hides_what_is_behind),
         cmocka_unit_test(a_wall_hides_what_is_close_behind),
