@@ -98,6 +98,7 @@ ROWS = [Row(*row) for row in (
     ("no beads", "sliding/cling.h", "rg_max(water - held, 0.0f)", "water", SLIDING),
     ("beads beside the axis too", "sliding/cling.h",
      "bead_of(rg, p, z, x, y) * ridge", "bead_of(rg, p, z, x, y)", SLIDING),
+    ("all panes have the same beads", "sliding/cling.h", " + z * (p.size / FLOW_MAX_PANES)", "", SLIDING),
     ("sliding stops at the slowest pace", "sliding/slide.h", "int pace = 1;", "int pace = 2;", SLIDING),
     ("down is up", "sliding/slide.h",
      "i - ways_at(rg, way + 1) * stride", "i + ways_at(rg, way + 1) * stride", SLIDING),
