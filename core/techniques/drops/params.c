@@ -23,7 +23,7 @@ static const struct rg_param rows[] = {
     {"substeps", RG_PARAM_INT, AT(substeps), 4, 1, 64, "1", "number of parts of a step, in each of which drops choose their way anew (b)", NULL},
     {"remove_s", RG_PARAM_FLOAT, AT(remove_s), -1, -1, 1000000, "s", "time at which all drops are removed, so that water shrinks; -1: never", NULL},
     {"rules", RG_PARAM_CHOICE, AT(rules), DROPS_PAPER, 0, 1, "1", "units of how far drops see, the least drop, flattening and thinning: cells and steps, as in the paper, or mm and s; both agree at cells of 0.5 mm and steps of 1/60 s", "paper physical"},
-    {"trail", RG_PARAM_CHOICE, AT(trail), DROPS_HEMISPHERES, 0, 2, "1", "trail of a drop: hemispheres 1.5 cells apart, one hemisphere swept along the line, or hemispheres that break into beads", "hemispheres lines beads"},
+    {"trail", RG_PARAM_CHOICE, AT(trail), DROPS_TRAIL_BEADS, 0, 2, "1", "trail of a drop: the paper's hemispheres 1.5 cells apart, one hemisphere swept along the line, or hemispheres that break into beads", "hemispheres lines beads"},
     {"erode_mm", RG_PARAM_FLOAT, AT(erode_mm), 0.01, 0, 10, "mm", "height below which water is removed, where it is smoothed (T_e)", NULL},
     {"owned_mm", RG_PARAM_FLOAT, AT(owned_mm), 0.5, 0, 10, "mm", "height below which water belongs to no drop, where it is smoothed (T_id)", NULL},
     {"erode", RG_PARAM_CHOICE, AT(erode), 1, 0, 1, "1", "whether trails become thinner", "off on"},

@@ -2,12 +2,14 @@
 // on panes of ours (docs/drops.md).
 #include "harness/tables/figures/figures.h"
 
+// The paper's trails do not break into beads.
+#define PAPER "trail=hemispheres "
 // A pane of 125 by 75 mm.
-#define PANE "columns=250 rows=150 seed=2 "
+#define PANE PAPER "columns=250 rows=150 seed=2 "
 // Few drops, which leave no others behind.
 #define ALONE PANE "drops_s=4 residual=off "
 // The paper's pane, in more rain.
-#define OPERATED "drops_s=30 view=height "
+#define OPERATED PAPER "drops_s=30 view=height "
 
 const struct rg_figure rg_figures_chin[] = {
     {.id = "chin-2",

@@ -5,8 +5,8 @@
 
 enum { OFF, ON };
 
-// The paper's program draws particles.
-#define VIEW "view=particles"
+// The paper's program draws particles, and its trails do not break into beads.
+#define VIEW "view=particles trail=hemispheres"
 // Rain is so heavy that after `steps` the number of drops reaches its limit and water merges in
 // every step. By the paper's rules drops at rest stay, and on a pane full of them nothing happens.
 // Since water gathers, the 20 steps after these are timed.

@@ -331,8 +331,7 @@ static const struct {
            "2",
      "drops.png: drops, frame 77, 640x384, on first (one); model bunny?\n"
      "  as by --set environment=street-night --set environment_px=512 --set aperture_mm=12 "
-     "--set columns=500 --set rows=300 --set trail=beads --size 640x384 --frame 900 --exposure "
-     "3\n"},
+     "--set columns=500 --set rows=300 --size 640x384 --frame 900 --exposure 3\n"},
     {"render flow --frames 3-5 --size 8x4",
      USUAL "flow seed 1, 8x4, frames 3-5 into flow.webm, 60 a second, exposure 1 on first; end; "
            "close 2",

@@ -13,6 +13,7 @@
 
 #include "core/base/log.h"
 #include "core/image/files/io.h"
+#include "core/techniques/drops/drops.h"
 #include "harness/devices/frames/frame.h"
 #include "harness/tables/figures/figures.h"
 #include "tests/tools/expect.h"
@@ -51,6 +52,25 @@ static void test_settings_are_taken(void **state)
     assert_null(rg_figure_find("creus-0.0"));
     assert_null(rg_figure_find("chin-4")); // a part of a name is none
     assert_null(rg_figure_find("chin-4aa"));
+}
+
+// By default drops leave beads. The paper's drops leave trails, which several captions tell of.
+static void test_papers_trails_are_drawn(void **state)
+{
+    (void)state;
+    const struct rg_figure *figure;
+    int count = 0;
+    for (int i = 0; (figure = rg_figure_at(i)); i++) {
+        struct drops_settings settings;
+        if (strcmp(figure->technique, "drops") != 0)
+            continue;
+        rg_params_reset(&drops_param_table, &settings);
+        assert_int_equal(settings.trail, DROPS_TRAIL_BEADS);
+        assert_true(rg_params_set_all(&drops_param_table, &settings, figure->settings));
+        assert_int_equal(settings.trail, DROPS_HEMISPHERES);
+        count++;
+    }
+    assert_int_equal(count, 13);
 }
 
 // Captions say how long after the one before a figure is.
@@ -249,6 +269,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_settings_are_taken),
         cmocka_unit_test(test_all_figures_are_there),
+        cmocka_unit_test(test_papers_trails_are_drawn),
         cmocka_unit_test(test_later_figures_are_later),
         cmocka_unit_test(test_drawn),
         cmocka_unit_test(test_not_drawn),

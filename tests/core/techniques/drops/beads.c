@@ -188,11 +188,20 @@ static void test_the_glass_holds_beads_anywhere(void **state)
     rig_close(d);
 }
 
+static void test_beads_are_the_default(void **state)
+{
+    (void)state;
+    struct drops_settings s;
+    rg_params_reset(&drops_param_table, &s);
+    assert_int_equal(s.trail, DROPS_TRAIL_BEADS);
+}
+
 int main(int argc, char **argv)
 {
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
     assert_non_null(device);
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_beads_are_the_default),
         cmocka_unit_test(test_a_trail_breaks_into_beads),
         cmocka_unit_test(test_no_low_band_stands),
         cmocka_unit_test(test_beads_stand_on_a_part_of_the_way),

@@ -5,12 +5,14 @@
 struct drops *rig_open_sized(struct rg_device *device, const char *assignments, int width,
                              int height)
 {
-    return (struct drops *)instance_of(device, "drops", "", assignments, width, height);
+    return (struct drops *)instance_of(device, "drops", "trail=hemispheres", assignments, width,
+                                       height);
 }
 
 struct drops *rig_open(struct rg_device *device, const char *assignments)
 {
-    return (struct drops *)instance_of(device, "drops", "view=height", assignments, 32, 32);
+    return (struct drops *)instance_of(device, "drops", "view=height trail=hemispheres",
+                                       assignments, 32, 32);
 }
 
 void rig_close(struct drops *d)
