@@ -27,6 +27,8 @@
 #define FILL     0.5
 #define STEEPER  5.0
 #define HOLDS_MM 40.0 // a texel; water above it drips off
+// Surface tension over the weight of a volume, of water at 20 degrees: 0.0728 N/m, 998 kg/m3.
+#define CAPILLARY_MM2 7.44
 
 static int texels_a_cell(const struct flow_settings *s)
 {
@@ -121,6 +123,57 @@ int flow_relax_reach(const struct flow_settings *s, int run)
     return reaches[first_reach(s) + run % (REACHES - first_reach(s))];
 }
 
+static double slowest_mm_s(const struct flow_settings *s)
+{
+    return s->slide_most_mm_s * pow(FLOW_PACE_RATIO, 2 - FLOW_PACES);
+}
+
+// The water around the middle of a cap, in the middle of a cell: its water under the Gaussian of
+// AROUND_RUNS runs, which the mean over a cell widens.
+static double around_mm3(const struct flow_settings *s, double radius_mm)
+{
+    enum { STEPS = 1000 };
+    const double cell_mm = texels_a_cell(s) * flow_texel_mm(s), step_mm = radius_mm / STEPS;
+    const double smoothed_mm2 = AROUND_RUNS * SMOOTHED_MM2;
+    const double all_mm2 = smoothed_mm2 + cell_mm * cell_mm / 12;
+    const double sphere_mm = radius_mm / sin(s->contact_deg * M_PI / 180);
+    const double depth_mm = sphere_mm * cos(s->contact_deg * M_PI / 180);
+    double sum = 0;
+    for (int i = 0; i < STEPS; i++) {
+        const double r = (i + 0.5) * step_mm;
+        sum += 2 * M_PI * r * step_mm * (sqrt(sphere_mm * sphere_mm - r * r) - depth_mm) *
+               exp(-r * r / (2 * all_mm2));
+    }
+    return sum * smoothed_mm2 / all_mm2;
+}
+
+// The radius of the contact. Water slides that would at the slowest pace.
+static double held_radius_mm(const struct flow_settings *s)
+{
+    const double most_mm3 = s->slide_gain_mm_s > 0
+                                ? s->slide_above_mm3 * (1 + slowest_mm_s(s) / s->slide_gain_mm_s)
+                                : INFINITY;
+    double least = 0, most = s->pane_mm;
+    for (int i = 0; i < 60; i++) {
+        const double middle = (least + most) / 2;
+        *(around_mm3(s, middle) < most_mm3 ? &least : &most) = middle;
+    }
+    return least;
+}
+
+double flow_held_mm3(const struct flow_settings *s)
+{
+    const double r = held_radius_mm(s), height = r * tan(s->contact_deg * M_PI / 360);
+    return (double)(float)(M_PI / 6 * height * (3 * r * r + height * height));
+}
+
+double flow_receding_deg(const struct flow_settings *s)
+{
+    const double carried = flow_held_mm3(s) / (2 * held_radius_mm(s) * CAPILLARY_MM2);
+    const double cosine = cos(s->contact_deg * M_PI / 180) + carried;
+    return cosine < 1 ? (double)(float)(acos(cosine) * 180 / M_PI) : 0;
+}
+
 flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t run)
 {
     const int k = texels_a_cell(s);
@@ -135,7 +188,7 @@ flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t ru
         .side_weight = (float)(SMOOTHED_MM2 / (2 * cell_mm2)),
         .slides_above = (float)(s->slide_above_mm3 / around_mm2 * to_height),
         .gain_mm_s = (float)s->slide_gain_mm_s,
-        .slowest_mm_s = (float)(s->slide_most_mm_s * pow(FLOW_PACE_RATIO, 2 - FLOW_PACES)),
+        .slowest_mm_s = (float)slowest_mm_s(s),
         .reach2 = (float)(REACH_MM * REACH_MM / cell_mm2),
         .aside = (float)fmin(ASIDE_MM / cell_mm, FLOW_MARGIN - 2),
         .levelling = (float)(levelled(s) / MOST_MM * s->relief /

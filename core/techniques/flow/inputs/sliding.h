@@ -16,6 +16,12 @@ int flow_relax_runs(const struct flow_settings *settings);
 // The distance in texels between those that level with one another: 1, 2 or 4.
 int flow_relax_reach(const struct flow_settings *settings, int run);
 
+// The largest cap of contact_deg that an upright pane holds, and the receding angle by which its
+// contact line would carry it (Furmidge): surface tension times width times the difference of both
+// angles' cosines is the weight. 0: no angle does.
+double flow_held_mm3(const struct flow_settings *settings);
+double flow_receding_deg(const struct flow_settings *settings);
+
 // The parameters of a run's kernels; runs are numbered through all frames.
 flow_slide_params flow_slide_params_at(const struct flow_settings *settings, int64_t run);
 // The distance that water slides in a run, in whole texels: right and down, for each pane and pace.
