@@ -216,15 +216,17 @@ void city_post(struct city_builder *b, double x, double z, double y0, double y1,
                   on_circle(x, y1, z, radius1, 0.625), on_circle(x, y1, z, radius1, 0.875), look);
 }
 
-void city_lamp_add(struct city_builder *b, enum city_lamp_kind kind, point at, point direction)
+struct city_lamp *city_lamp_add(struct city_builder *b, enum city_lamp_kind kind, point at,
+                                point direction)
 {
     struct city *city = b->city;
     if (!grow(b, &city->lamps, city->lamp_count, &b->lamp_room, sizeof(*city->lamps)))
-        return;
+        return NULL;
     struct city_lamp *lamp = &city->lamps[city->lamp_count++];
-    lamp->kind = kind;
+    *lamp = (struct city_lamp){.kind = kind};
     put_corner(lamp->position, at);
     put_corner(lamp->direction, direction);
+    return lamp;
 }
 
 void city_box_add(struct city_builder *b, point low, point high)

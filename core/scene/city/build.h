@@ -67,7 +67,9 @@ void city_box(struct city_builder *b, point low, point high, int sides, const st
 void city_post(struct city_builder *b, double x, double z, double y0, double y1, double radius0,
                double radius1, int sides, const struct look *look);
 void city_box_add(struct city_builder *b, point low, point high);
-void city_lamp_add(struct city_builder *b, enum city_lamp_kind kind, point at, point direction);
+// The lamp, whose tint can be set until the next is added; NULL where memory ran out.
+struct city_lamp *city_lamp_add(struct city_builder *b, enum city_lamp_kind kind, point at,
+                                point direction);
 
 // The street plan (plan.c): lines of streets, and blocks between them.
 enum { CITY_COLUMNS = 6, CITY_ROWS = 6 };

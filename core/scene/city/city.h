@@ -50,12 +50,14 @@ enum city_lamp_kind {
     CITY_TRAFFIC_GREEN,
     CITY_HEADLIGHT,
     CITY_TAIL_LIGHT,
+    CITY_SIGN, // over a shop's windows
     CITY_LAMP_KINDS
 };
 struct city_lamp {
     enum city_lamp_kind kind;
     float position[3];
     float direction[3]; // the direction of its light, of unit length
+    float tint[3];      // of signs: their linear colour, of luminance 1
 };
 
 // A scene's faces: planar quads, each of two triangles, and triangles, whose last corner is

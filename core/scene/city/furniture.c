@@ -183,15 +183,27 @@ static void car_body(struct city_builder *b, const point low[4], const point hig
     city_quad(b, high[0], high[1], high[2], high[3], lid);
 }
 
-// The lights of a car that waits with its lights on, one at each end. Low beams point down a
-// little.
+// The lights of a car that waits with its lights on, one at each end. A low beam's cone points so
+// far down that it ends 2 degrees above the horizon.
 static void light_car(struct city_builder *b, double x, double z, bool along_z)
 {
-    const double down = 0.05, level = sqrt(1 - down * down);
+    const double down = sin(12 * M_PI / 180), level = sqrt(1 - down * down);
     const point ahead = along_z ? (point){0, -down, level} : (point){level, -down, 0};
     const point behind = along_z ? (point){0, 0, -1} : (point){-1, 0, 0};
     city_lamp_add(b, CITY_HEADLIGHT, car_point(x, z, along_z, 0, 0.65, 2.3), ahead);
     city_lamp_add(b, CITY_TAIL_LIGHT, car_point(x, z, along_z, 0, 0.65, -2.3), behind);
+}
+
+// The two lamps of a car's end, between two heights and two places along the car.
+static void car_lamps(struct city_builder *b, const point *car, bool along_z, const double y[2],
+                      const double ahead[2], const struct look *look)
+{
+    for (int i = -1; i <= 1; i += 2) {
+        const point p = car_point(car->x, car->z, along_z, 0.6 * i - 0.18, y[0], ahead[0]);
+        const point q = car_point(car->x, car->z, along_z, 0.6 * i + 0.18, y[1], ahead[1]);
+        city_box(b, (point){fmin(p.x, q.x), p.y, fmin(p.z, q.z)},
+                 (point){fmax(p.x, q.x), q.y, fmax(p.z, q.z)}, BOX_ALL, look);
+    }
 }
 
 static void build_car(struct city_builder *b, double x, double z, bool along_z)
@@ -199,7 +211,8 @@ static void build_car(struct city_builder *b, double x, double z, bool along_z)
     if (is_before_camera(x, z))
         return;
     const uint32_t id = place_of(x, z);
-    if (city_chance(b, CHANCE_LIT, id, 0) < 0.35)
+    const bool is_lit = city_chance(b, CHANCE_LIT, id, 0) < 0.65;
+    if (is_lit)
         light_car(b, x, z, along_z);
     if (!is_full(b))
         return;
@@ -239,13 +252,14 @@ static void build_car(struct city_builder *b, double x, double z, bool along_z)
         city_box(b, (point){fmin(p.x, q.x), 0, fmin(p.z, q.z)},
                  (point){fmax(p.x, q.x), 0.6, fmax(p.z, q.z)}, BOX_WALLS, &tyre);
     }
-    const struct look lamp = {PAINT_LIGHT, SCENERY_KIND_LIGHT, 1, 0x2020a0u, 2};
-    for (int i = -1; i <= 1; i += 2) {
-        const point p = car_point(x, z, along_z, 0.6 * i - 0.18, 0.58, -l - 0.01);
-        const point q = car_point(x, z, along_z, 0.6 * i + 0.18, 0.72, -l + 0.05);
-        city_box(b, (point){fmin(p.x, q.x), p.y, fmin(p.z, q.z)},
-                 (point){fmax(p.x, q.x), q.y, fmax(p.z, q.z)}, BOX_ALL, &lamp);
-    }
+    const struct look tail = {PAINT_LIGHT, SCENERY_KIND_LIGHT, 1, 0x2020a0u, 2};
+    const struct look head = {PAINT_LIGHT, SCENERY_KIND_LIGHT, 1, 0xd8f0ffu, 7};
+    const point car = {x, 0, z};
+    car_lamps(b, &car, along_z, (const double[]){0.58, 0.72},
+              (const double[]){-l - 0.01, -l + 0.05}, &tail);
+    if (is_lit)
+        car_lamps(b, &car, along_z, (const double[]){0.58, 0.74},
+                  (const double[]){l - 0.1, l + 0.01}, &head);
 }
 
 // Parks cars along the east and north side of an island.

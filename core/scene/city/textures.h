@@ -37,4 +37,10 @@ struct facade_style {
 };
 struct facade_style city_facade_style(const struct city_settings *settings, int texture);
 
+// The sign over a shop's windows, as shares of the texture's height from below.
+#define CITY_SIGN_LOW  0.74f
+#define CITY_SIGN_HIGH 0.90f
+// Whether a shop's sign shines, and the linear colour of its light, of luminance 1.
+bool city_shop_sign(const struct city_settings *settings, int texture, float tint[3]);
+
 #endif

@@ -1,5 +1,6 @@
 #include <math.h>
 
+#include "core/techniques/scenery/lights/lights.h"
 #include "core/techniques/streaks/packets/packets.h"
 #include "core/techniques/streaks/streaks.h"
 
@@ -54,7 +55,7 @@ static const struct rg_param rows[] = {
     {"view_angle_deg", RG_PARAM_FLOAT, AT(view_angle_deg), 50, 1, 150, "deg", "vertical angle of view", NULL},
     {"walk_m_s", RG_PARAM_FLOAT, AT(walk_m_s), 0, -1000, 1000, "m/s", "speed at which the camera walks ahead, swaying and bobbing", NULL},
     {"step_s", RG_PARAM_FLOAT, AT(step_s), 1.0 / 60, 1e-4, 1, "s", "simulated time per frame", NULL},
-    {"lights", RG_PARAM_INT, AT(lights), 1, 0, 16, "1", "number of the scene's lights that shine", NULL},
+    {"lights", RG_PARAM_INT, AT(lights), SCENERY_USUAL_LIGHTS, SCENERY_USUAL_LIGHTS, 16, "1", "number of the scene's lights that shine; -1: by day the sun, by night 16 lights", NULL},
     {"lights_file", RG_PARAM_FILE, AT(lights_file), 0, 0, 0, "file", "JSON file with lights in place of the scene's", ""},
     {"environment_light", RG_PARAM_CHOICE, AT(environment_light), 1, 0, 1, "1", "whether the sky lights particles", "off on"},
     {"shadows", RG_PARAM_CHOICE, AT(shadows), 1, 0, 1, "1", "whether the scene casts shadows on itself and on particles", "off on"},

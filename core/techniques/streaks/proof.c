@@ -119,7 +119,7 @@ static const struct rg_contrast contrasts[] = {
 const struct rg_proof streaks_proof = {
     .poses = poses,
     .dry = "fit=off drops=off splashes=off",
-    .mutant_scene = NEAR "streak_gain=20 splash_gain=20",
+    .mutant_scene = NEAR "lights=1 streak_gain=20 splash_gain=20",
     .laws = laws,
     .mutants = mutants,
     .contrasts = contrasts,

@@ -231,10 +231,18 @@ static void what_is_no_file_is_refused(void **state)
 // --- presets ---
 
 static const struct city_lamp lamps[] = {
-    {CITY_TRAFFIC_GREEN, {3, 2, 0}, {1, 0, 0}}, {CITY_STREET_LAMP, {40, 8, 0}, {0, -1, 0}},
-    {CITY_STREET_LAMP, {10, 8, 0}, {0, -1, 0}}, {CITY_STREET_LAMP, {-20, 8, 0}, {0, -1, 0}},
-    {CITY_TRAFFIC_RED, {90, 2, 0}, {0, 0, 1}},  {CITY_STREET_LAMP, {0, 8, 30}, {0, -1, 0}},
-    {CITY_TRAFFIC_RED, {-50, 2, 0}, {0, 0, 1}}, {CITY_TRAFFIC_RED, {-50, 2, 0}, {0, 0, -1}},
+    {CITY_TRAFFIC_GREEN, {3, 2, 0}, {1, 0, 0}, {0}},
+    {CITY_STREET_LAMP, {40, 8, 0}, {0, -1, 0}, {0}},
+    {CITY_STREET_LAMP, {10, 8, 0}, {0, -1, 0}, {0}},
+    {CITY_STREET_LAMP, {-20, 8, 0}, {0, -1, 0}, {0}},
+    {CITY_TRAFFIC_RED, {90, 2, 0}, {0, 0, 1}, {0}},
+    {CITY_STREET_LAMP, {0, 8, 30}, {0, -1, 0}, {0}},
+    {CITY_TRAFFIC_RED, {-50, 2, 0}, {0, 0, 1}, {0}},
+    {CITY_TRAFFIC_RED, {-50, 2, 0}, {0, 0, -1}, {0}},
+    {CITY_SIGN, {0, 4, 5}, {0, 0, 1}, {2, 0.7f, 0.2f}},
+    {CITY_SIGN, {0, 4, 6}, {0, 0, 1}, {0.5f, 1, 1}},
+    {CITY_HEADLIGHT, {4, 0.6f, 0}, {1, 0, 0}, {0}},
+    {CITY_TRAFFIC_GREEN, {70, 2, 0}, {1, 0, 0}, {0}},
 };
 enum { LAMPS = sizeof(lamps) / sizeof(lamps[0]) };
 
@@ -260,18 +268,128 @@ static void check_lights(enum scenery_time time, const int *due, int count)
         const float *c = light->colour;
         assert_true(lamps[due[i]].kind != CITY_TRAFFIC_RED || c[0] > 4 * c[1]);
         assert_true(lamps[due[i]].kind != CITY_TRAFFIC_GREEN || c[1] > 4 * c[0]);
+        const float *tint = lamps[due[i]].tint;
+        assert_true(lamps[due[i]].kind != CITY_SIGN ||
+                    fabsf(c[0] * tint[2] - c[2] * tint[0]) < 1e-4f);
     }
 }
 
 static void lights_come_in_the_order_of_the_figure(void **state)
 {
     (void)state;
-    static const int by_day[LAMPS + 1] = {-1, 2, 3, 5, 6, 0, 1, 7, 4};
-    static const int by_night[LAMPS + 1] = {2, 3, 5, 6, 0, -1, 1, 7, 4};
+    static const int by_day[LAMPS + 1] = {-1, 2, 3, 5, 6, 0, 8, 7, 10, 9, 11, 4, 1};
+    static const int by_night[LAMPS + 1] = {2, 3, 5, 6, 0, -1, 8, 7, 10, 9, 11, 4, 1};
     for (int count = 1; count <= LAMPS + 1; count++) {
         check_lights(SCENERY_DAY, by_day, count);
         check_lights(SCENERY_NIGHT, by_night, count);
     }
+}
+
+// As many lights as a time has unless they are counted: fewer where there are no more.
+static void a_time_has_its_usual_lights(void **state)
+{
+    (void)state;
+    static const int due[][2] = {{1, LAMPS + 1}, {1, 1}}; // by day and night, with lamps or none
+    errors = 0;
+    for (int i = 0; i < 4; i++) {
+        const struct scenery_lights_settings settings = {.count = SCENERY_USUAL_LIGHTS,
+                                                         .time = (enum scenery_time)(i % 2),
+                                                         .lamps = lamps,
+                                                         .lamp_count = i < 2 ? LAMPS : 0};
+        struct rg_lights lights;
+        assert_true(scenery_lights_choose(&settings, &lights));
+        assert_int_equal(lights.count, due[i / 2][i % 2]);
+    }
+    assert_int_equal(errors, 0);
+}
+
+// --- photometry ---
+
+static double luminance(const float c[3])
+{
+    return 0.2126 * (double)c[0] + 0.7152 * (double)c[1] + 0.0722 * (double)c[2];
+}
+
+// The solid angle that a light's cone fills as brightly as its middle.
+static double cone_sr(const struct rg_light *l)
+{
+    enum { STEPS = 100000 };
+    const double in = cos((double)l->inner_deg * M_PI / 180),
+                 out = cos((double)l->outer_deg * M_PI / 180);
+    double sum = 0;
+    for (int i = 0; i < STEPS; i++) {
+        const double t = fmin(fmax((cos(M_PI * (i + 0.5) / STEPS) - out) / (in - out), 0), 1);
+        sum += t * t * (3 - 2 * t) * 2 * M_PI * sin(M_PI * (i + 0.5) / STEPS) * M_PI / STEPS;
+    }
+    return sum;
+}
+
+static struct rg_light only_light(enum city_lamp_kind kind)
+{
+    const struct city_lamp lamp = {kind, {0, 8, 0}, {0, -1, 0}, {1, 1, 1}};
+    const struct scenery_lights_settings settings = {
+        .count = SCENERY_USUAL_LIGHTS, .time = SCENERY_NIGHT, .lamps = &lamp, .lamp_count = 1};
+    struct rg_lights lights;
+    assert_true(scenery_lights_choose(&settings, &lights));
+    assert_int_equal(lights.count, 2); // the other is the moon
+    return lights.lights[lights.lights[0].kind == SCENERY_SUN];
+}
+
+// If a street lamp has 10,000 lm, other lamps have the candelas that docs/lights.md says.
+static void lamps_have_real_strengths(void **state)
+{
+    (void)state;
+    static const struct {
+        enum city_lamp_kind kind;
+        double low_cd, high_cd;
+    } due[] = {{CITY_SIGN, 1440, 1500}, // 300 cd/m2, 7 m x 0.7 m
+               {CITY_HEADLIGHT, 2900, 3100},
+               {CITY_TRAFFIC_RED, 100, 400},
+               {CITY_TRAFFIC_GREEN, 100, 800},
+               {CITY_TAIL_LIGHT, 8, 34}};
+    const struct rg_light lamp = only_light(CITY_STREET_LAMP);
+    const double lamp_cd = 10000 / cone_sr(&lamp), cd = lamp_cd / luminance(lamp.colour);
+    print_message("a street lamp: %.0f cd; a radiance of 1: %.2f cd/m2\n", lamp_cd, cd / M_PI);
+    for (int i = 0; i < 5; i++) {
+        const struct rg_light light = only_light(due[i].kind);
+        print_message("kind %d: %.0f cd\n", (int)due[i].kind, cd * luminance(light.colour));
+        assert_in_range(cd * luminance(light.colour), due[i].low_cd, due[i].high_cd);
+    }
+    // Rain 2 m before a sign, whose light is half a metre behind it, and 3.5 m below a lamp.
+    const double sign_cd = cd * luminance(only_light(CITY_SIGN).colour);
+    print_message("%.0f lx, %.0f lx\n", sign_cd / 2.5 / 2.5, lamp_cd / 3.5 / 3.5);
+    assert_below(fabs(sign_cd / 2.5 / 2.5 / (lamp_cd / 3.5 / 3.5) - 1), 0.05);
+}
+
+// A sign's light has the colour of the sign as it is painted.
+static void signs_have_their_colours(void **state)
+{
+    (void)state;
+    const struct city_settings settings = {1, CITY_FULL};
+    const size_t count = (size_t)CITY_TEXTURE_PX * CITY_TEXTURE_PX;
+    uint32_t *texels = malloc(count * sizeof(*texels));
+    struct city_painter *painter = city_painter_create(&settings);
+    int lit = 0;
+    assert_non_null(texels);
+    assert_non_null(painter);
+    for (int texture = PAINT_SHOP; texture < PAINT_WALL; texture++) {
+        float sum[3] = {0}, tint[3];
+        city_paint(painter, texture, texels);
+        for (size_t i = 0; i < count; i++) {
+            const double y = 1 - ((double)(i / CITY_TEXTURE_PX) + 0.5) / CITY_TEXTURE_PX;
+            for (int c = 0; c < 3 && y > 0.74 && y < 0.9; c++) {
+                const double root = (texels[i] >> 8 * c & 255) / 255.0;
+                sum[c] += (float)(root * root * (texels[i] >> 24) / 255.0);
+            }
+        }
+        assert_equals(city_shop_sign(&settings, texture, tint), luminance(sum) > 0);
+        lit += luminance(sum) > 0;
+        for (int c = 0; c < 3 && luminance(sum) > 0; c++)
+            assert_below(fabs((double)tint[c] * luminance(sum) / (double)sum[c] - 1), 0.06);
+    }
+    assert_above(lit, 2);
+    city_painter_destroy(painter);
+    free(texels);
 }
 
 // The light of a shop's painted front by night, at 1 m before a lamp of its size and on a white
@@ -290,11 +408,11 @@ static double painted(const struct city_painter *painter, int texture, int chann
     return sum / count * glow * front_m2 / M_PI;
 }
 
-// Why signs and windows are no lights of a scene: a street lamp has a hundred times as much.
+// Why painted windows are no lights of a scene: a street lamp has a hundred times as much.
 static void shops_are_faint_beside_lamps(void **state)
 {
     (void)state;
-    static const struct city_lamp lamp = {CITY_STREET_LAMP, {0, 8, 0}, {0, -1, 0}};
+    static const struct city_lamp lamp = {CITY_STREET_LAMP, {0, 8, 0}, {0, -1, 0}, {0}};
     const struct scenery_lights_settings settings = {
         .count = 1, .time = SCENERY_NIGHT, .lamps = &lamp, .lamp_count = 1};
     struct rg_lights lights;
@@ -325,7 +443,7 @@ static void more_lights_than_lamps_are_refused(void **state)
         errors = 0;
         assert_false(scenery_lights_choose(&settings, &lights));
         assert_int_equal(errors, 1);
-        assert_non_null(strstr(rg_last_error(), "ask for 9"));
+        assert_non_null(strstr(rg_last_error(), "ask for 13"));
     }
 }
 
@@ -340,6 +458,9 @@ int main(void)
         cmocka_unit_test(files_are_of_256_kib_at_most),
         cmocka_unit_test(what_is_no_file_is_refused),
         cmocka_unit_test(lights_come_in_the_order_of_the_figure),
+        cmocka_unit_test(a_time_has_its_usual_lights),
+        cmocka_unit_test(lamps_have_real_strengths),
+        cmocka_unit_test(signs_have_their_colours),
         cmocka_unit_test(shops_are_faint_beside_lamps),
         cmocka_unit_test(more_lights_than_lamps_are_refused),
     };

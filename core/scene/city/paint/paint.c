@@ -11,6 +11,11 @@ enum { CHANCE_NOISE = 401 };
 
 // --- noise ---
 
+static uint32_t noise_seed(const struct city_settings *settings)
+{
+    return rg_random((uint)settings->seed, 0, 0, CHANCE_NOISE).x;
+}
+
 // Periodic smooth noise of `across` x `down` cells over the unit square.
 static float smooth(float u, float v, int across, int down, uint32_t seed)
 {
@@ -61,7 +66,7 @@ struct city_painter *city_painter_create(const struct city_settings *settings)
         city_painter_destroy(p);
         return NULL;
     }
-    const uint32_t seed = p->seed = rg_random((uint)settings->seed, 0, 0, CHANCE_NOISE).x;
+    const uint32_t seed = p->seed = noise_seed(settings);
 #pragma omp parallel for
     for (int y = 0; y < size; y++) {
         for (int x = 0; x < size; x++) {
@@ -73,6 +78,13 @@ struct city_painter *city_painter_create(const struct city_settings *settings)
         }
     }
     return p;
+}
+
+bool city_shop_sign(const struct city_settings *settings, int texture, float tint[3])
+{
+    const struct city_painter painter = {.seed = noise_seed(settings)};
+    struct spot s = {.painter = &painter, .texture = texture};
+    return paint_sign_light(&s, tint);
 }
 
 // --- texels ---

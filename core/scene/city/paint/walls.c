@@ -166,11 +166,11 @@ static struct paint sign_colour(const struct spot *s, int k)
     return colours[(int)(8 * paint_chance(s, k))];
 }
 
-// The sign over the windows, with letters as bars.
-static struct paint paint_sign(const struct spot *s, float y)
+// The sign over the windows, with letters as bars. `shade` is the board's.
+static struct paint paint_sign(const struct spot *s, float y, float shade)
 {
     const bool bright = paint_chance(s, 3) < 0.6f;
-    struct paint board = paint_scaled(sign_colour(s, 1), 0.9f + 0.1f * paint_cloud(s, 0));
+    struct paint board = paint_scaled(sign_colour(s, 1), shade);
     const float middle = rg_abs(s->u - 0.5f);
     const int letter = (int)rg_floor(s->u * 40);
     const float in_letter = s->u * 40 - (float)letter;
@@ -185,14 +185,31 @@ static struct paint paint_sign(const struct spot *s, float y)
     return (struct paint){0.95f, 0.93f, 0.85f, bright ? 0.9f : 0};
 }
 
+bool paint_sign_light(struct spot *s, float tint[3])
+{
+    enum { ACROSS = 400, DOWN = 20 };
+    float sum[3] = {0};
+    for (int i = 0; i < ACROSS * DOWN; i++) {
+        s->u = ((float)(i % ACROSS) + 0.5f) / ACROSS;
+        const struct paint p = paint_sign(s, ((float)(i / ACROSS) + 0.5f) / DOWN, 0.95f);
+        sum[0] += p.a * p.r * p.r;
+        sum[1] += p.a * p.g * p.g;
+        sum[2] += p.a * p.b * p.b;
+    }
+    const float luminance = 0.2126f * sum[0] + 0.7152f * sum[1] + 0.0722f * sum[2];
+    for (int c = 0; c < 3; c++)
+        tint[c] = sum[c] / rg_max(luminance, 1e-6f);
+    return luminance > 0;
+}
+
 struct paint paint_shop(const struct spot *s)
 {
     const float y = 1 - s->v;
     const struct paint trim = paint_scaled(sign_colour(s, 2), 0.55f + 0.1f * paint_fine(s));
-    if (y > 0.90f)
+    if (y > CITY_SIGN_HIGH)
         return paint_scaled(trim, 0.8f);
-    if (y > 0.74f)
-        return paint_sign(s, (y - 0.74f) / 0.16f);
+    if (y > CITY_SIGN_LOW)
+        return paint_sign(s, (y - CITY_SIGN_LOW) / 0.16f, 0.9f + 0.1f * paint_cloud(s, 0));
     const bool door = rg_abs(s->u - 0.72f) < 0.09f;
     if (y < (door ? 0.015f : 0.12f))
         return trim;

@@ -9,7 +9,7 @@
 
 static bool check(const struct scenery_lights_settings *s)
 {
-    require(s->count >= 0 && s->count <= SCENERY_MAX_LIGHTS,
+    require(s->count >= SCENERY_USUAL_LIGHTS && s->count <= SCENERY_MAX_LIGHTS,
             "lights: %d asked for; choose from 0 to %d", s->count, SCENERY_MAX_LIGHTS);
     require(!s->shadows || (s->shadow_map_px >= 16 && s->shadow_map_px <= 16384),
             "shadow_map_px: %d; choose from 16 to 16384", s->shadow_map_px);

@@ -8,11 +8,12 @@
 #include "core/scene/light_file.h"
 
 enum scenery_time { SCENERY_DAY, SCENERY_NIGHT };
+enum { SCENERY_USUAL_LIGHTS = -1 };
 
 struct scenery_lights_settings {
     const char *file; // the user's lights, which replace all others; NULL or "": none
     // Without a file: the number of lights, 0 to 16; by day a sun and lamps, by night lamps and a
-    // moon.
+    // moon. SCENERY_USUAL_LIGHTS: a sun by day, and by night as many as there are.
     int count;
     enum scenery_time time;
     const struct city_lamp *lamps; // the scene's lamps; the caller owns them

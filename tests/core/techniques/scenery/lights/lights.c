@@ -8,8 +8,8 @@
 #include "tests/tools/expect.h"
 
 static const struct city_lamp lamps[] = {
-    {CITY_STREET_LAMP, {9, 8, 11}, {0, -1, 0}},
-    {CITY_TRAFFIC_RED, {3, 2, 3}, {0.6f, 0, 0.8f}},
+    {CITY_STREET_LAMP, {9, 8, 11}, {0, -1, 0}, {0}},
+    {CITY_TRAFFIC_RED, {3, 2, 3}, {0.6f, 0, 0.8f}, {0}},
 };
 
 static struct scenery_lights_settings three_lights(void)
@@ -129,9 +129,9 @@ static void lamps_are_as_bright_and_as_wide_as_told(void **state)
 static void lights_that_cannot_be_are_refused(void **state)
 {
     struct scenery_lights_settings settings = three_lights();
-    settings.count = -1;
+    settings.count = -2;
     assert_null(scenery_lights_open(*state, &settings));
-    assert_non_null(strstr(rg_last_error(), "lights: -1 asked for"));
+    assert_non_null(strstr(rg_last_error(), "lights: -2 asked for"));
     settings.count = 17;
     assert_null(scenery_lights_open(*state, &settings));
     assert_non_null(strstr(rg_last_error(), "lights: 17 asked for"));
