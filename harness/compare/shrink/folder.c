@@ -15,6 +15,10 @@
 enum { GROUP_ITEMS = 64 }; // as in shaders/grid.glsl
 enum { SAMPLED_IMAGE = 1, STORED_IMAGE = 3, UNIFORM_BLOCK = 6, STORAGE_BUFFER = 7 };
 enum { COLOUR_ASPECT = 1, DEPTH_ASPECT = 2 };
+enum { VIEW_OF_CUBE = 3, VIEW_OF_LAYERS = 5 };
+enum { NEAREST, LINEAR };
+enum { REPEATED = 0, CLAMPED = 2 };
+enum { NOT_COMPARED = 0, LESS_OR_EQUAL = 3 };
 static const int vulkan_formats[RG_FORMAT_COUNT] = {
     [RG_RGBA8] = 37, [RG_RGBA16F] = 97,   [RG_RGBA32F] = 109, [RG_R32F] = 100,
     [RG_R16F] = 76,  [RG_RG11B10F] = 122, [RG_D32F] = 126,
@@ -103,14 +107,32 @@ static bool add_block(struct folder *f, size_t *size)
     return ok;
 }
 
-static void write_slot(FILE *out, const struct rg_slot_info *slot, const struct rg_contents *c,
-                       const char *before, const char *expected)
+static bool filters_depth(const struct rg_device *device)
+{
+    return device->info.limits.formats[RG_D32F].uses & RG_USE_FILTER;
+}
+
+// How the device's shader reads an image: as backends/vulkan/api/sampler.c has it.
+static void write_sampler(FILE *out, const struct rg_device *device,
+                          const struct rg_slot_info *slot, enum rg_format format)
+{
+    const enum rg_sampler how = device->info.native && format ? slot->sampler : RG_TEXELS;
+    const bool compares = how == RG_SAMPLED_SHADOW;
+    const bool filters = compares ? filters_depth(device) : how != RG_TEXELS;
+    fprintf(out, "view %d filter %d wrap %d compare %d ",
+            !format                  ? 0
+            : how == RG_SAMPLED_CUBE ? VIEW_OF_CUBE
+                                     : VIEW_OF_LAYERS,
+            filters ? LINEAR : NEAREST, !format || how == RG_SAMPLED_TILED ? REPEATED : CLAMPED,
+            compares ? LESS_OR_EQUAL : NOT_COMPARED);
+}
+
+static void write_slot(FILE *out, const struct rg_device *device, const struct rg_slot_info *slot,
+                       const struct rg_contents *c, const char *before, const char *expected)
 {
     const struct rg_image_desc *image = &c->desc;
     const bool written = rg_slot_is_written(slot->kind), is_image = image->levels > 0;
-    fprintf(out,
-            "slot %d type %d format %d aspect %d texel %d size %d x %d layers %d levels %d bytes "
-            "%zu %s %s # %s, ",
+    fprintf(out, "slot %d type %d format %d aspect %d texel %d size %d x %d layers %d levels %d ",
             slot->slot,
             !is_image ? STORAGE_BUFFER
             : written ? STORED_IMAGE
@@ -120,7 +142,9 @@ static void write_slot(FILE *out, const struct rg_slot_info *slot, const struct 
             : image->format == RG_D32F ? DEPTH_ASPECT
                                        : COLOUR_ASPECT,
             is_image ? rg_format_size(image->format) : 0, image->width, image->height,
-            image->layers, image->levels, c->size, before, expected, slot->name);
+            image->layers, image->levels);
+    write_sampler(out, device, slot, is_image ? image->format : RG_FORMAT_NONE);
+    fprintf(out, "bytes %zu %s %s # %s, ", c->size, before, expected, slot->name);
     if (is_image)
         fprintf(out, "an image of %s, ", rg_format_name(image->format));
     else
@@ -132,7 +156,7 @@ static void write_slot(FILE *out, const struct rg_slot_info *slot, const struct 
                                                                           : "written");
 }
 
-static bool add_slots(struct folder *f, FILE *manifest)
+static bool add_slots(struct folder *f, const struct rg_device *device, FILE *manifest)
 {
     const struct rg_dispatched *d = &f->culprit->due;
     bool ok = true;
@@ -146,24 +170,28 @@ static bool add_slots(struct folder *f, FILE *manifest)
             snprintf(expected, sizeof(expected), "%02d-%.40s.expected", slot->slot, slot->name);
             ok = ok && add_parts(f, expected, after->bytes, before->bytes, after->size);
         }
-        write_slot(manifest, slot, before, name, expected);
+        write_slot(manifest, device, slot, before, name, expected);
     }
     return ok;
 }
 
-static bool write_manifest(struct folder *f, FILE *out, size_t block_size)
+static bool write_manifest(struct folder *f, const struct rg_device *device, FILE *out,
+                           size_t block_size)
 {
     const struct rg_dispatched *d = &f->culprit->due;
     fprintf(
         out,
         "# One run of the compute shader %s, of %lld items of %lld: from (%d, %d, %d) on,\n"
         "# %d x %d x %d. README says how to run it.\n"
-        "# groups: of %d items along x.\n"
-        "groups %d %d %d\n"
+        "# groups: of %d items along x. constant: what specialization constant 0 is.\n"
+        "groups %d %d %d constant %d\n"
         "# slot: the binding, of set 0. type: 1 sampled image, 3 stored image, 6 uniform block,\n"
         "# 7 storage buffer (VkDescriptorType). format: VkFormat; aspect: VkImageAspectFlagBits; "
         "texel: its\n"
-        "# bytes. An image has all layers of level 0, then of level 1, rows without padding.\n"
+        "# bytes. An image has all layers of level 0, then of level 1, rows without padding. "
+        "view,\n"
+        "# filter, wrap, compare: as VkImageViewType, VkFilter, VkSamplerAddressMode, and\n"
+        "# VkCompareOp or 0.\n"
         "# Last the files: what it holds before, and what is expected after the run. Each has "
         "parts of it:\n"
         "# where the part begins and how many bytes it has, of 4 bytes each, and these bytes. What "
@@ -172,12 +200,13 @@ static bool write_manifest(struct folder *f, FILE *out, size_t block_size)
         d->kernel->name, (long long)f->culprit->items, (long long)f->culprit->of_items,
         d->origin.width, d->origin.height, d->origin.depth, d->extent.width, d->extent.height,
         d->extent.depth, GROUP_ITEMS, (d->extent.width + GROUP_ITEMS - 1) / GROUP_ITEMS,
-        d->extent.height, d->extent.depth);
+        d->extent.height, d->extent.depth, filters_depth(device));
     fprintf(out,
-            "slot 0 type %d format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 bytes %zu "
-            "00-block.before - # the first item and the end, 4 ints each, then the parameters\n",
+            "slot 0 type %d format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 "
+            "view 0 filter 0 wrap 0 compare 0 bytes %zu 00-block.before - # the first item and the "
+            "end, 4 ints each, then the parameters\n",
             UNIFORM_BLOCK, block_size);
-    return add_slots(f, out);
+    return add_slots(f, device, out);
 }
 
 static void write_readme(const struct folder *f, FILE *out, const char *note,
@@ -224,7 +253,7 @@ static bool fill(struct folder *f, const char *note, struct rg_device *device,
     for (int i = 0; ok && i < 2; i++) {
         FILE *out = open_memstream(&texts[i], &size);
         if (out && i == 0)
-            ok = write_manifest(f, out, block_size);
+            ok = write_manifest(f, device, out, block_size);
         else if (out)
             write_readme(f, out, note, &device->info, &truth->info);
         ok = ((out && fclose(out) == 0) ||

@@ -13,14 +13,15 @@
 #define EACH_SLOT (struct slot *s = slots; s < slots + count; s++)
 
 static struct slot { // a line of kernel.txt
-    unsigned at, type, format, aspect, texel, width, height, layers, levels, size;
+    unsigned at, type, format, aspect, texel, width, height, layers, levels, view_type, filter, wrap, compare, size;
     char before[64], expected[64]; // files; "-": the slot is not written
     unsigned char *bytes;          // of the buffer, which also holds an image's texels
     VkBuffer buffer;
     VkImage image;
     VkImageView view;
+    VkSampler sampler;
 } slots[16];
-static unsigned count, groups[3];
+static unsigned count, groups[3], constant; // also of kernel.txt
 static VkPhysicalDeviceMemoryProperties memory;
 static VkDevice device;
 static VkQueue queue;
@@ -46,10 +47,11 @@ static void read_parts(const char *path, unsigned char *bytes, size_t size) { //
 static void read_manifest(FILE *file) {
     for (char line[512]; file && count < 16 && fgets(line, sizeof(line), file);) {
         struct slot *s = &slots[count];
-        sscanf(line, "groups %u %u %u", &groups[0], &groups[1], &groups[2]);
-        count += sscanf(line, "slot %u type %u format %u aspect %u texel %u size %u x %u layers %u levels %u bytes %u %63s %63s",
-            &s->at, &s->type, &s->format, &s->aspect, &s->texel, &s->width, &s->height, &s->layers, &s->levels, &s->size,
-            s->before, s->expected) == 12;
+        sscanf(line, "groups %u %u %u constant %u", &groups[0], &groups[1], &groups[2], &constant);
+        count += sscanf(line, "slot %u type %u format %u aspect %u texel %u size %u x %u layers %u levels %u "
+            "view %u filter %u wrap %u compare %u bytes %u %63s %63s",
+            &s->at, &s->type, &s->format, &s->aspect, &s->texel, &s->width, &s->height, &s->layers, &s->levels,
+            &s->view_type, &s->filter, &s->wrap, &s->compare, &s->size, s->before, s->expected) == 16;
     }
     if (!count || fclose(file)) FAIL(2, "kernel.txt: cannot be read; run this in its folder\n");
 }
@@ -96,12 +98,15 @@ static void make_slot(struct slot *s) {
     TRY(vkMapMemory(device, held, 0, VK_WHOLE_SIZE, 0, (void **)&s->bytes));
     read_parts(s->before, memset(s->bytes, 0, s->size), s->size);
     if (!s->format) return;
-    NEW(Image, IMAGE, &s->image, .imageType = VK_IMAGE_TYPE_2D, .format = s->format, .extent = {s->width, s->height, 1},
-        .mipLevels = s->levels, .arrayLayers = s->layers, .samples = 1, .usage = stored ? 0xb : 0x7); // copies; stored or sampled
+    NEW(Image, IMAGE, &s->image, .flags = s->view_type == VK_IMAGE_VIEW_TYPE_CUBE ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
+        .imageType = VK_IMAGE_TYPE_2D, .format = s->format, .extent = {s->width, s->height, 1}, .mipLevels = s->levels, .arrayLayers = s->layers, .samples = 1, .usage = stored ? 0xb : 0x7); // copies; stored or sampled
     vkGetImageMemoryRequirements(device, s->image, &needs);
     TRY(vkBindImageMemory(device, s->image, allocate(needs, 0), 0));
-    NEW(ImageView, IMAGE_VIEW, &s->view, .image = s->image, .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY, .format = s->format,
+    NEW(ImageView, IMAGE_VIEW, &s->view, .image = s->image, .viewType = s->view_type, .format = s->format,
         .subresourceRange = {s->aspect, 0, stored ? 1 : s->levels, 0, s->layers});
+    NEW(Sampler, SAMPLER, &s->sampler, .magFilter = s->filter, .minFilter = s->filter, .mipmapMode = s->filter,
+        .addressModeU = s->wrap, .addressModeV = s->wrap, .addressModeW = s->wrap, .compareEnable = s->compare != 0,
+        .compareOp = s->compare, .maxLod = VK_LOD_CLAMP_NONE);
 }
 
 // Makes earlier writes visible to later commands and the host; a fresh image gets the general layout, which all uses allow.
@@ -128,12 +133,11 @@ static void record_shader(void) {
     VkDescriptorSetLayoutBinding bindings[16];
     VkDescriptorPoolSize sizes[] = {{1, 16}, {3, 16}, {6, 16}, {7, 16}}; // of each type
     VkDescriptorSetLayout set_layout; VkPipelineLayout layout; VkDescriptorPool pool; VkDescriptorSet set;
-    VkSampler sampler; VkShaderModule module; VkPipeline pipeline;
+    VkShaderModule module; VkPipeline pipeline;
     size_t code_size;
     const void *code = read_code("kernel.spv", &code_size);
     for (unsigned i = 0; i < count; i++)
         bindings[i] = (VkDescriptorSetLayoutBinding){slots[i].at, slots[i].type, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
-    NEW(Sampler, SAMPLER, &sampler, .maxLod = VK_LOD_CLAMP_NONE);
     NEW(DescriptorSetLayout, DESCRIPTOR_SET_LAYOUT, &set_layout, .bindingCount = count, .pBindings = bindings);
     NEW(PipelineLayout, PIPELINE_LAYOUT, &layout, .setLayoutCount = 1, .pSetLayouts = &set_layout);
     NEW(DescriptorPool, DESCRIPTOR_POOL, &pool, .maxSets = 1, .poolSizeCount = 4, .pPoolSizes = sizes);
@@ -143,10 +147,11 @@ static void record_shader(void) {
     for EACH_SLOT
         vkUpdateDescriptorSets(device, 1, INFO(WriteDescriptorSet, WRITE_DESCRIPTOR_SET, .dstSet = set, .dstBinding = s->at,
             .descriptorCount = 1, .descriptorType = s->type, .pBufferInfo = &(VkDescriptorBufferInfo){s->buffer, 0, VK_WHOLE_SIZE},
-            .pImageInfo = &(VkDescriptorImageInfo){sampler, s->view, VK_IMAGE_LAYOUT_GENERAL}), 0, NULL);
+            .pImageInfo = &(VkDescriptorImageInfo){s->sampler, s->view, VK_IMAGE_LAYOUT_GENERAL}), 0, NULL);
+    VkSpecializationInfo special = {1, &(VkSpecializationMapEntry){0, 0, sizeof(constant)}, sizeof(constant), &constant};
     TRY(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, INFO(ComputePipelineCreateInfo, COMPUTE_PIPELINE_CREATE_INFO,
         .layout = layout, .stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, NULL, 0, VK_SHADER_STAGE_COMPUTE_BIT, module,
-        "main", NULL}), NULL, &pipeline));
+        "main", &special}), NULL, &pipeline));
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);
     vkCmdDispatch(commands, groups[0], groups[1], groups[2]);

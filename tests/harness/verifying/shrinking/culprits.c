@@ -264,18 +264,24 @@ static void the_manifest_says_what_is_bound(void **state)
     static const char *const due[] = {
         "# One run of the compute shader rain_step, of 140 items of 3600: from (64, 3, 1) on,\n"
         "# 70 x 2 x 1. README says how to run it.\n",
-        "\ngroups 2 2 1\n",
-        "\nslot 0 type 6 format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 bytes 48 "
+        "\ngroups 2 2 1 constant 0\n",
+        "\nslot 0 type 6 format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 "
+        "view 0 filter 0 wrap 0 compare 0 bytes 48 "
         "00-block.before - # the first item and the end, 4 ints each, then the parameters\n",
-        "\nslot 1 type 7 format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 bytes 64 "
+        "\nslot 1 type 7 format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 "
+        "view 0 filter 0 wrap 0 compare 0 bytes 64 "
         "01-blurred.before - # blurred, 16 elements of 4 bytes, read\n",
-        "\nslot 2 type 3 format 97 aspect 1 texel 8 size 4 x 2 layers 1 levels 1 bytes 64 "
+        "\nslot 2 type 3 format 97 aspect 1 texel 8 size 4 x 2 layers 1 levels 1 "
+        "view 5 filter 0 wrap 2 compare 0 bytes 64 "
         "02-shown.before 02-shown.expected # shown, an image of RGBA16F, written\n",
-        "\nslot 3 type 1 format 126 aspect 2 texel 4 size 4 x 4 layers 1 levels 2 bytes 80 "
+        "\nslot 3 type 1 format 126 aspect 2 texel 4 size 4 x 4 layers 1 levels 2 "
+        "view 5 filter 0 wrap 2 compare 0 bytes 80 "
         "03-depth.before - # depth, an image of D32F, read\n",
-        "\nslot 4 type 7 format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 bytes 32 "
+        "\nslot 4 type 7 format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 "
+        "view 0 filter 0 wrap 0 compare 0 bytes 32 "
         "04-water.before 04-water.expected # water, 4 elements of 8 bytes, read and written\n",
-        "\nslot 5 type 7 format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 bytes 8 "
+        "\nslot 5 type 7 format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 "
+        "view 0 filter 0 wrap 0 compare 0 bytes 8 "
         "05-count.before 05-count.expected # count, 2 elements of 4 bytes, read and written\n",
     };
     size_t size;

@@ -1,0 +1,135 @@
+// A kernel of a native device alone: run.c of its folder reads images as the device's own samplers
+// do, and finds that the driver leaves the same bits.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/compare/shrink/folder.h"
+#include "tests/kernels/texels/filter/params.h"
+#include "tests/kernels/texels/params.h"
+#include "tests/tools/process/folder.h"
+
+enum { SIDE = 16, LEVELS = 3, TEXELS = 16 * 16 + 8 * 8 + 4 * 4, READS = 256 };
+
+static uint32_t noise(uint32_t i)
+{
+    i = (i ^ i >> 16) * 0x7feb352du;
+    i = (i ^ i >> 15) * 0x846ca68bu;
+    return i ^ i >> 16;
+}
+
+// How a kernel reads its image, and the elements that say where: up to this many of each.
+static const struct row {
+    const char *kernel, *manifest; // a part of the image's line in kernel.txt
+    enum rg_format format;
+    int layers, levels;
+    float most[4];
+    int params[3];
+} rows[] = {
+    {"test_filter_rgba8",
+     "levels 3 view 5 filter 1 wrap 2 compare 0 ",
+     RG_RGBA8,
+     2,
+     LEVELS,
+     {1.5f, 1.5f, 1, 2},
+     {TEST_FILTER_TRILINEAR, 0, 0}},
+    {"test_tiled",
+     "levels 3 view 5 filter 1 wrap 0 compare 0 ",
+     RG_RGBA8,
+     2,
+     LEVELS,
+     {3, 3, 1, 20},
+     {SIDE, SIDE, LEVELS - 1}},
+    {"test_cube",
+     "levels 3 view 3 filter 1 wrap 2 compare 0 ",
+     RG_RG11B10F,
+     6,
+     LEVELS,
+     {1, 1, 1, 2},
+     {SIDE, SIDE, LEVELS - 1}},
+    {"test_compare", "levels 1 view 5 filter ", RG_D32F, 2, 1, {SIDE, SIDE, 1, 1}, {SIDE, SIDE, 0}},
+};
+
+static void fill(const struct row *row, struct rg_dispatched *d)
+{
+    const size_t texels = (size_t)row->layers * (row->levels > 1 ? TEXELS : SIDE * SIDE);
+    uint32_t *words = calloc(texels, 4);
+    float(*at)[4] = calloc(READS, sizeof(*at));
+    void *left = calloc(READS, sizeof(*at));
+    assert_true(words && at && left);
+    for (uint32_t i = 0; i < texels; i++) {
+        const float depth = (float)(noise(i) >> 24) / 256;
+        words[i] = row->format == RG_RG11B10F ? 0x73814380u | (noise(i) & 0x07c1f83fu) : noise(i);
+        if (row->format == RG_D32F)
+            memcpy(&words[i], &depth, sizeof(depth));
+    }
+    for (uint32_t i = 0; i < READS * 4; i++) {
+        const float part = (float)(noise(i + 0x10000) >> 8) * 0x1p-24f;
+        const bool counts = i % 4 == 2 ? row->layers < 6 : i % 4 == 3 && row->layers == 6;
+        at[i / 4][i % 4] = counts ? floorf(part * (row->most[i % 4] + 1)) : part * row->most[i % 4];
+    }
+    *d = (struct rg_dispatched){
+        .kernel = rg_kernel_find(row->kernel), .was_kept = true, .extent = {READS, 1, 1}};
+    assert_non_null(d->kernel);
+    memcpy(d->params, row->params, (size_t)d->kernel->params_size);
+    d->before[1] = (struct rg_contents){
+        {row->format, SIDE, SIDE, row->layers, row->levels}, texels * 4, words};
+    d->before[2] = (struct rg_contents){{0}, READS * sizeof(*at), at};
+    d->before[3] = (struct rg_contents){{0}, READS * sizeof(*at), left};
+}
+
+static void expect_manifest(const char *path, const char *part)
+{
+    char text[4096] = "";
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, sizeof(text) - 1, file) > 0);
+    fclose(file);
+    if (!strstr(text, part))
+        fail_msg("no '%s' in\n%s", part, text);
+}
+
+static void check_row(struct rg_device *device, const struct row *row)
+{
+    char path[64], name[96], command[256];
+    struct rg_culprit culprit = {.found = true, .items = READS, .of_items = READS};
+    snprintf(path, sizeof(path), "%s/case", folder);
+    snprintf(name, sizeof(name), "%s.kernel/kernel.txt", path);
+    snprintf(command, sizeof(command),
+             "cd %s.kernel && cc run.c -lvulkan -o ../run && ../run >&2 && rm ../run", path);
+    fill(row, &culprit.due);
+    assert_true(rg_dispatched_run(&culprit.due, device));
+    assert_true(rg_kernel_folder_write(path, &culprit, "a note", device, device));
+    expect_manifest(name, row->manifest);
+    const int status = system(command);
+    rg_kernel_folder_remove(path);
+    rg_culprit_free(&culprit);
+    if (status != 0)
+        fail_msg("%s: status 0x%x", row->kernel, (unsigned)status);
+}
+
+static void kernels_that_sample_run_alone(void **state)
+{
+    struct rg_device *device = rg_device_open("vulkan:native");
+    (void)state;
+    if (!device && rg_failure_take().outcome == RG_UNSUPPORTED)
+        skip();
+    assert_non_null(device);
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
+        check_row(device, &rows[i]);
+    assert_true(rg_device_close(device));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(kernels_that_sample_run_alone)};
+    return cmocka_run_group_tests_name("alone", tests, make_folder, remove_folder);
+}
