@@ -36,8 +36,9 @@ static const struct part {
     {"kernels",
      {&buffer_tests, &kernel_tests, &refusal_tests, &lifetime_tests, &scan_tests, &probe_tests,
       &lack_tests}},
-    {"images", {&image_tests, &texel_tests, &filter_tests, &large_tests, &sampled_tests}},
-    {"native", {&sampled_tests, &native_filter_tests, &query_tests}},
+    {"images",
+     {&image_tests, &texel_tests, &filter_tests, &large_tests, &sampled_tests, &around_tests}},
+    {"native", {&sampled_tests, &around_tests, &native_filter_tests, &query_tests}},
     {"draws", {&draw_tests, &tally_tests, &query_tests}},
     {"targets", {&target_tests, &light_tests, &layer_tests}},
 };
