@@ -38,6 +38,7 @@
            doctor   the report about this machine, and a timeline of frames
            fixed    fixed functions of drivers, what turns parts of them off, and faults planted into them
            native   devices that draw through the driver's own pipeline
+           same     fixed functions and native pictures of many launches
            pages    the manual page and bash's completion
            kept     the tables that the repository keeps
            install  what meson installs
@@ -81,6 +82,7 @@ import pictures
 import planted
 import reports
 import resuming
+import same
 import shards
 import shrinking
 import stored
@@ -127,6 +129,7 @@ SUITES = {
     "doctor": lambda runner: runner.check_all(doctor.CHECKS + traces.CHECKS),
     "fixed": lambda runner: runner.check_all(fixed.CHECKS + planted.CHECKS),
     "native": lambda runner: runner.check_all(native.CHECKS),
+    "same": lambda runner: runner.check_all(same.THOROUGH),
     "pages": lambda runner: runner.check_all(pages.CHECKS),
     "kept": lambda runner: runner.check_all(kept.CHECKS),
     "install": lambda runner: runner.check_all(installed.CHECKS),
