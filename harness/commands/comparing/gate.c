@@ -73,9 +73,9 @@ static const struct rg_option options[] = {
          "then are inconclusive; the gate refuses a time too short for any verdict",
      .offset = AT(budget)},
     {RG_OPTION_FLAG, "strict",
-     .about = "also fails if a fixed function of B's driver differs from A's within what the APIs "
-              "allow (docs/native.md)",
-     .offset = AT(strict), .excludes = "against baseline"},
+     .about = "also fails if a fixed function of B's driver differs from A's, or from the "
+              "baseline's, within what the APIs allow (docs/native.md)",
+     .offset = AT(strict), .excludes = "against"},
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Shards (docs/ci.md)"),
     RG_INCLUDE(rg_shard_option, AT(shard), NULL),
@@ -446,6 +446,17 @@ static bool are_of_use(const struct gate_options *o)
             rg_error("--times: divides the cells among shards; add --shard, or leave it out"));
 }
 
+// A gate that compares no fixed functions cannot be strict about them.
+static bool can_be_strict(const struct gate_options *o, const struct gate_input *in)
+{
+    bool any = !o->strict;
+    for (int i = 0; !any && i < in->pairs.count; i++)
+        any = rg_gate_has_fixed(o->baseline ? &in->baseline : NULL, &in->pairs.all[i]);
+    return any || rg_error("--strict: is about fixed functions, and this gate compares none; name "
+                           "two drivers of an API or a baseline with digests of them, or leave it "
+                           "out");
+}
+
 // --- shards together ---
 
 // Files of expectations are held against what the shards found only if they had the same.
@@ -509,7 +520,7 @@ static int gate(const void *values, const struct rg_words *arguments)
     rg_workers.timeout_s = o->devices.timeout_s;
     rg_sides_begin();
     int exit = find_pairs(o, arguments, &in.pairs);
-    if (exit == RG_EXIT_PASS && (!are_of_use(o) || !read_input(o, &in)))
+    if (exit == RG_EXIT_PASS && (!are_of_use(o) || !read_input(o, &in) || !can_be_strict(o, &in)))
         exit = rg_exit_of_error();
     if (exit == RG_EXIT_PASS)
         exit = rg_exit_worse(o->gtest.list ? list_cases(o, &in) : run(o, &in), in.pairs.left_out);

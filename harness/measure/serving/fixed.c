@@ -248,7 +248,7 @@ static json_t *find(const json_t *passport, const char *name)
     return NULL;
 }
 
-static const char key[] = "fixed_functions";
+static const char key[] = "fixed_functions", within_key[] = "within_bounds";
 
 void rg_fixed_put(json_t *passport, const char *device, json_t *digests)
 {
@@ -260,4 +260,28 @@ const json_t *rg_fixed_kept(const json_t *passport, const char *device)
 {
     const json_t *digests = json_object_get(find(passport, device), key);
     return json_is_object(digests) ? digests : NULL;
+}
+
+void rg_fixed_put_within(json_t *passport, const char *device, const struct rg_fixed_left *left)
+{
+    json_t *within = json_array();
+    for (int i = 0; i < rg_fixed_count(); i++)
+        if (left->is_within[i])
+            json_array_append_new(within, json_string(rg_fixed_draws[i].feature));
+    if (json_array_size(within))
+        json_object_set(find(passport, device), within_key, within);
+    json_decref(within);
+}
+
+bool rg_fixed_kept_within(const json_t *passport, const char *device, int draw)
+{
+    size_t i;
+    json_t *feature;
+    json_array_foreach(json_object_get(find(passport, device), within_key), i, feature)
+    {
+        const char *its = json_string_value(feature);
+        if (its && !strcmp(its, rg_fixed_draws[draw].feature))
+            return true;
+    }
+    return false;
 }

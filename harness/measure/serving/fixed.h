@@ -61,5 +61,8 @@ void rg_fixed_left_free(struct rg_fixed_left *left);
 void rg_fixed_put(json_t *passport, const char *device, json_t *digests);
 // The digests in a passport; NULL: the device is not in it, or has none.
 const json_t *rg_fixed_kept(const json_t *passport, const char *device);
+// The same of which draws were within their bounds.
+void rg_fixed_put_within(json_t *passport, const char *device, const struct rg_fixed_left *left);
+bool rg_fixed_kept_within(const json_t *passport, const char *device, int draw);
 
 #endif

@@ -159,7 +159,7 @@ def check_missing(runner):
             if done.returncode != status or done.stdout or says not in done.stderr:
                 problems.append("%s: %s" % (folder, done))
         os.remove(second)
-        for more, differs in ((["--pictures", "--shard", "2/3"], "number of shards"), (["--pictures", "--require", "cpu", "--shard", "2/2"], "require"), (["--pictures", "--strict", "--shard", "2/2"], "strict"),
+        for more, differs in ((["--pictures", "--shard", "2/3"], "number of shards"), (["--pictures", "--require", "cpu", "--shard", "2/2"], "require"),
                               (["--pictures", "--gtest_filter=raster*", "--shard", "2/2"], "filter")):
             runner.run(args[:-1] + more + ["-o", out])
             done = runner.run(["gate", "--from", out])

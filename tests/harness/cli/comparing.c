@@ -52,6 +52,14 @@ int rg_gate_run(const struct rg_gate_request *r, struct rg_gate *gate)
     return RG_EXIT_INCONCLUSIVE;
 }
 
+static bool has_fixed; // a gate compares fixed functions
+
+bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_pair *pair)
+{
+    (void)baseline;
+    return has_fixed && strcmp(pair->names[RG_SIDE_B], "cpu") != 0; // of the second device
+}
+
 static int timed[2]; // launches of the baseline's devices
 static const char *device_names[2];
 
@@ -175,6 +183,7 @@ static void gates_are_asked_for(void **state)
          "pictures -, folder -, require -, 120 s"},
     };
     write_cells();
+    has_fixed = true;
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
         asked_expect(rows[i].line, rows[i].seen, RG_EXIT_INCONCLUSIVE);
     setenv("GTEST_TOTAL_SHARDS", "4", 1);
@@ -218,6 +227,12 @@ static void baselines_are_held_against(void **state)
                  RG_EXIT_INCONCLUSIVE);
     asked_run("gate --baseline b.json --cells cells.txt --device cpu");
     assert_non_null(strstr(asked_seen, "120 s, without cpu:reference"));
+    has_fixed = true;
+    asked_run("gate --baseline b.json --cells cells.txt --strict");
+    assert_non_null(strstr(asked_seen, "margin 0.1, 0 s, strict, filter"));
+    assert_int_equal(asked_run("gate --baseline b.json --cells cells.txt --strict --device cpu"),
+                     RG_EXIT_USAGE);
+    assert_non_null(strstr(asked_logged, "--strict: is about fixed functions, and this gate"));
     timed[1] = 0; // one of the two has times
     assert_int_equal(asked_run("gate --baseline b.json --cells cells.txt"), RG_EXIT_INCONCLUSIVE);
     assert_int_equal(asked_run("gate --baseline b.json --cells cells.txt --device cpu:reference"),
@@ -251,9 +266,12 @@ static void gates_without_a_meaning_are_refused(void **state)
         {"gate cpu cpu:reference --times t.json", "--times: divides the cells among shards; add"},
         {"gate cpu cpu:reference --shard 1/2",
          "--shard: name the folder of its record, as -o gate"},
+        {"gate cpu cpu:reference --strict",
+         "--strict: is about fixed functions, and this gate compares none; name two drivers"},
         {"gate cpu cpu:reference --update", "--update: there is no file to write; name one by"},
         {"gate cpu gl --from here", "--from: the shards had their devices; leave out 'cpu'"},
     };
+    has_fixed = false;
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
         assert_int_equal(asked_run(rows[i].line), RG_EXIT_USAGE);
         if (strncmp(asked_logged, rows[i].logged, strlen(rows[i].logged)) != 0)

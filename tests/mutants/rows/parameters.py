@@ -130,6 +130,7 @@ ROWS = [
     Fault(DIFF, ".background = «o->background»,", "NULL", "where it rains is not known", tests=("what comparing asks for",)),
     Fault(DIFF, ".exposure = «(float)o->exposure»", "1.0f", "pictures are compared at another exposure", tests=("what comparing asks for",)),
     Fault(GATE, "o->margin_percent > 0 ? «o->margin_percent / 100» : margin,", "o->margin_percent", "a margin is a share, and not per cent", tests=("what comparing asks for",)),
+    Fault(GATE, "bool any = «!o->strict»;", "true", "a gate of no fixed functions is strict about them", tests=("what comparing asks for",)),
     Fault(GATE, ".strict = «o->strict»,", "false", "--strict means nothing", tests=("what comparing asks for",)),
     Fault(GATE, ".require = «o->devices.require»,", "NULL", "what is required need not be there", tests=("what comparing asks for",)),
     Fault(GATE, "request->fresh = «o->fresh»;", "false", "a gate goes on with what was stored", tests=("what comparing asks for",)),

@@ -17,6 +17,7 @@ BLAME, DIFFERENCE = "harness/compare/blame/blame.c", "harness/compare/blame/diff
 
 SHRINKING = ("command line, shrinking",)
 REPLAYED, SEARCHED, ALONE = ("blame and replays",), ("search for a smaller run",), ("kernels at fault",)
+SAMPLING = ("kernels that sample, alone",)
 OF_FILES, PAIRED, CHECKED = ("files of cases",), ("what is told of pairs",), ("checks and units of verify",)
 FALL, BESIDE, ACCEPTS = "harness/compare/blame/fall.c", "harness/compare/diff/beside.c", "harness/compare/diff/accepts.c"
 PAIRS, OF_DEVICES = "harness/compare/diff/devices.c", ("what is told of devices",)
@@ -195,7 +196,13 @@ ROWS = [
     Fault(CULPRIT, "is_drawn = is_drawn || «!all->rows[i].was_kept»;", "false", "what draws is a kernel like others", tests=ALONE),
     Fault(FOLDER, "(d->extent.width «+ GROUP_ITEMS - 1») / GROUP_ITEMS,", "+ 0", "the last items have no group", tests=ALONE),
     Fault(FOLDER, "image->format == RG_D32F ? «DEPTH_ASPECT»", "COLOUR_ASPECT", "depth has the aspect of colours", tests=ALONE),
-    Fault(FOLDER, "            «image->layers», image->levels,", "image->levels", "images have layers for levels", tests=ALONE),
+    Fault(FOLDER, "            «image->layers», image->levels);", "image->levels", "images have layers for levels", tests=ALONE),
+    Fault(FOLDER, "= «device->info.native && format» ? slot->sampler", "format", "exact devices are told to filter", tests=ALONE),
+    Fault(FOLDER, ": «how != RG_TEXELS»;", "false", "a native kernel alone does not filter", tests=SAMPLING),
+    Fault(FOLDER, "«how == RG_SAMPLED_CUBE» ? VIEW_OF_CUBE", "false", "a cube has layers alone", tests=SAMPLING),
+    Fault(FOLDER, "!format || «how == RG_SAMPLED_TILED» ?", "false", "what repeats ends at its edges", tests=SAMPLING),
+    Fault(FOLDER, "compares ? «LESS_OR_EQUAL» :", "NOT_COMPARED", "depths are not compared", tests=SAMPLING),
+    Fault(FOLDER, "d->extent.height, d->extent.depth, «filters_depth(device)»);", "1", "a kernel alone lets a driver filter depths that cannot", tests=SAMPLING),
     Fault(FOLDER, "|| «slot->kind == RG_SLOT_ATOMIC»", "false", "atomics are not read", tests=ALONE),
     Fault(FOLDER, "end = «bytes[i] != (before ? before[i] : 0)» ?", "bytes[i] != 0", "what becomes zero is not expected", tests=ALONE),
     Fault(FOLDER, "d->origin.height «+ d->extent.height»,", "+ 0", "the block has no rows", tests=ALONE),

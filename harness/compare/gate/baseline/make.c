@@ -95,6 +95,7 @@ static bool take_fixed(struct make *m, const struct rg_devices *devices, struct 
         m->how->has_failed |= left.failed != RG_OK && left.failed != RG_LACKING;
         m->how->is_lacking |= left.failed == RG_LACKING;
         rg_fixed_put(m->made->passport, device->info.name, left.digests);
+        rg_fixed_put_within(m->made->passport, device->info.name, &left);
         rg_fixed_left_free(&left);
     }
     return !rg_interrupted();

@@ -104,10 +104,13 @@ static bool add_case(const struct held *h, const char *cell, enum rg_ending endi
     return ok;
 }
 
-// Whether two drivers' digests of a draw may differ: both pictures are within the draw's bounds.
+// Whether digests of a draw may differ: both pictures are within the draw's bounds.
 static bool is_allowed(const struct held *h, int draw)
 {
-    return h->a && h->left_a.is_within[draw] && h->now.is_within[draw];
+    const bool was_within =
+        h->a ? h->left_a.is_within[draw]
+             : rg_fixed_kept_within(h->run->asked->baseline->passport, h->device, draw);
+    return was_within && h->now.is_within[draw];
 }
 
 // Whether nothing is known of a draw, by a failure of the driver or of raingauge itself.

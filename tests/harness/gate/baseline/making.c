@@ -76,6 +76,7 @@ void rg_fixed_draw_all(struct rg_device *device, struct rg_fixed_left *left)
     note(" F", device->info.name);
     *left = (struct rg_fixed_left){.failed = script.fixed_failed};
     left->digests = json_pack("{s:s}", "linear", device->info.name);
+    left->is_within[2] = !strcmp(device->info.name, "vulkan");
 }
 
 bool rg_devices_close(struct rg_devices *of)
@@ -196,6 +197,10 @@ static void rows_are_taken_then_timed_in_turn(void **state)
     assert_string_equal(
         json_string_value(json_object_get(rg_fixed_kept(made.passport, "vulkan"), "linear")),
         "vulkan");
+    for (int draw = 0; draw < rg_fixed_count(); draw++) {
+        assert_false(rg_fixed_kept_within(made.passport, "gl", draw));
+        assert_int_equal(rg_fixed_kept_within(made.passport, "vulkan", draw), draw == 2);
+    }
 }
 
 static void without_launches_nothing_is_timed(void **state)

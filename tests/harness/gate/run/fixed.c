@@ -288,11 +288,39 @@ static void two_drivers_may_differ_as_the_apis_allow(void **state)
     assert_case(0, "fixed/stencil.gl", RG_ENDING_DIFFERS, true,
                 "4444 and not 3333, which is old's");
     end();
-    begin(true, left("1111", "3333"), left("0000", "3333")); // a baseline's picture is not known
-    assert_true(rg_gate_hold_fixed(&run));
-    assert_case(0, "fixed/linear.gl", RG_ENDING_DIFFERS, true,
-                "0000 and not 1111, which is the baseline's");
-    end();
+}
+
+// A baseline says which of its pictures were within bounds; those of older ones do not.
+static void a_baselines_digest_may_differ_as_the_apis_allow(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *was; // within its bounds then; NULL: the baseline does not say
+        bool is, strict;
+        enum rg_ending ending;
+    } rows[] = {
+        {"linear", true, false, RG_ENDING_PASS},     {"linear", true, true, RG_ENDING_DIFFERS},
+        {"linear", false, false, RG_ENDING_DIFFERS}, {"nearest", true, false, RG_ENDING_DIFFERS},
+        {NULL, true, false, RG_ENDING_DIFFERS},
+    };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        const bool allowed = i < 2;
+        begin(true, left("1111", "3333"), left("0000", "3333"));
+        is_within[RG_SIDE_B] = rows[i].is;
+        request.strict = rows[i].strict;
+        if (rows[i].was)
+            json_object_set_new(json_array_get(json_object_get(baseline.passport, "devices"), 0),
+                                "within_bounds", json_pack("[i, s]", 7, rows[i].was));
+        assert_true(rg_gate_hold_fixed(&run));
+        assert_int_equal(gate.report.case_count, 2);
+        assert_case(0, "fixed/linear.gl", rows[i].ending, true,
+                    allowed ? "differs from the baseline's, and both are within bounds"
+                            : "0000 and not 1111, which is the baseline's");
+        assert_case(1, "fixed.gl", RG_ENDING_PASS, true,
+                    allowed ? "2 digests are the baseline's, 1 differs as the APIs allow"
+                            : "2 digests are the baseline's, and 1 is not");
+        end();
+    }
 }
 
 static void two_drivers_that_leave_nothing_to_compare_say_so(void **state)
@@ -371,6 +399,7 @@ int main(void)
         cmocka_unit_test(expectations_name_them),
         cmocka_unit_test(what_cannot_be_compared_is_skipped_and_says_why),
         cmocka_unit_test(two_drivers_may_differ_as_the_apis_allow),
+        cmocka_unit_test(a_baselines_digest_may_differ_as_the_apis_allow),
         cmocka_unit_test(two_drivers_that_leave_nothing_to_compare_say_so),
         cmocka_unit_test(what_the_shard_does_not_have_is_not_drawn),
         cmocka_unit_test(a_pair_has_a_case_of_them_if_the_baseline_has_digests),

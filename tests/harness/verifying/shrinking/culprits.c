@@ -184,7 +184,7 @@ static void why_there_is_none_is_told(void **state)
 static const struct rg_slot_info slots[] = {
     {"blurred", 1, RG_SLOT_IN, 4, RG_FORMAT_NONE, "f", 0},
     {"shown", 2, RG_SLOT_OUT_IMAGE, 0, RG_RGBA16F, NULL, 0},
-    {"depth", 3, RG_SLOT_IMAGE, 0, RG_D32F, NULL, 0},
+    {"depth", 3, RG_SLOT_IMAGE, 0, RG_D32F, NULL, RG_SAMPLED_SHADOW},
     {"water", 4, RG_SLOT_INOUT, 8, RG_FORMAT_NONE, "ff", 0},
     {"count", 5, RG_SLOT_ATOMIC, 4, RG_FORMAT_NONE, "u", 0}};
 static const struct rg_kernel kernel = {

@@ -116,6 +116,7 @@ ROWS = [
     Fault(BASELINE, "sample.logs[i] = «log(launches->ms[i])»;", "launches->ms[i]", "a baseline's times are no logarithms", tests=OF_CHANGES),
     Fault(BASELINE, "return «expm1(rg_gate_decide_apart(&rule, &sample, sample.logs, sample.count).spread)»;", "rg_gate_decide_apart(&rule, &sample, sample.logs, sample.count).spread", "a scatter is a logarithm", tests=OF_CHANGES),
     # --- making ---
+    Fault(MAKE, "«rg_fixed_put_within(m->made->passport, device->info.name, &left);»", ";", "no baseline says which draws were within bounds", tests=OF_MAKING),
     Fault(MAKE, "    if («row->outcome != RG_OK» || rg_truth_holds", "false", "a picture that is not there is checked", tests=OF_MAKING),
     Fault(MAKE, "    rg_text_copy(row->why, sizeof(row->why), «agreement.message»);", "\"\"", "a baseline does not say why a picture is wrong", tests=OF_MAKING),
     Fault(MAKE, "row->seconds = «(rg_now_ms() - start_ms) / 1000»;", "rg_now_ms() - start_ms", "a row's milliseconds are seconds", tests=OF_MAKING),
