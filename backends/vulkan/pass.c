@@ -123,11 +123,11 @@ bool vk_pass_run(struct rg_pass *pass, const struct rg_run *run)
     const uint32_t params_offset = put_params(device, batch, vk, run);
     batch->runs++;
     bool recorded = true;
-    vk_group_begin(device, batch, pass->kernel->name);
+    vk_group_begin(device, batch->commands, pass->kernel->name);
     if (run->draw)
         recorded = vk_draw(device, batch, vk, run, params_offset);
     else
         dispatch(device, batch, vk, run, params_offset);
-    vk_group_end(device, batch);
+    vk_group_end(device, batch->commands);
     return vk_healthy(device) && recorded;
 }

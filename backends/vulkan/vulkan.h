@@ -193,8 +193,8 @@ bool vk_healthy(struct vk_device *device);
 // Gives an object its name in the validation layer and in debuggers.
 void vk_name(struct vk_device *device, VkObjectType type, uint64_t handle, const char *name);
 // Names the commands between the two there.
-void vk_group_begin(const struct vk_device *device, const struct vk_batch *batch, const char *name);
-void vk_group_end(const struct vk_device *device, const struct vk_batch *batch);
+void vk_group_begin(const struct vk_device *device, VkCommandBuffer commands, const char *name);
+void vk_group_end(const struct vk_device *device, VkCommandBuffer commands);
 #define VK_HANDLE(handle) ((uint64_t)(uintptr_t)(handle))
 
 // api/memory.c

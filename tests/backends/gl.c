@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "backends/gl/gl.h"
+#include "backends/gl/api/fixed/fixed.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/device/device.h"
@@ -171,6 +171,38 @@ static void runs_are_named_for_debuggers(void **state)
         assert_int_equal(groups.most_open, asked);
         assert_int_equal(groups.open, 0);
         assert_string_equal(groups.last, asked ? "probe_copy" : "");
+        assert_true(rg_device_close(device));
+    }
+}
+
+static bool draw_first_fixed(struct rg_device *device)
+{
+    static unsigned char bytes[RG_FIXED_PICTURE_BYTES];
+    struct rg_fixed_picture picture = {.bytes = bytes, .room = sizeof(bytes)};
+    return rg_device_fixed_draw(device, rg_fixed_draws[0].feature, &rg_fixed_draws[0].state,
+                                &picture);
+}
+
+// The same of a draw of a fixed function, which has a context of its own.
+static void fixed_functions_are_named_for_debuggers(void **state)
+{
+    (void)state;
+    for (int asked = 0; asked < 2; asked++) {
+        if (asked)
+            setenv("RG_LABELS", "1", 1);
+        struct rg_device *device = rg_device_open("gl");
+        unsetenv("RG_LABELS");
+        assert_non_null(device);
+        assert_true(draw_first_fixed(device));
+        assert_true(gl_use(&((struct gl_device *)device)->fixed->own));
+        glDebugMessageCallback(note_group, NULL);
+        glDebugMessageControl(GL_DEBUG_SOURCE_APPLICATION, GL_DONT_CARE, GL_DONT_CARE, 0, NULL,
+                              GL_TRUE);
+        memset(&groups, 0, sizeof(groups));
+        assert_true(draw_first_fixed(device));
+        assert_int_equal(groups.ended, asked);
+        assert_int_equal(groups.open, 0);
+        assert_string_equal(groups.last, asked ? rg_fixed_draws[0].feature : "");
         assert_true(rg_device_close(device));
     }
 }
@@ -390,6 +422,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(what_the_driver_refuses_is_one_line, open_device,
                                         close_device),
         cmocka_unit_test(runs_are_named_for_debuggers),
+        cmocka_unit_test(fixed_functions_are_named_for_debuggers),
         cmocka_unit_test(drivers_are_silent),
     };
     const struct CMUnitTest without_driver[] = {

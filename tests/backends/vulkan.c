@@ -15,6 +15,7 @@
 #include "core/base/outcome.h"
 #include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
+#include "shaders/fixed/fixed.h"
 #include "tests/tools/expect.h"
 
 static int errors;
@@ -212,7 +213,16 @@ static void VKAPI_CALL end_group(VkCommandBuffer commands)
     open_groups--;
 }
 
-// A run of a kernel is a group of its name where RG_LABELS or validation asks for it.
+static bool draw_first_fixed(struct rg_device *device)
+{
+    static unsigned char bytes[RG_FIXED_PICTURE_BYTES];
+    struct rg_fixed_picture picture = {.bytes = bytes, .room = sizeof(bytes)};
+    return rg_device_fixed_draw(device, rg_fixed_draws[0].feature, &rg_fixed_draws[0].state,
+                                &picture);
+}
+
+// A run of a kernel, or a draw of a fixed function, is a group of its name where RG_LABELS or
+// validation asks for it.
 static void runs_are_named_for_debuggers(void **state)
 {
     (void)state;
@@ -236,6 +246,10 @@ static void runs_are_named_for_debuggers(void **state)
         assert_int_equal(begun_groups, 2 * asked);
         assert_int_equal(open_groups, 0);
         assert_string_equal(last_group, asked ? "probe_copy" : "");
+        assert_true(draw_first_fixed(device));
+        assert_int_equal(begun_groups, 3 * asked);
+        assert_int_equal(open_groups, 0);
+        assert_string_equal(last_group, asked ? rg_fixed_draws[0].feature : "");
         rg_pass_destroy(pass);
         rg_buf_destroy(a);
         rg_buf_destroy(b);
@@ -250,9 +264,9 @@ static void complaints_name_the_kernel(void **state)
     struct vk_device *vk = *state;
     struct vk_batch *batch = vk_record(vk);
     assert_non_null(batch);
-    vk_group_begin(vk, batch, "our kernel");
+    vk_group_begin(vk, batch->commands, "our kernel");
     vkCmdDispatch(batch->commands, 1, 1, 1);
-    vk_group_end(vk, batch);
+    vk_group_end(vk, batch->commands);
     assert_false(vk_healthy(vk));
     assert_non_null(strstr(rg_last_error(), "Vulkan validation: kernel 'our kernel': "));
     rg_failure_take();

@@ -89,16 +89,16 @@ void vk_name(struct vk_device *device, VkObjectType type, uint64_t handle, const
                                              NULL, type, handle, name});
 }
 
-void vk_group_begin(const struct vk_device *device, const struct vk_batch *batch, const char *name)
+void vk_group_begin(const struct vk_device *device, VkCommandBuffer commands, const char *name)
 {
     if (device->begin_group)
-        device->begin_group(batch->commands, &(VkDebugUtilsLabelEXT){
-                                                 .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
-                                                 .pLabelName = name});
+        device->begin_group(
+            commands, &(VkDebugUtilsLabelEXT){.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                              .pLabelName = name});
 }
 
-void vk_group_end(const struct vk_device *device, const struct vk_batch *batch)
+void vk_group_end(const struct vk_device *device, VkCommandBuffer commands)
 {
     if (device->end_group)
-        device->end_group(batch->commands);
+        device->end_group(commands);
 }

@@ -24,6 +24,7 @@ static struct gl_fixed *open_context(struct gl_device *device)
         return NULL;
     }
     fixed->own.pub = device->pub;
+    fixed->own.labels = device->labels;
     gl_debug_begin(&fixed->own);
     gl_images_begin();
     return device->fixed = fixed;
@@ -188,10 +189,13 @@ static bool execute(struct gl_fixed_job *draw)
     rg_fixed_make_vertices(draw->state, &draw->vertices);
     if (!gl_fixed_program(draw))
         return false;
+    gl_label(GL_PROGRAM, draw->program, draw->feature);
     make_buffers(draw);
     make_array(draw);
-    if (draw->state->texels)
+    if (draw->state->texels) {
         gl_fixed_texture(draw);
+        gl_label(GL_TEXTURE, draw->texture, draw->feature);
+    }
     gl_fixed_targets(draw);
     gl_fixed_state(draw->state);
     glUseProgram(draw->program);
@@ -214,7 +218,9 @@ bool gl_fixed_draw(struct rg_device *device, const char *feature,
         return false;
     *draw = (struct gl_fixed_job){
         .device = &fixed->own, .state = state, .feature = feature, .picture = picture};
+    gl_group_begin(&fixed->own, feature);
     const bool ok = execute(draw);
+    gl_group_end(&fixed->own);
     release(draw);
     free(draw);
     return ok;

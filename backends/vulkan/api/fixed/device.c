@@ -135,6 +135,9 @@ struct vk_fixed *vk_fixed_open(struct vk_device *device)
     fixed->own.max_allocation_bytes = device->max_allocation_bytes;
     fixed->own.direct = device->direct;
     fixed->own.family = device->family;
+    fixed->own.set_name = device->set_name;
+    fixed->own.begin_group = device->begin_group;
+    fixed->own.end_group = device->end_group;
     if (create_device(fixed) && create_commands(fixed) && find_functions(fixed))
         return device->fixed = fixed;
     destroy(fixed);

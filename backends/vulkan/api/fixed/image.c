@@ -52,6 +52,7 @@ bool vk_fixed_image(struct vk_fixed_job *job, const VkImageCreateInfo *info, VkI
     image->layers = info->arrayLayers;
     if (!vk_fixed_try(job, vkCreateImage, own->handle, info, NULL, &image->handle))
         return false;
+    vk_name(own, VK_OBJECT_TYPE_IMAGE, VK_HANDLE(image->handle), job->feature);
     vkGetImageMemoryRequirements(own->handle, image->handle, &needs);
     if (!vk_memory_create(own, &needs, VK_USE_DEVICE, "feature", job->feature, &image->memory) ||
         !vk_fixed_try(job, vkBindImageMemory, own->handle, image->handle, image->memory.handle, 0))

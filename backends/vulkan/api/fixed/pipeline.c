@@ -222,8 +222,12 @@ static bool make_pipeline(struct vk_fixed_job *job, const struct description *d)
         .layout = job->layout,
         .renderPass = job->render_pass,
     };
-    return vk_fixed_try(job, vkCreateGraphicsPipelines, job->fixed->own.handle, VK_NULL_HANDLE, 1,
-                        &info, NULL, &job->pipeline);
+    struct vk_device *own = &job->fixed->own;
+    if (!vk_fixed_try(job, vkCreateGraphicsPipelines, own->handle, VK_NULL_HANDLE, 1, &info, NULL,
+                      &job->pipeline))
+        return false;
+    vk_name(own, VK_OBJECT_TYPE_PIPELINE, VK_HANDLE(job->pipeline), job->feature);
+    return true;
 }
 
 bool vk_fixed_pipeline(struct vk_fixed_job *job)

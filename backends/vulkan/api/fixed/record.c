@@ -249,6 +249,7 @@ bool vk_fixed_run(struct vk_fixed_job *job)
     };
     if (!vk_fixed_try(job, vkBeginCommandBuffer, commands, &begin))
         return false;
+    vk_group_begin(&job->fixed->own, commands, job->feature);
     if (job->state->texels)
         vk_fixed_upload(job);
     if (job->state->stores)
@@ -256,5 +257,6 @@ bool vk_fixed_run(struct vk_fixed_job *job)
     vk_fixed_barrier(commands);
     record_draw(job);
     record_taking(job);
+    vk_group_end(&job->fixed->own, commands);
     return submit(job) && read_all(job);
 }
