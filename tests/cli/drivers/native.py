@@ -14,17 +14,26 @@ DROPS = ["drops", "--set", "columns=96", "--set", "rows=64", "--set", "max_drops
 # Feng's way: spheres of drops are counted by the API's queries, whose answers come a frame late.
 CARTOON = ["cartoon", "--set", "query=api", "--set", "answers=late", "--size", "96x96", "--frame", "60"]
 RASTER = ["raster", "--size", "96x96", "--frame", "1"]
-# What turns a part of llvmpipe off, and the pictures that must tell, the cheapest first. Under no_tex some kernels that compute never
-# end, as buffers are textures there.
+# What turns a part of llvmpipe off, and the cheapest picture that must tell.
 SWITCHES = {
-    "LP_PERF=no_linear": (("gl", FLOW), ("gl", STREAKS)),
-    "LP_PERF=no_mipmap": (("vulkan", STREAKS),),
-    "LP_PERF=no_mip_linear": (("gl", DROPS), ("gl", STREAKS)),
-    "LP_PERF=no_tex": (("vulkan", FLOW), ("gl", FLOW), ("vulkan", STREAKS)),
-    "LP_PERF=no_depth": (("gl", FLOW), ("gl", STREAKS)),
-    "LP_PERF=no_blend": (("vulkan", FLOW), ("gl", FLOW), ("gl", SHOWER), ("vulkan", STREAKS)),
-    "GALLIVM_PERF=no_aos_sampling": (("gl", SHOWER), ("gl", STREAKS)),
+    "LP_PERF=no_linear": ("gl", FLOW),
+    "LP_PERF=no_mipmap": ("vulkan", STREAKS),
+    "LP_PERF=no_mip_linear": ("gl", DROPS),
+    "LP_PERF=no_tex": ("vulkan", FLOW),
+    "LP_PERF=no_depth": ("gl", FLOW),
+    "LP_PERF=no_blend": ("vulkan", FLOW),
+    "GALLIVM_PERF=no_aos_sampling": ("gl", SHOWER),
 }
+# What a scene does not use, so that its picture stays. Its textures are of floats, or it reads none, or draws without depth or blending.
+UNUSED = {
+    "shower": set(),
+    "streaks": set(),
+    "flow": {"LP_PERF=no_mip_linear", "GALLIVM_PERF=no_aos_sampling"},
+    "drops": {"LP_PERF=no_depth", "LP_PERF=no_blend", "GALLIVM_PERF=no_aos_sampling"},
+    "raster": set(SWITCHES) - {"LP_PERF=no_blend"},
+}
+# Under this switch some kernels that compute never end, as buffers are textures there.
+ENDLESS = {("drops", "LP_PERF=no_tex")}
 
 
 def check_names(runner):
@@ -85,34 +94,40 @@ def digest(runner, scene, device, path):
         return hashlib.sha256(file.read()).hexdigest()
 
 
-def switches_unnoticed(runner, most):
-    """Problems of the first pictures, at most so many, that must tell of each switch."""
-    if "llvmpipe" not in runner.run(["list", "devices"]).stdout:
-        return []
-    problems, plain = [], {}
+def changes(runner, tries):
+    """Whether each switch changes a native picture, and problems, of tries: switch, API and scene."""
+    changed, problems, plain = {}, [], {}
     with tempfile.TemporaryDirectory() as folder:
         path, behind = os.path.join(folder, "picture.exr"), os.path.join(folder, "behind.png")
         runner.run(["render", *FLOW, "--device", "cpu", "-o", behind])
-        for switch, pictures in SWITCHES.items():
-            for api, scene in pictures[:most]:
-                given = scene + ["--set", "background=" + behind] if scene is DROPS else scene
-                if (api, scene[0]) not in plain:
-                    plain[api, scene[0]] = digest(runner, given, api + ":native", path)
-                switched = digest(runner, given, "%s:native@%s" % (api, switch), path)
-                problems += ["%s, %s, %s: %s" % (switch, api, scene[0], told) for told in (plain[api, scene[0]], switched) if told.startswith("exit")]
-                if switched == plain[api, scene[0]]:
-                    problems.append("%s: %s does not notice on %s" % (switch, scene[0], api))
-    return problems
+        for switch, api, scene in tries:
+            given = scene + ["--set", "background=" + behind] if scene is DROPS else scene
+            if (api, scene[0]) not in plain:
+                plain[api, scene[0]] = digest(runner, given, api + ":native", path)
+            switched = digest(runner, given, "%s:native@%s" % (api, switch), path)
+            problems += ["%s, %s, %s: %s" % (switch, api, scene[0], told) for told in (plain[api, scene[0]], switched) if told.startswith("exit")]
+            changed[switch, api, scene[0]] = switched != plain[api, scene[0]]
+    return changed, problems
 
 
 def check_switches(runner):
     """Each switch that turns a part of llvmpipe off changes a native picture."""
-    return switches_unnoticed(runner, 1)
+    if "llvmpipe" not in runner.run(["list", "devices"]).stdout:
+        return []
+    changed, problems = changes(runner, [(switch, *picture) for switch, picture in SWITCHES.items()])
+    return problems + ["%s: %s does not notice on %s" % (switch, scene, api) for (switch, api, scene), is_other in changed.items() if not is_other]
 
 
 def check_all_switches(runner):
-    """Each switch that turns a part of llvmpipe off changes native pictures of several techniques."""
-    return switches_unnoticed(runner, None)
+    """A switch that turns a part of llvmpipe off changes the native pictures on both APIs of all scenes that use it, and no others."""
+    if "llvmpipe" not in runner.run(["list", "devices"]).stdout:
+        return []
+    tries = [(switch, api, scene) for scene in (SHOWER, STREAKS, FLOW, DROPS, RASTER) for api in APIS for switch in SWITCHES
+             if (scene[0], switch) not in ENDLESS]
+    changed, problems = changes(runner, tries)
+    print("# %d pictures under a switch, %d changed" % (len(changed), sum(changed.values())))
+    return problems + ["%s: %s on %s %s" % (switch, scene, api, "changes" if is_other else "does not notice")
+                       for (switch, api, scene), is_other in changed.items() if is_other == (switch in UNUSED[scene])]
 
 
 THOROUGH = [check_all_switches]

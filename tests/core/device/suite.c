@@ -38,8 +38,8 @@ static const struct part {
       &lack_tests}},
     {"images",
      {&image_tests, &texel_tests, &filter_tests, &large_tests, &sampled_tests, &around_tests}},
-    {"native", {&sampled_tests, &around_tests, &native_filter_tests, &query_tests}},
-    {"draws", {&draw_tests, &tally_tests, &query_tests}},
+    {"native", {&sampled_tests, &around_tests, &native_filter_tests, &query_tests, &place_tests}},
+    {"draws", {&draw_tests, &tally_tests, &query_tests, &place_tests}},
     {"targets", {&target_tests, &light_tests, &layer_tests}},
 };
 
