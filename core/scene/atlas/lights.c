@@ -37,7 +37,7 @@ void rg_lobes_of_atlas(struct rg_lobes *lobes)
         for (int phi = 0; phi < RG_ATLAS_PHIS; phi++)
             rg_lobe_direction(20 * light - 90, 10 + 20 * phi,
                               directions[rg_lobe_of_cell(light, phi)]);
-    rg_lobes_fill(lobes, RG_LOBE_COUNT, directions);
+    rg_lobes_fill(lobes, RG_LOBE_COUNT, directions, RG_LAMP_DEG);
 }
 
 // The direction of a square's middle.
@@ -69,14 +69,14 @@ int rg_lobes_square(float x, float y, float z)
 }
 
 // Fills the profile of a lamp, and the radiance at which its irradiance is 1.
-static void fill_profile(struct rg_lobes *lobes)
+static void fill_profile(struct rg_lobes *lobes, double lamp_deg)
 {
-    const double edge = cos((RG_LAMP_DEG + RG_RIM_DEG) * M_PI / 180);
+    const double edge = cos((lamp_deg + RG_RIM_DEG) * M_PI / 180);
     double irradiance = 0;
     lobes->edge = (float)edge;
     for (int i = 0; i < RG_LOBE_STEPS + 2; i++) {
         const double cosine = fmin(1, edge + (1 - edge) * i / RG_LOBE_STEPS);
-        const double inwards_deg = RG_LAMP_DEG - acos(cosine) * 180 / M_PI;
+        const double inwards_deg = lamp_deg - acos(cosine) * 180 / M_PI;
         const double radiance = fmin(fmax(0.5 + 0.5 * inwards_deg / RG_RIM_DEG, 0), 1);
         const double part = i == 0 || i == RG_LOBE_STEPS ? 0.5 : i < RG_LOBE_STEPS;
         lobes->profile[i] = (float)radiance;
@@ -85,12 +85,12 @@ static void fill_profile(struct rg_lobes *lobes)
     lobes->peak = (float)(1 / irradiance);
 }
 
-void rg_lobes_fill(struct rg_lobes *lobes, int count, float (*directions)[3])
+void rg_lobes_fill(struct rg_lobes *lobes, int count, float (*directions)[3], double lamp_deg)
 {
     lobes->count = count;
     memcpy(lobes->direction, directions, (size_t)count * sizeof(*directions));
-    fill_profile(lobes);
-    const double reach = cos((RG_LAMP_DEG + RG_RIM_DEG) * M_PI / 180 + SQUARE_REACH_RAD);
+    fill_profile(lobes, lamp_deg);
+    const double reach = cos((lamp_deg + RG_RIM_DEG) * M_PI / 180 + SQUARE_REACH_RAD);
     for (int square = 0; square < RG_LOBE_SQUARES; square++) {
         double d[3];
         middle_of(square, d);

@@ -39,9 +39,10 @@ int rg_lobe_of_cell(int light, int phi);
 // sphere.
 double rg_lobe_share_sr(int lobe);
 
-// Make lobes for the 74 directions, or for any `count` others, up to RG_LOBE_COUNT.
+// Make lobes for the 74 directions, or for any `count` others, up to RG_LOBE_COUNT, and for lamps
+// of any radius.
 void rg_lobes_of_atlas(struct rg_lobes *lobes);
-void rg_lobes_fill(struct rg_lobes *lobes, int count, float (*directions)[3]);
+void rg_lobes_fill(struct rg_lobes *lobes, int count, float (*directions)[3], double lamp_deg);
 
 // The grid square of a direction.
 int rg_lobes_square(float x, float y, float z);

@@ -69,7 +69,7 @@ static void add_ours(struct rg_streak_detail detail, int level, int oscillation,
         float directions[2 * LAMPS][3];
         for (int i = 0; i < 2 * LAMPS; i++)
             rg_lobe_direction(0, azimuth_of(first + i / LAMPS, i % LAMPS), directions[i]);
-        rg_lobes_fill(&lobes, 2 * LAMPS, directions);
+        rg_lobes_fill(&lobes, 2 * LAMPS, directions, RG_LAMP_DEG);
         struct rg_streaks s;
         assert_true(rg_streaks_trace(oscillation, 0, level, &detail, &lobes, &s));
         const int pixels = s.width * s.height;

@@ -198,7 +198,7 @@ static void lobes_at(double elevation, double azimuth, struct rg_lobes *pair)
     float directions[2][3];
     rg_lobe_direction(elevation, azimuth, directions[0]);
     rg_lobe_direction(elevation, -azimuth, directions[1]);
-    rg_lobes_fill(pair, 2, directions);
+    rg_lobes_fill(pair, 2, directions, RG_LAMP_DEG);
 }
 
 // The largest difference between one picture and the other's mirror image, over the largest value.
@@ -280,7 +280,7 @@ static void test_scattered_light(void **state)
         float directions[60][3];
         for (int i = 0; i < 60; i++)
             rg_lobe_direction(0, first + i + 0.5, directions[i]);
-        rg_lobes_fill(&ring, 60, directions);
+        rg_lobes_fill(&ring, 60, directions, RG_LAMP_DEG);
         struct rg_streaks s;
         assert_true(rg_streaks_trace(0, 0, 2, &fine, &ring, &s));
         for (int i = 0; i < 60; i++)

@@ -16,7 +16,7 @@ ROWS = [
     Fault(LOBES, "return 1 + (light - 1) * «RG_ATLAS_PHIS» + phi;", "(RG_ATLAS_PHIS - 1)", "cells of the atlas share lobes"),
     Fault(LOBES, "return «4» * half * (sin(elevation + half)", "2", "a lobe's share of the sphere is half"),
     Fault(LOBES, "lobes->peak = (float)(«1» / irradiance);", "0.5", "lobes have half their light"),
-    Fault(LOBES, "cos((RG_LAMP_DEG + RG_RIM_DEG) * M_PI / 180 «+ SQUARE_REACH_RAD»);", "- SQUARE_REACH_RAD", "lobes end at the grid's lines"),
+    Fault(LOBES, "cos((lamp_deg + RG_RIM_DEG) * M_PI / 180 «+ SQUARE_REACH_RAD»);", "- SQUARE_REACH_RAD", "lobes end at the grid's lines"),
     Fault(DROP, "(float)((is_database ? «0» : MEASURED_REST_A20) +", "MEASURED_REST_A20", "the database's drops are flat at rest"),
     Fault(DROP, "&(«is_database ? database : measured»)[oscillation];", "is_database ? measured : database", "the two sets of swings are exchanged"),
     Fault(DROP, ".blind = is_database ? «BLIND» : 0", "0", "light runs along the wall of the database's drops"),
