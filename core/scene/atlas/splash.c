@@ -37,7 +37,6 @@ struct material {
     double widest_m;  // the crown's radius
     double height_m;  // of the crown at its highest
     double life_s;    // of the crown
-    double rise;      // the share of its life after which it is highest
     double rim_m;     // radius of the rim
     double flare;     // how far the sheet leans outwards, over its height
     double lift_deg;  // elevation at which water leaves the edge
@@ -48,14 +47,11 @@ struct material {
     double ring_m; // height of the outgoing wave
 };
 
-// The puddle's width, life, rise and droplets follow what was published (docs/atlas.md,
-// tests/core/scene/atlas/crowns.c).
 static const struct material materials[RG_ATLAS_MATERIALS] = {
     {.film = 0.3,
      .widest_m = 0.016,
      .height_m = 0.009,
      .life_s = 0.030,
-     .rise = 0.5,
      .rim_m = 0.00036,
      .flare = 0.35,
      .lift_deg = 60,
@@ -64,23 +60,21 @@ static const struct material materials[RG_ATLAS_MATERIALS] = {
      .droplets = 75,
      .ring_m = 0.00010},
     {.film = 1.5,
-     .widest_m = 0.0154,
+     .widest_m = 0.013,
      .height_m = 0.014,
-     .life_s = 0.056,
-     .rise = 0.125,
+     .life_s = 0.050,
      .rim_m = 0.00045,
      .flare = 0.15,
      .lift_deg = 68,
      .speed_m_s = 0.8,
-     .droplet_m = 0.00026,
-     .droplets = 73,
+     .droplet_m = 0.00030,
+     .droplets = 45,
      .jet_m = 0.016,
      .ring_m = 0.00025},
     {.film = 0.1,
      .widest_m = 0.011,
      .height_m = 0.002,
      .life_s = 0.012,
-     .rise = 0.5,
      .rim_m = 0.00022,
      .flare = 0.6,
      .lift_deg = 35,
@@ -91,7 +85,6 @@ static const struct material materials[RG_ATLAS_MATERIALS] = {
      .widest_m = 0.013,
      .height_m = 0.004,
      .life_s = 0.018,
-     .rise = 0.5,
      .rim_m = 0.00028,
      .flare = 0.5,
      .lift_deg = 33,
@@ -110,13 +103,10 @@ struct rg_splash_crown rg_splash_crown(int material, double time_s)
     const double ideal =
         DIAMETER_M * pow(2 / (3 * m->film), 0.25) * sqrt(SPEED_M_S * time_s / DIAMETER_M);
     const double passed = time_s / m->life_s;
-    const bool rises = passed < m->rise;
-    const double half =
-        rises ? 0.5 * passed / m->rise : 0.5 + 0.5 * (passed - m->rise) / (1 - m->rise);
-    const double up = half < 1 ? 4 * half * (1 - half) : 0;
+    const double up = passed < 1 ? 4 * passed * (1 - passed) : 0;
     return (struct rg_splash_crown){
         .radius_m = m->widest_m * tanh(ideal / m->widest_m),
-        .height_m = m->height_m * sqrt(up) * (rises ? 1 : sqrt(up)),
+        .height_m = m->height_m * sqrt(up) * (passed < 0.5 ? 1 : sqrt(up)),
     };
 }
 
@@ -175,8 +165,7 @@ static void add_droplets(struct rg_water *w, const struct material *m, int mater
 {
     for (int k = 0; k < m->droplets; k++) {
         const struct chance when = chance_of(material, k, 1), how = chance_of(material, k, 2);
-        const double leaves = m->life_s * 2 * m->rise * (0.03 + 0.6 * when.a),
-                     flown = time_s - leaves;
+        const double leaves = m->life_s * (0.03 + 0.6 * when.a), flown = time_s - leaves;
         if (flown <= 0)
             continue;
         const struct rg_splash_crown crown = rg_splash_crown(material, leaves);
