@@ -422,7 +422,7 @@ RENDERS = [
     Case(FIT + "--set packets=kd --set memory_mb=1 -o {tmp}/a.png", 77, r"more than the .* allowed"),
     Case(FIT + "--set eye_y_m=60 --set fit_error=0.001 -o {tmp}/a.png", 2, r"the largest radius and height, .* have an error of .*; allow "),
     Case(FIT + "-o {tmp}/a.png", 0, None, made=("a.png",)),
-    Case(RAIN + "--set lights=17 -o {tmp}/a.png", 2, r"parameter 'lights': 17 is out of range; 0 to 16"),
+    Case(RAIN + "--set lights=17 -o {tmp}/a.png", 2, r"parameter 'lights': 17 is out of range; -1 to 16"),
     Case(RAIN + "--set lights_file={data}/a.png -o {tmp}/a.png", 2, r"a\.png:1:0: .*docs/lights\.md"),
     Case(RAIN + "--set scene={data}/a.png -o {tmp}/a.png", 2, r"a\.png: Assimp cannot read it"),
     Case(RAIN + "--set atlas=cave -o {tmp}/a.png", 2,
