@@ -255,4 +255,5 @@ ROWS = [
     Fault(PASSPORT, "\"distribution\", rg_json_text(«m.distribution»), \"clocks\"", "m.kernel", "a distribution is its kernel", tests=("passport",)),
     Fault("harness/record/disk/stored.c", "return «stat(path, &found)» == 0", "lstat(path, &found)", "a link to a folder is no folder", tests=("held",)),
     Fault("harness/record/schema/fields.c", "if («!json_is_integer(found)» || number < least || number > most)", "false", "a text is taken for the number 0", tests=("fields of records",)),
+    Fault("harness/record/schema/read_head.c", "sizeof(work->reading))))\n            return false;\n    }\n    «rg_reader_enter(r, \"%s\", \"\");»\n    return count > 0;", "", "what is wrong behind works is told as of the last", tests=("refused",)),
 ]

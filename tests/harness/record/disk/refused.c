@@ -67,6 +67,7 @@ static void test_refusals(void **state)
     expect_refusal("passport.devices.0.software", json_null(),
                    "f: passport.devices[0].software is neither true nor false");
     expect_refusal("works.1.saves", NULL, "f: works[1].saves is missing");
+    expect_refusal("passport", NULL, "f: passport is missing"); // not of the last work
     expect_refusal("cells.3.status", json_string("good"), "f: cells[3].status is no outcome");
     expect_refusal("cells.3.detail", NULL, "f: cells[3].detail is missing");
     expect_refusal("cells.3.device", json_string("vulkan"), "f: cells[3].device is 'vulkan'");
