@@ -25,6 +25,8 @@ struct mapping {
     bool turned; // on the ground: u along z
 };
 
+enum { CITY_SHOPS = PAINT_WALL - PAINT_SHOP };
+
 struct city_builder {
     struct city_settings settings;
     struct city *city;
@@ -33,6 +35,10 @@ struct city_builder {
     // A hash table of surfaces, so that equal ones share a number.
     int *places;
     int place_room;
+    struct {
+        bool is_known, shines;
+        float tint[3];
+    } signs[CITY_SHOPS]; // by texture, which many shops share
 };
 
 // A pseudo-random number in [0, 1) from the seed, its purpose, and the item.

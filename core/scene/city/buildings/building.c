@@ -42,19 +42,23 @@ static void light_signs(struct building *t, const struct city_facade *f, double 
                         int texture)
 {
     const double y = y0 + SHOP_M * (double)(CITY_SIGN_LOW + CITY_SIGN_HIGH) / 2;
-    float tint[3];
-    for (int i = 0; i < shops && city_shop_sign(&t->b->settings, texture, tint); i++) {
+    const int shop = texture - PAINT_SHOP;
+    if (!t->b->signs[shop].is_known) {
+        t->b->signs[shop].is_known = true;
+        t->b->signs[shop].shines = city_shop_sign(&t->b->settings, texture, t->b->signs[shop].tint);
+    }
+    for (int i = 0; t->b->signs[shop].shines && i < shops; i++) {
         const point at = city_facade_at(f, (i + 0.5) * f->length / shops, y, -1);
         struct city_lamp *lamp = city_lamp_add(t->b, CITY_SIGN, at, f->out);
         if (lamp)
-            memcpy(lamp->tint, tint, sizeof(lamp->tint));
+            memcpy(lamp->tint, t->b->signs[shop].tint, sizeof(lamp->tint));
     }
 }
 
 // The ground floor: shops behind posts, with a band of signs above.
 static void build_shops(struct building *t, const struct city_facade *f, double y0)
 {
-    const struct look look = {PAINT_SHOP + (int)(12 * chance(t, CHANCE_SHOP, 0)),
+    const struct look look = {PAINT_SHOP + (int)(CITY_SHOPS * chance(t, CHANCE_SHOP, 0)),
                               SCENERY_KIND_GLASS, 0, 0, 0};
     const bool framed = t->b->settings.size == CITY_FULL;
     const double d = framed ? 0.5 : 0, y1 = y0 + SHOP_M;
