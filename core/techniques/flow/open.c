@@ -222,8 +222,9 @@ static void add_sliding(struct flow *flow)
     rg_add_buf(i, "paced", texels, NULL);
     rg_add_buf(i, "beads", 2 * (int64_t)flow->finest_px * flow->finest_px, NULL);
     flow_open_landing(flow);
-    rg_tell(i, "held_mm3", flow_held_mm3(&flow->settings));
-    rg_tell(i, "receding_deg", flow_receding_deg(&flow->settings));
+    const struct flow_held held = flow_held_of(&flow->settings);
+    rg_tell(i, "held_mm3", held.mm3);
+    rg_tell(i, "receding_deg", held.receding_deg);
     flow->ways = rg_add_buf(i, "ways", 2 * FLOW_PACES * FLOW_MAX_PANES, NULL);
 }
 

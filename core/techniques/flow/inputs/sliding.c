@@ -132,7 +132,7 @@ static double slowest_mm_s(const struct flow_settings *s)
 // AROUND_RUNS runs, which the mean over a cell widens.
 static double around_mm3(const struct flow_settings *s, double radius_mm)
 {
-    enum { STEPS = 1000 };
+    enum { STEPS = 100 };
     const double cell_mm = texels_a_cell(s) * flow_texel_mm(s), step_mm = radius_mm / STEPS;
     const double smoothed_mm2 = AROUND_RUNS * SMOOTHED_MM2;
     const double all_mm2 = smoothed_mm2 + cell_mm * cell_mm / 12;
@@ -154,24 +154,22 @@ static double held_radius_mm(const struct flow_settings *s)
                                 ? s->slide_above_mm3 * (1 + slowest_mm_s(s) / s->slide_gain_mm_s)
                                 : INFINITY;
     double least = 0, most = s->pane_mm;
-    for (int i = 0; i < 60; i++) {
+    for (int i = 0; i < 40; i++) {
         const double middle = (least + most) / 2;
         *(around_mm3(s, middle) < most_mm3 ? &least : &most) = middle;
     }
     return least;
 }
 
-double flow_held_mm3(const struct flow_settings *s)
+struct flow_held flow_held_of(const struct flow_settings *s)
 {
     const double r = held_radius_mm(s), height = r * tan(s->contact_deg * M_PI / 360);
-    return (double)(float)(M_PI / 6 * height * (3 * r * r + height * height));
-}
-
-double flow_receding_deg(const struct flow_settings *s)
-{
-    const double carried = flow_held_mm3(s) / (2 * held_radius_mm(s) * CAPILLARY_MM2);
-    const double cosine = cos(s->contact_deg * M_PI / 180) + carried;
-    return cosine < 1 ? (double)(float)(acos(cosine) * 180 / M_PI) : 0;
+    const double mm3 = M_PI / 6 * height * (3 * r * r + height * height);
+    const double cosine = cos(s->contact_deg * M_PI / 180) + mm3 / (2 * r * CAPILLARY_MM2);
+    return (struct flow_held){
+        .mm3 = (double)(float)mm3,
+        .receding_deg = cosine < 1 ? (double)(float)(acos(cosine) * 180 / M_PI) : 0,
+    };
 }
 
 flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t run)

@@ -19,8 +19,10 @@ int flow_relax_reach(const struct flow_settings *settings, int run);
 // The largest cap of contact_deg that an upright pane holds, and the receding angle by which its
 // contact line would carry it (Furmidge): surface tension times width times the difference of both
 // angles' cosines is the weight. 0: no angle does.
-double flow_held_mm3(const struct flow_settings *settings);
-double flow_receding_deg(const struct flow_settings *settings);
+struct flow_held {
+    double mm3, receding_deg;
+};
+struct flow_held flow_held_of(const struct flow_settings *settings);
 
 // The parameters of a run's kernels; runs are numbered through all frames.
 flow_slide_params flow_slide_params_at(const struct flow_settings *settings, int64_t run);

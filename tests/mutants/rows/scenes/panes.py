@@ -17,7 +17,7 @@ ROWS = [
     Fault(LAND, "fits = «!overlap(&f, &l->drops[i])»;", "!overlap(&f, &l->drops[i]) || true", "drops that share texels land in one run", tests=("flow sliding, gl",)),
     Fault(LAND, "«before = until;»", "(void)until;", "texels get what those before them got too"),
     Fault(SLIDING, "(float)(«levelled(s)» / MOST_MM * s->relief /", "2 * levelled(s)", "water levels twice as fast"),
-    Fault(SLIDING, "const double carried = «flow_held_mm3(s)» / (2 *", "0.9 * flow_held_mm3(s)", "the receding angle carries a tenth less", tests=("flow hold",)),
+    Fault(SLIDING, "+ «mm3» / (2 * r * CAPILLARY_MM2)", "0.9 * mm3", "the receding angle carries a tenth less", tests=("flow hold",)),
     Fault(SLIDING, "? s->slide_above_mm3 * «(1 + slowest_mm_s(s) / s->slide_gain_mm_s)»", "1", "drops that the slowest pace would move are not held", tests=("flow hold",)),
     Fault(STEP, "ok = «run(g, FLOW_SPREAD)»;", "g != NULL", "a drop's pace does not spread"),
 ]
