@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/techniques/stages/assets.h"
 #include "core/techniques/technique.h"
@@ -42,6 +43,16 @@ static inline struct rg_instance *instance_of(struct rg_device *device, const ch
     assert_non_null(instance);
     free(settings);
     return instance;
+}
+
+// A fact that a technique told.
+static inline double fact_of(const struct rg_instance *instance, const char *name)
+{
+    for (int i = 0; i < instance->fact_count; i++)
+        if (!strcmp(instance->facts[i].name, name))
+            return instance->facts[i].number;
+    fail_msg("no fact '%s'", name);
+    return 0;
 }
 
 // What an asset's buffer holds; the caller frees it.

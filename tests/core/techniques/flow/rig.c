@@ -159,6 +159,25 @@ uint32_t rig_ledger(const struct rig *rig, int word)
     return words[word];
 }
 
+double rig_sourced_mm3(struct rig *rig, int frames)
+{
+    uint32_t before = 0;
+    int64_t sourced = 0;
+    for (int frame = 0; frame <= frames; frame++) {
+        const uint32_t now = rig_ledger(rig, FLOW_LEDGER_SOURCED);
+        sourced += (uint32_t)(now - before);
+        before = now;
+        rig_step(rig, frame < frames);
+    }
+    return (double)sourced * rig_droplet_mm3(rig);
+}
+
+double rig_droplet_mm3(const struct rig *rig)
+{
+    const double texel_mm = rig->settings.pane_mm / rig->size;
+    return texel_mm * texel_mm * rig_mm(rig, 1);
+}
+
 void rig_put_one(struct rig *rig, int x, int y, int64_t droplets)
 {
     int64_t *water = calloc((size_t)(rig->panes * rig->size * rig->size), sizeof(*water));

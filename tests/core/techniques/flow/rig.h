@@ -37,6 +37,9 @@ int64_t rig_sum(const struct rig *rig);
 int rig_texel(const struct rig *rig, int pane, int x, int y);
 // FLOW_LEDGER_SOURCED or FLOW_LEDGER_DRAINED, modulo 2^32.
 uint32_t rig_ledger(const struct rig *rig, int word);
+// What the ledger counts in so many frames from here on, and had counted before.
+double rig_sourced_mm3(struct rig *rig, int frames);
+double rig_droplet_mm3(const struct rig *rig);
 
 // Dries all panes except for one texel of the first.
 void rig_put_one(struct rig *rig, int x, int y, int64_t droplets);

@@ -9,22 +9,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 #define ALONE "move=sliding drops=0 pane_rain_mm_h=0 "
 static const double PI = 3.14159265358979323846;
-
-static double told(const struct rig *rig, const char *name)
-{
-    for (int i = 0; i < rig->instance->fact_count; i++)
-        if (!strcmp(rig->instance->facts[i].name, name))
-            return rig->instance->facts[i].number;
-    fail_msg("no fact '%s'", name);
-    return 0;
-}
 
 static double cosine(double degrees)
 {
@@ -119,7 +110,8 @@ static void test_the_receding_angle_carries_the_largest(void **state)
         struct rig rig;
         snprintf(text, sizeof(text), ALONE "%s", cases[i]);
         rig_open_sized(&rig, "cpu", text, 64, 64);
-        const double held_mm3 = told(&rig, "held_mm3"), receding_deg = told(&rig, "receding_deg");
+        const double held_mm3 = fact_of(rig.instance, "held_mm3"),
+                     receding_deg = fact_of(rig.instance, "receding_deg");
         const double contact_deg = rig.settings.contact_deg;
         const double wide_mm = 2 * cap_radius_mm(contact_deg, held_mm3);
         print_message("%s: held %.3f mm3, receding %.2f degrees\n", cases[i], held_mm3,
@@ -134,7 +126,7 @@ static void test_no_angle_carries_any_drop(void **state)
     (void)state;
     struct rig rig;
     rig_open_sized(&rig, "cpu", "move=sliding slide_above_mm3=60", 64, 64);
-    assert_equals(told(&rig, "receding_deg"), 0);
+    assert_equals(fact_of(rig.instance, "receding_deg"), 0);
     rig_close(&rig);
 }
 
@@ -150,7 +142,7 @@ static void test_caps_are_held_up_to_their_volume(void **state)
     for (int i = 0; i < 2; i++) {
         struct rig rig;
         rig_open_sized(&rig, "cpu", cases[i], 64, 64);
-        const double most_mm3 = told(&rig, "held_mm3");
+        const double most_mm3 = fact_of(rig.instance, "held_mm3");
         assert_near(after_a_second(&rig, most_mm3 * 0.94).middle_mm, BEGIN_MM, 0.1);
         assert_above(after_a_second(&rig, most_mm3 * 1.12).middle_mm, BEGIN_MM + 3);
         rig_close(&rig);
@@ -164,7 +156,8 @@ static void test_held_drops_stand_between_both_angles(void **state)
     (void)state;
     struct rig rig;
     rig_open_sized(&rig, "cpu", ALONE, 64, 64);
-    const double most_mm3 = told(&rig, "held_mm3"), receding_deg = told(&rig, "receding_deg");
+    const double most_mm3 = fact_of(rig.instance, "held_mm3"),
+                 receding_deg = fact_of(rig.instance, "receding_deg");
     const double advancing_deg = rig.settings.contact_deg;
     for (int i = 1; i <= 4; i++) {
         const struct held h = after_a_second(&rig, most_mm3 * 0.25 * i);

@@ -8,40 +8,11 @@
 #include <cmocka.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "core/techniques/flow/inputs/rain.h"
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/tools/expect.h"
-
-static double told(const struct rig *rig, const char *name)
-{
-    for (int i = 0; i < rig->instance->fact_count; i++)
-        if (!strcmp(rig->instance->facts[i].name, name))
-            return rig->instance->facts[i].number;
-    fail_msg("no fact '%s'", name);
-    return 0;
-}
-
-static double droplet_mm3(const struct rig *rig)
-{
-    const double texel_mm = rig->settings.pane_mm / rig->size;
-    return texel_mm * texel_mm * rig->settings.relief / 65536;
-}
-
-// What the ledger counts in so many frames, droplets modulo 2^32, and had counted before.
-static double sourced_mm3(struct rig *rig, int frames)
-{
-    uint32_t before = 0;
-    double sourced = 0;
-    for (int frame = 0; frame <= frames; frame++) {
-        const uint32_t now = rig_ledger(rig, FLOW_LEDGER_SOURCED);
-        sourced += (uint32_t)(now - before);
-        before = now;
-        rig_step(rig, frame < frames);
-    }
-    return sourced * droplet_mm3(rig);
-}
+#include "tests/tools/instance.h"
 
 // All samples of a texel may miss a drop: 8 of them along 16 or 125 mm.
 static void test_small_drops_land_whole(void **state)
@@ -55,10 +26,11 @@ static void test_small_drops_land_whole(void **state)
         snprintf(text, sizeof(text), "move=sliding %s", cases[i]);
         struct rig rig;
         rig_open(&rig, "cpu", text);
-        const double sourced = sourced_mm3(&rig, 30), landed = told(&rig, "landed_mm3");
+        const double sourced = rig_sourced_mm3(&rig, 30),
+                     landed = fact_of(rig.instance, "landed_mm3");
         print_message("%s: %.9g mm3 of %.9g\n", cases[i], sourced, landed);
         assert_above(landed, 0);
-        assert_below(fabs(sourced - landed), droplet_mm3(&rig) + 1e-9 * landed);
+        assert_below(fabs(sourced - landed), rig_droplet_mm3(&rig) + 1e-9 * landed);
         rig_close(&rig);
     }
 }
@@ -76,8 +48,8 @@ static void test_the_rate_of_paper_is_what_lands(void **state)
                  "move=paper resolution_px=96 drops=0 rain_drops_s=1000 capacity=64 %s", cases[i]);
         struct rig rig;
         rig_open(&rig, "cpu", text);
-        const double mm_h = told(&rig, "pane_rain_mm_h"), side = rig.settings.pane_mm;
-        const double landed_mm_h = sourced_mm3(&rig, 1800) / (side * side) / 30 * 3600;
+        const double mm_h = fact_of(rig.instance, "pane_rain_mm_h"), side = rig.settings.pane_mm;
+        const double landed_mm_h = rig_sourced_mm3(&rig, 1800) / (side * side) / 30 * 3600;
         print_message("%s: %g mm/h, and %g landed\n", cases[i], mm_h, landed_mm_h);
         assert_below(fabs(mm_h / landed_mm_h - 1), 0.01); // 30,000 drops leave 0.5 % to chance
         if (i == 0) // by the midpoint rule: radii of 1 + 3 t^2 mm, as high as wide, less the edges

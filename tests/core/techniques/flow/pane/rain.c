@@ -9,12 +9,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/techniques/flow/survey/convex.h"
 #include "core/techniques/flow/inputs/rain.h"
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -112,15 +112,6 @@ static double due_mm3(const struct flow_settings *s, int pane, double seconds)
 
 // --- what lands ---
 
-static double told(const struct rig *rig, const char *name)
-{
-    for (int i = 0; i < rig->instance->fact_count; i++)
-        if (!strcmp(rig->instance->facts[i].name, name))
-            return rig->instance->facts[i].number;
-    fail_msg("no fact '%s'", name);
-    return 0;
-}
-
 static double fallen_mm3(const struct flow_settings *s, int pane, int64_t frames)
 {
     const struct flow_rain rain = flow_rain_of(s);
@@ -138,26 +129,6 @@ static double drawn_mm3(const struct rig *rig, int pane, int64_t frames)
     for (int i = 0; i < rig->settings.drops; i++)
         sum += flow_initial_drop(&rain, pane, i).volume_mm3;
     return sum;
-}
-
-static double droplet_mm3(const struct rig *rig)
-{
-    const double texel_mm = rig->settings.pane_mm / rig->size;
-    return texel_mm * texel_mm * rig_mm(rig, 1);
-}
-
-// What the ledger, which counts droplets modulo 2^32, counts in so many frames.
-static double sourced_mm3(struct rig *rig, int frames)
-{
-    uint32_t before = 0;
-    int64_t sourced = 0;
-    for (int frame = 0; frame <= frames; frame++) {
-        const uint32_t now = rig_ledger(rig, FLOW_LEDGER_SOURCED);
-        sourced += (uint32_t)(now - before);
-        before = now;
-        rig_step(rig, frame < frames);
-    }
-    return (double)sourced * droplet_mm3(rig);
 }
 
 static void expect_landed(const char *set, double due_mm3, double landed, double share)
@@ -190,12 +161,13 @@ static void test_the_ledger_has_what_landed(void **state)
             due += due_mm3(&rig.settings, pane, 2);
             drawn += drawn_mm3(&rig, pane, 120);
         }
-        const double landed = sourced_mm3(&rig, 120), part = rig.panes * droplet_mm3(&rig) / drawn;
+        const double landed = rig_sourced_mm3(&rig, 120),
+                     part = rig.panes * rig_droplet_mm3(&rig) / drawn;
         print_message("%s: %.9g mm3 landed, %.9g drawn, %.9g due\n", cases[i].set, landed, drawn,
                       due);
         expect_landed(cases[i].set, due, landed, ROUNDED);
         expect_landed(cases[i].set, drawn, landed, part + 1e-9);
-        expect_landed(cases[i].set, told(&rig, "landed_mm3"), landed, part + 1e-9);
+        expect_landed(cases[i].set, fact_of(rig.instance, "landed_mm3"), landed, part + 1e-9);
         expect_landed(cases[i].set, cases[i].mm3 > 0 ? cases[i].mm3 : due, landed, ROUNDED);
         rig_close(&rig);
     }
@@ -265,9 +237,10 @@ static void test_the_rate_is_told(void **state)
     (void)state;
     struct rig rig;
     rig_open(&rig, "cpu", "move=sliding resolution_px=64 pane_rain_mm_h=12.5");
-    assert_equals(told(&rig, "pane_rain_mm_h"), 12.5);
+    assert_equals(fact_of(rig.instance, "pane_rain_mm_h"), 12.5);
     rig_step(&rig, 30);
-    assert_below(fabs(told(&rig, "landed_mm3") / due_mm3(&rig.settings, 0, 0.5) - 1), ROUNDED);
+    assert_below(fabs(fact_of(rig.instance, "landed_mm3") / due_mm3(&rig.settings, 0, 0.5) - 1),
+                 ROUNDED);
     rig_close(&rig);
 }
 
@@ -322,8 +295,9 @@ static void test_drops_at_rest_are_round(void **state)
     for (int look = 0; look < LOOKS; look++) {
         rig_step(&rig, look ? 120 : 600);
         free(rig_draw(&rig));
-        resting += told(&rig, "resting_above_2_mm");
-        convex += told(&rig, "resting_above_2_mm") * told(&rig, "resting_convex_percent") / 100;
+        resting += fact_of(rig.instance, "resting_above_2_mm");
+        convex += fact_of(rig.instance, "resting_above_2_mm") *
+                  fact_of(rig.instance, "resting_convex_percent") / 100;
     }
     print_message("%.2f %% of %g\n", 100 * convex / resting, resting);
     assert_above(resting, LOOKS * 100);

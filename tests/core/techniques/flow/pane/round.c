@@ -18,6 +18,7 @@
 #include "core/techniques/flow/survey/convex.h"
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -179,15 +180,6 @@ struct sums {
     double by_middles; // as the survey tells
 };
 
-static double told(const struct rig *rig, const char *name)
-{
-    for (int i = 0; i < rig->instance->fact_count; i++)
-        if (!strcmp(rig->instance->facts[i].name, name))
-            return rig->instance->facts[i].number;
-    fail_msg("no fact '%s'", name);
-    return 0;
-}
-
 static bool rests(const uint32_t *pace, int cells, int count)
 {
     const int k = (N + cells - 1) / cells;
@@ -231,8 +223,9 @@ static void look(struct rig *rig, struct sums *sums)
     free(pace);
     free(water);
     free(rig_draw(rig));
-    assert_equals(told(rig, "resting_above_2_mm"), sums->resting - before);
-    sums->by_middles += told(rig, "resting_above_2_mm") * told(rig, "resting_convex_percent") / 100;
+    assert_equals(fact_of(rig->instance, "resting_above_2_mm"), sums->resting - before);
+    sums->by_middles += fact_of(rig->instance, "resting_above_2_mm") *
+                        fact_of(rig->instance, "resting_convex_percent") / 100;
 }
 
 static void open_defaults(struct rig *rig, int seed)
@@ -275,7 +268,7 @@ static void test_panes_stay_as_wet(void **state)
     for (int i = 0; i < LOOKS; i++) {
         rig_step(&rig, 600);
         free(rig_draw(&rig));
-        wet[i] = told(&rig, "wet_percent");
+        wet[i] = fact_of(rig.instance, "wet_percent");
         mean += wet[i] / LOOKS;
         print_message("%.2f %% wet after %d s\n", wet[i], 10 * (i + 1));
     }

@@ -9,6 +9,7 @@
 #include "core/scene/spectrum.h"
 #include "tests/core/techniques/streaks/rig.h"
 #include "tests/tools/expect.h"
+#include "tests/tools/instance.h"
 
 static const double pi = 3.14159265358979323846, largest_mm = 6;
 static const double rates[] = {1, 5, 20, 50, 100};
@@ -257,15 +258,6 @@ static double furthest(const struct rain *r, const struct drop *drops, int64_t c
     return most;
 }
 
-static double told(const struct streaks *s, const char *name)
-{
-    for (int i = 0; i < s->base.fact_count; i++)
-        if (!strcmp(s->base.facts[i].name, name))
-            return s->base.facts[i].number;
-    fail_msg("%s is not told", name);
-    return 0;
-}
-
 // With a grid, an observer selects cells, and not all drops are there.
 static void check_rain(const struct rain *r, const char *more)
 {
@@ -298,10 +290,13 @@ static void check_rain(const struct rain *r, const char *more)
     // Kolmogorov-Smirnov test at 1 % for drops of these weights, and half a class of 512.
     assert_below(most, 1.63 * spread(drops, count) + 0.001);
     assert_below(spread(drops, count), 2 / sqrt((double)count)); // or weights are too uneven
-    near("rain that is told", told(s, "rain_realised_mm_h"), rain / there, all ? 1e-3 : 0.02);
-    near("rain that is kept", told(s, "rain_rate_mm_h"), integral(r, largest_mm, flux), 1e-3);
-    near("extinction", told(s, "extinction_per_km"), integral(r, largest_mm, section) / 1000, 1e-3);
-    assert_equals(told(s, "rain_nominal_mm_h"), r->rain_mm_h);
+    near("rain that is told", fact_of(&s->base, "rain_realised_mm_h"), rain / there,
+         all ? 1e-3 : 0.02);
+    near("rain that is kept", fact_of(&s->base, "rain_rate_mm_h"), integral(r, largest_mm, flux),
+         1e-3);
+    near("extinction", fact_of(&s->base, "extinction_per_km"),
+         integral(r, largest_mm, section) / 1000, 1e-3);
+    assert_equals(fact_of(&s->base, "rain_nominal_mm_h"), r->rain_mm_h);
     free(drops);
     rain_close(s);
 }
@@ -323,12 +318,15 @@ static void test_rate(void **state)
 {
     (void)state;
     struct streaks *s = rain_open("spectrum=best look=thesis drops_m2_s=535.50222");
-    near("rain", told(s, "rain_rate_mm_h"), 535.50222 * volume(3.2) * 3.6e-3, 1e-9);
-    near("extinction", told(s, "extinction_per_km"), 535.50222 / 8.16 * section(3.2) / 1000, 1e-9);
+    near("rain", fact_of(&s->base, "rain_rate_mm_h"), 535.50222 * volume(3.2) * 3.6e-3, 1e-9);
+    near("extinction", fact_of(&s->base, "extinction_per_km"),
+         535.50222 / 8.16 * section(3.2) / 1000, 1e-9);
     rain_close(s);
     s = rain_open("look=photograph rain_mm_h=7");
-    near("rain", told(s, "rain_rate_mm_h") + told(s, "rain_left_out_mm_h"), 7, 1e-3);
-    near("rain of particles", told(s, "rain_realised_mm_h"), told(s, "rain_rate_mm_h"), 0.02);
+    near("rain", fact_of(&s->base, "rain_rate_mm_h") + fact_of(&s->base, "rain_left_out_mm_h"), 7,
+         1e-3);
+    near("rain of particles", fact_of(&s->base, "rain_realised_mm_h"),
+         fact_of(&s->base, "rain_rate_mm_h"), 0.02);
     rain_close(s);
 }
 
@@ -338,13 +336,13 @@ static void test_left_out(void **state)
     (void)state;
     struct streaks *s = rain_open(HIGH "spectrum=best rain_mm_h=20 least_diameter_mm=2");
     const struct rain all = {true, 20, 0.1, false}, kept = {true, 20, 2, false};
-    near("drops", told(s, "drops_left_out_m3"),
+    near("drops", fact_of(&s->base, "drops_left_out_m3"),
          integral(&all, largest_mm, one) - integral(&kept, largest_mm, one), 1e-3);
-    near("water", told(s, "water_left_out_share"),
+    near("water", fact_of(&s->base, "water_left_out_share"),
          1 - integral(&kept, largest_mm, volume) / integral(&all, largest_mm, volume), 1e-3);
-    near("light", told(s, "light_left_out_share"),
+    near("light", fact_of(&s->base, "light_left_out_share"),
          1 - integral(&kept, largest_mm, section) / integral(&all, largest_mm, section), 1e-3);
-    near("rain", told(s, "rain_left_out_mm_h"),
+    near("rain", fact_of(&s->base, "rain_left_out_mm_h"),
          integral(&all, largest_mm, flux) - integral(&kept, largest_mm, flux), 0.01);
     rain_close(s);
 }
