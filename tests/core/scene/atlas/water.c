@@ -252,8 +252,8 @@ static double blocks_apart(const double blocks[BLOCKS][2])
 
 // The crowns are compared as a whole, texel by texel where the tracer sees water, and by where
 // their light comes from. The tracer's 64 rays a texel leave the smallest droplets to chance: they
-// are 13 to 23 % of the light apart in the mean, and miss up to 1.8 % of it elsewhere. With the
-// rays of the paths themselves, blocks of 4 x 4 texels are 3 to 6 % of the light apart, of which
+// are 12 to 23 % of the light apart in the mean, and miss up to 1.5 % of it elsewhere. With the
+// rays of the paths themselves, blocks of 4 x 4 texels are 2 to 6 % of the light apart, of which
 // 1 to 2 % are chance.
 static void expect_crown(int material, double time_s)
 {

@@ -137,8 +137,9 @@ static void test_no_more_shines_than_is_inside_crowns(void **state)
     assert_below(seen, inside);
     assert_above(over[1], 0);
     assert_below(bright, 0.01 * inside);
-    // Of a crown's light 7 % at most comes from elsewhere on the ground (tests/core/scene/atlas/
-    // water.c). To look it up where it comes from would change less than half a code of 255.
+    // Of the light of a film's crown, which is all that shows here, less than 6.7 % comes from
+    // elsewhere on the ground (tests/core/scene/atlas/water.c). To look it up where it comes from
+    // would change less than half a code of 255.
     assert_below(0.067 * contrast / ground, 0.5 / 255);
     rg_picture_destroy(&wet);
     rg_picture_destroy(&dry);
