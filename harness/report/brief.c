@@ -320,9 +320,9 @@ static void put_counts(struct brief *brief, const struct counts *found, const js
     if (are_of_several(claims))
         put_machines(brief, document);
     if (found->cases)
-        put(brief, "Of %d cases of the gate, %d fail.\n", found->cases, found->failing);
+        put(brief, "%d of %d cases of the gate failed.\n", found->failing, found->cases);
     if (found->checks)
-        put(brief, "Of %d checks, %d fail.\n", found->checks, found->checks_failing);
+        put(brief, "%d of %d checks failed.\n", found->checks_failing, found->checks);
     if (!all && !found->cases && !found->checks)
         put(brief, "The records hold no claim, no gate and no check.\n");
 }

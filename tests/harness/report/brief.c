@@ -202,7 +202,7 @@ static void findings_are_told_worst_first(void **state)
 #define DIFFERS "| differs | b | in 3 pixels |\n"
 #define ERRED   "| error | ye, image on gl |  |\n"
     expect_markdown(records,
-                    "## raingauge\n\nOf 3 cases of the gate, 2 fail.\nOf 3 checks, 2 fail.\n"
+                    "## raingauge\n\n2 of 3 cases of the gate failed.\n2 of 3 checks failed.\n"
                     "\n| found | where | why |\n|---|---|---|\n" CRASH DIFFERS ERRED
                     "\n<details><summary>All that fail</summary>\n\n| found | where | why |\n"
                     "|---|---|---|\n" CRASH DIFFERS ERRED
@@ -216,8 +216,9 @@ static void findings_are_told_worst_first(void **state)
                    "'ok', 'detail': ''}, {'technique': 'ye', 'check': 'image', 'device': 'gl', "
                    "'status': 'error', 'detail': ''}]}"},
         {NULL}};
-    expect_markdown(three, "## raingauge\n\nOf 2 cases of the gate, 2 fail.\nOf 2 checks, 1 fail.\n"
-                           "\n| found | where | why |\n|---|---|---|\n" CRASH DIFFERS ERRED);
+    expect_markdown(three,
+                    "## raingauge\n\n2 of 2 cases of the gate failed.\n1 of 2 checks failed.\n"
+                    "\n| found | where | why |\n|---|---|---|\n" CRASH DIFFERS ERRED);
 }
 
 // A text stays in its cell: marks are escaped, line ends are blanks, and it ends after 300 bytes,
