@@ -61,7 +61,8 @@ static bool make_splashes(struct rg_atlas *atlas)
     for (int layer = 0; layer < image->layers; layer++) {
         float texels[RG_SPLASH_WIDTH_PX * RG_SPLASH_HEIGHT_PX];
         const int material = layer / RG_ATLAS_FRAMES;
-        if (!rg_splash_draw(material, layer % RG_ATLAS_FRAMES, texels, &lights[material]))
+        if (!rg_splash_draw(rg_atlas_kinds[atlas->size].detail.swings, material,
+                            layer % RG_ATLAS_FRAMES, texels, &lights[material]))
             return false;
         uint16_t *to =
             image->texels + (rg_atlas_texels(atlas, RG_ATLAS_SPLASH, layer, 0) - image->texels);

@@ -33,7 +33,7 @@ static bool add_streaks(XXH3_state_t *state, enum rg_atlas_size size)
 
 // Adds the water of all frames, and the light of one that has balls, a sheet and a wave, and few of
 // them: rays take most of the time.
-static bool add_splashes(XXH3_state_t *state)
+static bool add_splashes(XXH3_state_t *state, enum rg_swings set)
 {
     float texels[RG_SPLASH_WIDTH_PX * RG_SPLASH_HEIGHT_PX];
     float parts[RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
@@ -41,12 +41,12 @@ static bool add_splashes(XXH3_state_t *state)
     struct rg_water water;
     for (int material = 0; material < RG_ATLAS_MATERIALS; material++) {
         for (int frame = 0; frame < RG_ATLAS_FRAMES; frame++) {
-            const double shown = rg_splash_frame(material, frame, &water);
+            const double shown = rg_splash_frame(set, material, frame, &water);
             XXH3_64bits_update(state, &shown, sizeof(shown));
             XXH3_64bits_update(state, &water, sizeof(water));
         }
     }
-    if (!rg_splash_draw(MATERIAL, FRAME, texels, &light))
+    if (!rg_splash_draw(set, MATERIAL, FRAME, texels, &light))
         return false;
     rg_splash_parts(&light, parts);
     XXH3_64bits_update(state, texels, sizeof(texels));
@@ -60,8 +60,8 @@ uint64_t rg_atlas_sample(enum rg_atlas_size size)
     if (!state)
         return 0;
     XXH3_64bits_reset(state);
-    const bool made =
-        (rg_atlas_kinds[size].is_packed || add_streaks(state, size)) && add_splashes(state);
+    const bool made = (rg_atlas_kinds[size].is_packed || add_streaks(state, size)) &&
+                      add_splashes(state, rg_atlas_kinds[size].detail.swings);
     const uint64_t hash = made ? XXH3_64bits_digest(state) : 0;
     XXH3_freeState(state);
     return hash;

@@ -27,12 +27,13 @@ struct rg_splash_light {
     double cells[RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
 };
 
-// The crown of a material at a time after the impact.
-struct rg_splash_crown rg_splash_crown(int material, double time_s);
+// The crown of a material at a time after the impact. Sets differ in the puddle: that of the
+// database, with which tables are measured, is not as measured.
+struct rg_splash_crown rg_splash_crown(enum rg_swings set, int material, double time_s);
 // All its water; no byte of it is left undefined.
-void rg_splash_water(int material, double time_s, struct rg_water *water);
+void rg_splash_water(enum rg_swings set, int material, double time_s, struct rg_water *water);
 // That of a frame. Returns the share of it that is shown: it fades out in the end.
-double rg_splash_frame(int material, int frame, struct rg_water *water);
+double rg_splash_frame(enum rg_swings set, int material, int frame, struct rg_water *water);
 
 // Draws water: the share of the light at each texel that it brings there from above the horizon, 0
 // to 1; row 0 on top. The rest comes from behind the splash, or from the ground, which looks the
@@ -43,7 +44,8 @@ bool rg_splash_see(const struct rg_water *water,
                    struct rg_splash_light *light);
 
 // The same of a frame of a material.
-bool rg_splash_draw(int material, int frame, float texels[RG_SPLASH_HEIGHT_PX * RG_SPLASH_WIDTH_PX],
+bool rg_splash_draw(enum rg_swings set, int material, int frame,
+                    float texels[RG_SPLASH_HEIGHT_PX * RG_SPLASH_WIDTH_PX],
                     struct rg_splash_light *light);
 
 // The parts in which light from each direction shows on a splash, per steradian: an even sky's

@@ -260,7 +260,7 @@ static void expect_crown(int material, double time_s)
     struct rg_water water;
     struct rg_splash_light light = {0};
     float texels[TALL * WIDE];
-    rg_splash_water(material, time_s, &water);
+    rg_splash_water(RG_SWINGS_MEASURED, material, time_s, &water);
     water.ring_height_m = 0; // the wave has a test of its own
     assert_true(rg_splash_see(&water, texels, &light));
     double is = 0, due = 0, apart = 0, missed = 0, traced = 0, moved = 0, fields[FIELDS] = {0};
@@ -343,7 +343,7 @@ static void test_parts_make_a_sky(void **state)
     (void)state;
     struct rg_splash_light light = {0};
     float texels[TALL * WIDE], parts[RG_ATLAS_LIGHTS][RG_ATLAS_PHIS];
-    assert_true(rg_splash_draw(0, 2, texels, &light));
+    assert_true(rg_splash_draw(RG_SWINGS_MEASURED, 0, 2, texels, &light));
     rg_splash_parts(&light, parts);
     double sum = 0;
     for (int height = 0; height < RG_ATLAS_LIGHTS; height++) {

@@ -30,7 +30,7 @@ static void make_films(void)
         struct rg_splash_light light = {0};
         for (int f = 0; f < CROWN_FRAMES; f++) {
             float texels[CROWN_TALL * CROWN_WIDE];
-            assert_true(rg_splash_draw(m, f, texels, &light));
+            assert_true(rg_splash_draw(RG_SWINGS_MEASURED, m, f, texels, &light));
             for (int i = 0; i < CROWN_TALL * CROWN_WIDE; i++)
                 films[m].texels[f][0][i] = (double)rg_half_value(rg_half_of(texels[i]));
             crown_halve(&films[m], f);
