@@ -6,7 +6,6 @@
 #include "backends/asked/question.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/base/require.h"
 #include "kernels/dialect/draw/blend.h"
 #include "kernels/dialect/draw/clip.h"
 #include "kernels/raster/quads_params.h"

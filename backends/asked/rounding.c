@@ -6,7 +6,7 @@
 
 #include "backends/asked/question.h"
 #include "core/base/alloc.h"
-#include "core/base/require.h"
+#include "core/base/log.h"
 #include "kernels/probe/rough_params.h"
 
 enum { COUNT = 65536, SIZE = COUNT * 4 };

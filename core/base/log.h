@@ -99,4 +99,19 @@ void rg_failure_tell(const struct rg_failure *failure);
 // The last error's line; "" if there was none. Valid until the next error; records quote it.
 const char *rg_last_error(void);
 
+// --- a check that refuses a call in one line ---
+
+// Unless `check` holds, these make the enclosing function return false or NULL, after one logged
+// line, which should name object and number.
+#define require(check, ...)                                                                        \
+    do {                                                                                           \
+        if (!(check))                                                                              \
+            return rg_error(__VA_ARGS__);                                                          \
+    } while (0)
+#define require_or_null(check, ...)                                                                \
+    do {                                                                                           \
+        if (!(check))                                                                              \
+            return rg_error_null(__VA_ARGS__);                                                     \
+    } while (0)
+
 #endif

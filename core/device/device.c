@@ -12,7 +12,6 @@
 #include "core/base/doing.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
-#include "core/base/require.h"
 #include "core/device/limits.h"
 #include "core/device/packing.h"
 #include "core/device/shared.h"

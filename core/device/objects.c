@@ -5,7 +5,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/doing.h"
-#include "core/base/require.h"
+#include "core/base/log.h"
 #include "core/device/limits.h"
 #include "core/device/work.h"
 

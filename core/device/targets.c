@@ -1,6 +1,6 @@
 #include "core/device/targets.h"
 
-#include "core/base/require.h"
+#include "core/base/log.h"
 #include "kernels/dialect/draw/clip.h"
 
 void rg_target_size(const struct rg_draw *draw, int *width, int *height)

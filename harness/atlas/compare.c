@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "core/base/stats.h"
 #include "harness/record/named.h"
-#include "harness/judge/stats.h"
 
 static const double GOOD = 0.9;
 enum { WORST_PRINTED = 8, LEAST_PAIRS = 3 };

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "harness/judge/stats.h"
+#include "core/base/stats.h"
 #include "kernels/dialect/rng.h"
 
 // State of a row while it is measured.

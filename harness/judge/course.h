@@ -5,8 +5,8 @@
 
 #include <stdint.h>
 
+#include "core/base/stats.h"
 #include "harness/judge/decide.h"
-#include "harness/judge/stats.h"
 
 // A launch's result for a row.
 struct rg_quads {

@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-#include "harness/judge/stats.h"
+#include "core/base/stats.h"
 
 enum { RG_SETTLE_LOOKS = 4, RG_SETTLE_LAUNCHES = 192 };
 

@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_JUDGE_SHIFT_H
 #define RG_HARNESS_JUDGE_SHIFT_H
 
-#include "harness/judge/stats.h"
+#include "core/base/stats.h"
 
 enum { RG_SHIFT_SAMPLES = 64 };
 

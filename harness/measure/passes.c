@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/base/stats.h"
 #include "harness/console/clock.h"
 #include "harness/measure/measure.h"
-#include "harness/judge/stats.h"
 
 enum { MOST_FRAMES = 40 };
 

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
+#include "core/base/stats.h"
 #include "core/device/device.h"
 #include "harness/console/clock.h"
-#include "harness/judge/stats.h"
 #include "kernels/probe/copy_params.h"
 
 // Large enough to exceed the caches of one core, small enough for every device.

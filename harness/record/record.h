@@ -5,9 +5,9 @@
 
 #include "backends/backend.h"
 #include "core/base/outcome.h"
+#include "core/base/stats.h"
 #include "core/device/work.h"
 #include "harness/record/named.h"
-#include "harness/judge/stats.h"
 
 enum {
     // Passes with their own entry; the time of all others is summed as "other".

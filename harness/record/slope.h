@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_RECORD_SLOPE_H
 #define RG_HARNESS_RECORD_SLOPE_H
 
-#include "harness/judge/stats.h"
+#include "core/base/stats.h"
 
 // A point on the axis. Each group has a line of its own, but all lines share one slope.
 struct rg_slope_point {

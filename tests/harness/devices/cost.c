@@ -6,13 +6,13 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/base/stats.h"
 #include "harness/console/clock.h"
 #include "harness/devices/devices.h"
 #include "harness/measure/serving/serving.h"
 #include "harness/devices/workers/worker.h"
 #include "harness/devices/frames/session.h"
 #include "harness/devices/frames/calling.h"
-#include "harness/judge/stats.h"
 
 enum { ROUNDS = 600 };
 enum way { BARE, HERE, WORKER, WAYS };

@@ -4,7 +4,7 @@ from fault import Fault
 TESTS = ("scripted", "revisited", "loads", "others", "stats", "measure", "timer_audit")
 
 JOB, MEASURE, PASSES = "harness/measure/job.c", "harness/measure/measure.c", "harness/measure/passes.c"
-AUDIT, CEILINGS, STATS = "harness/measure/timer_audit.c", "harness/measure/ceilings.c", "harness/judge/stats.c"
+AUDIT, CEILINGS, STATS = "harness/measure/timer_audit.c", "harness/measure/ceilings.c", "core/base/stats.c"
 SESSION = "harness/devices/frames/local.c"
 
 PROGRESS = "harness/console/progress.c"

@@ -1,7 +1,7 @@
 """Tables and claims: the rows that count, how orders are judged, trends, costs and preparations."""
 from fault import Fault
 
-TESTS = ("claims by launches", "claims", "launches", "courses of claims", "order", "printed", "stats", "verdicts", "papers", "figures", "sheets, cells", "sheets, json", "sheets, notes", "sheets, parts", "sheets, trends", "regenerate", "journal", "command line, tables", "command line, results")
+TESTS = ("claims by launches", "claims", "launches", "courses of claims", "order", "printed", "stats", "slopes", "verdicts", "papers", "figures", "sheets, cells", "sheets, json", "sheets, notes", "sheets, parts", "sheets, trends", "regenerate", "journal", "command line, tables", "command line, results")
 
 JUDGE, EVIDENCE, ORDER, PARTS = ("harness/tables/claims/judge.c", "harness/tables/claims/evidence.c",
                                 "harness/tables/claims/order.c", "harness/tables/claims/parts.c")

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "core/base/require.h"
+#include "core/base/log.h"
 
 #define MOST_MAP_BYTES ((int64_t)1 << 30)
 

@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/stats.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/frames/session.h"
-#include "harness/judge/stats.h"
 #include "harness/measure/others.h"
 #include "harness/measure/sampling.h"
 #include "harness/record/record.h"

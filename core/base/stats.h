@@ -1,6 +1,6 @@
 // Medians with confidence intervals.
-#ifndef RG_HARNESS_JUDGE_STATS_H
-#define RG_HARNESS_JUDGE_STATS_H
+#ifndef RG_CORE_BASE_STATS_H
+#define RG_CORE_BASE_STATS_H
 
 // With fewer samples a median has no 95 % interval.
 enum { RG_LEAST_SAMPLES = 6 };

@@ -1,4 +1,4 @@
-#include "harness/judge/stats.h"
+#include "core/base/stats.h"
 
 #include <math.h>
 #include <stdlib.h>
