@@ -2,8 +2,7 @@
 #include <stdlib.h>
 
 #include "core/base/log.h"
-#include "harness/compare/gate/report/report.h"
-#include "harness/judge/settle.h"
+#include "harness/record/ending.h"
 #include "harness/record/output.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/record/schema/schema.h"
@@ -41,28 +40,18 @@ static json_t *endings_json(void)
     return endings;
 }
 
-// What claims are judged by, which the page explains.
-static json_t *rules_json(void)
-{
-    json_t *looks = json_array();
-    for (int i = 0; i < rg_settle_rule.look_count; i++)
-        json_array_append_new(looks, json_integer(rg_settle_rule.looks[i]));
-    return json_pack("{so sf sf}", "looks", looks, "fall", RG_CLAIM_FALL, "reversal",
-                     RG_CLAIM_REVERSAL);
-}
-
 // All data of the page. NULL without memory.
 static json_t *data_json(const struct rg_page *page, const struct rg_page *before)
 {
     return json_pack(
         "{si ss ss si si so so so so so so so so so so}", "format", RG_FORMAT_VERSION, "version",
         rg_build_version, "commit", rg_build_commit, "pictures_left_out", page->left_out,
-        "gates_left_out", page->gates_left_out, "endings", endings_json(), "rules", rules_json(),
-        "machines", rg_claims_machines_json(&page->outcomes.origins), "claims", claims_json(page),
-        "before", before_json(before), "records", or_empty(page->records, json_array), "pictures",
-        or_empty(page->pictures, json_object), "files", or_empty(page->files, json_object),
-        "linear", or_empty(page->linear, json_object), "gallery",
-        or_empty(page->gallery, json_array));
+        "gates_left_out", page->gates_left_out, "endings", endings_json(), "rules",
+        rg_claims_rules_json(), "machines", rg_claims_machines_json(&page->outcomes.origins),
+        "claims", claims_json(page), "before", before_json(before), "records",
+        or_empty(page->records, json_array), "pictures", or_empty(page->pictures, json_object),
+        "files", or_empty(page->files, json_object), "linear", or_empty(page->linear, json_object),
+        "gallery", or_empty(page->gallery, json_array));
 }
 
 // Writes JSON with escaped `<`, so that no text in it can end the element around it.

@@ -8,8 +8,8 @@
 #include "harness/console/interrupt.h"
 #include "harness/console/progress.h"
 #include "harness/devices/frames/frame.h"
-#include "harness/devices/frames/numbered.h"
 #include "harness/devices/workers/worker.h"
+#include "harness/record/numbered.h"
 
 struct run {
     const struct rg_sequence *sequence;

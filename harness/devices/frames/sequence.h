@@ -9,7 +9,7 @@ struct rg_sequence {
     struct rg_subject subject;
     int first, last;  // frames simulated before the first and the last drawing
     const char *path; // a clip (core/image/clip/clip.h), or a picture with a place for the frame's
-                      // number (harness/devices/frames/numbered.h)
+                      // number (harness/record/numbered.h)
     int fps;          // of a clip: frames in a second
     double exposure;
 };

@@ -1,5 +1,5 @@
 // Serves calls about the device (made by harness/devices/workers/device.c, harness/devices/ and
-// harness/doctor/).
+// harness/compare/doctor/).
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>

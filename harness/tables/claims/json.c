@@ -1,5 +1,6 @@
 #include "harness/tables/claims/json.h"
 
+#include "harness/judge/settle.h"
 #include "harness/record/schema/schema.h"
 #include "harness/tables/papers/papers.h"
 
@@ -55,6 +56,15 @@ json_t *rg_claims_machines_json(const struct rg_origins *origins)
     for (int i = 0; i < origins->count; i++)
         json_array_append_new(machines, machine_json(origins, i));
     return machines;
+}
+
+json_t *rg_claims_rules_json(void)
+{
+    json_t *looks = json_array();
+    for (int i = 0; i < rg_settle_rule.look_count; i++)
+        json_array_append_new(looks, json_integer(rg_settle_rule.looks[i]));
+    return json_pack("{so sf sf}", "looks", looks, "fall", RG_CLAIM_FALL, "reversal",
+                     RG_CLAIM_REVERSAL);
 }
 
 static json_t *verdict_json(const struct rg_claim_outcome *outcome)

@@ -7,7 +7,7 @@
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/cave/cave.h"
 #include "core/scene/atlas/levels.h"
-#include "harness/atlas/textures.h"
+#include "harness/commands/drawing/atlas/textures.h"
 #include "harness/compare/shrink/case.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"

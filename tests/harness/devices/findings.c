@@ -13,10 +13,10 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/compare/doctor/doctor.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/workers/device.h"
 #include "harness/devices/workers/serve.h"
-#include "harness/doctor/doctor.h"
 #include "harness/devices/frames/messages.h"
 #include "harness/devices/frames/session.h"
 #include "harness/measure/drawing.h"

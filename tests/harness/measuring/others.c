@@ -17,9 +17,9 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "harness/compare/doctor/prologue.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
-#include "harness/doctor/prologue.h"
 #include "harness/measure/measure.h"
 #include "tests/harness/measuring/fake.h"
 #include "tests/tools/expect.h"

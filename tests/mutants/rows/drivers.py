@@ -101,8 +101,8 @@ ROWS = [
     Fault("harness/measure/serving/fixed.c", "if («told->digest != told->other»)", "false", "every closed case holds", tests=("fixed functions",)),
     Fault("shaders/fixed/texels.c", "if («state->flip && layer == 0 && level == 0»)", "false", "no bit of a texture is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault("shaders/fixed/vertices.c", "if («flip»)", "false", "no bit of a vertex is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
-    Fault("harness/doctor/fixed.c", "rg_exit_of_all(«counts»)", "(int[RG_OUTCOME_COUNT]){[RG_OK] = 1}", "a crash of a draw passes", tests=("command line, fixed",)),
-    Fault("harness/doctor/fixed.c", "rg_fixed_goes_on(device, ended, rg_fixed_pairs() «- drawn»)", "- 0", "draws that were tried are told as not tried", tests=("command line, fixed",)),
+    Fault("harness/compare/doctor/fixed.c", "rg_exit_of_all(«counts»)", "(int[RG_OUTCOME_COUNT]){[RG_OK] = 1}", "a crash of a draw passes", tests=("command line, fixed",)),
+    Fault("harness/compare/doctor/fixed.c", "rg_fixed_goes_on(device, ended, rg_fixed_pairs() «- drawn»)", "- 0", "draws that were tried are told as not tried", tests=("command line, fixed",)),
     # --- bounds of draws ---
     Fault(ROUND, "    a = rg_span_scale(«rg_span_clamp(a, 0, 1)», most);", "a", "values beyond 1 have codes", tests=OF_BOUNDS),
     Fault(ROUND, "return (struct rg_span){«floor(a.low + near_code)» / most,", "rint(a.low)", "only the nearest code is allowed", tests=OF_BOUNDS),

@@ -10,10 +10,10 @@ SESSION = "harness/devices/frames/local.c"
 PROGRESS = "harness/console/progress.c"
 SAMPLING = "harness/measure/sampling.c"
 OTHERS, RECORD = "harness/measure/others.c", "harness/record/record.c"
-PROLOGUE = "harness/doctor/prologue.c"
+PROLOGUE = "harness/compare/doctor/prologue.c"
 DURATION = "harness/console/duration.c"
 TEXT, DOCUMENT, EXAMINE, WARNINGS, DRAWS, COMPILE = (
-    "harness/doctor/" + name + ".c" for name in ("text", "document", "examine", "warnings", "fixed", "compile"))
+    "harness/compare/doctor/" + name + ".c" for name in ("text", "document", "examine", "warnings", "fixed", "compile"))
 FIXED, DRAWING, EXPECTED = "harness/measure/serving/fixed.c", "harness/measure/drawing.c", "harness/measure/expected.c"
 OF_REPORTS, OF_WARNINGS, OF_FEATURES, OF_DRAWINGS = (
     (name + " doctor",) for name in ("reports of", "warnings of", "features in", "drawings in"))
@@ -37,7 +37,7 @@ ROWS = [
     Fault(MEASURE, "const double share = fmin(«taken.stolen + taken.others», 1);", "taken.stolen", "other programs disturb nothing"),
     Fault(RECORD, "count += «record->taken[i] > RG_MOST_TAKEN»;", "record->taken[i] >= RG_MOST_TAKEN", "a share that is allowed is marked", tests=("records",)),
     Fault(RECORD, "return «width > RG_WIDE_INTERVAL» ? sqrt(width) - 1 : 0;", "width > 1.5", "a wide interval is not marked"),
-    Fault("harness/doctor/examine.c", "if («!rg_drawn_is_well(&e->drawing.formats[i], e->info.tier)»)", "false", "a device that draws wrongly is well", tests=("command line, doctor",)),
+    Fault("harness/compare/doctor/examine.c", "if («!rg_drawn_is_well(&e->drawing.formats[i], e->info.tier)»)", "false", "a device that draws wrongly is well", tests=("command line, doctor",)),
     Fault("harness/measure/drawing.c", "return «drawn->differing <= (tier == RG_T0 ? 0 : RG_DRAWING_PIXELS / 1000)»;", "drawn->differing < RG_DRAWING_PIXELS", "a device that blends nothing draws well", tests=("command line, doctor",)),
     Fault(PROGRESS, "return high_ms <= «2» * low_ms &&", "1000", "a time is told of units that are not alike", tests=("progress",)),
     Fault(PROGRESS, "return «10» * (now_ms - p->start_ms) >=", "1e9", "a time is told by the first moments", tests=("progress",)),
@@ -235,11 +235,11 @@ ROWS = [
     Fault(COMPILE, "if («strcspn(at, \",\") == length» && !strncmp", "true", "a kernel is another whose name goes on", tests=OF_FEATURES),
 
     # --- what blind draws showed ---
-    Fault("harness/doctor/fixed.c", "    «++*failed;»\n", ";", "a driver that fails draws on", tests=("fixed functions in doctor",)),
-    Fault("harness/doctor/fixed.c", "json_object_set_new(row, \"neighbour\", rg_fixed_hash(«told->other»));", "told->digest", "a neighbour has the draw's digest", tests=("fixed functions in doctor",)),
-    Fault("harness/doctor/fixed.c", "const int failed = drawn - counts[RG_OK] «- counts[RG_UNSUPPORTED]» - lacking;", "- 0", "draws that a device lacks count as failed", tests=("fixed functions in doctor",)),
-    Fault("harness/doctor/fixed.c", "- counts[RG_UNSUPPORTED] «- lacking»;", "- 0", "a lack of raingauge's own is the driver's failure", tests=("fixed functions in doctor",)),
-    Fault("harness/doctor/fixed.c", "return failure.fault == RG_FAULT_INPUT ? RG_EXIT_USAGE : «rg_exit_of(failure.outcome)»;", "RG_EXIT_FAIL", "a device that is not there fails its fixed functions", tests=("fixed functions in doctor",)),
-    Fault("harness/doctor/warnings.c", "if («machine->quota_cpus > 0 && machine->quota_cpus < machine->cores_allowed»)", "machine->quota_cpus > 0", "a quota of all cores is warned of", tests=("warnings of doctor",)),
-    Fault("harness/doctor/warnings.c", "if («!gpu && !machine->gpu_nodes»)", "!gpu", "a GPU that no driver opens is not warned of", tests=("warnings of doctor",)),
+    Fault("harness/compare/doctor/fixed.c", "    «++*failed;»\n", ";", "a driver that fails draws on", tests=("fixed functions in doctor",)),
+    Fault("harness/compare/doctor/fixed.c", "json_object_set_new(row, \"neighbour\", rg_fixed_hash(«told->other»));", "told->digest", "a neighbour has the draw's digest", tests=("fixed functions in doctor",)),
+    Fault("harness/compare/doctor/fixed.c", "const int failed = drawn - counts[RG_OK] «- counts[RG_UNSUPPORTED]» - lacking;", "- 0", "draws that a device lacks count as failed", tests=("fixed functions in doctor",)),
+    Fault("harness/compare/doctor/fixed.c", "- counts[RG_UNSUPPORTED] «- lacking»;", "- 0", "a lack of raingauge's own is the driver's failure", tests=("fixed functions in doctor",)),
+    Fault("harness/compare/doctor/fixed.c", "return failure.fault == RG_FAULT_INPUT ? RG_EXIT_USAGE : «rg_exit_of(failure.outcome)»;", "RG_EXIT_FAIL", "a device that is not there fails its fixed functions", tests=("fixed functions in doctor",)),
+    Fault("harness/compare/doctor/warnings.c", "if («machine->quota_cpus > 0 && machine->quota_cpus < machine->cores_allowed»)", "machine->quota_cpus > 0", "a quota of all cores is warned of", tests=("warnings of doctor",)),
+    Fault("harness/compare/doctor/warnings.c", "if («!gpu && !machine->gpu_nodes»)", "!gpu", "a GPU that no driver opens is not warned of", tests=("warnings of doctor",)),
 ]

@@ -14,11 +14,11 @@ HELP, SUBJECT, SHARED = "harness/commands/cli/help.c", "harness/commands/cli/sub
 COMMANDS, SHARD, PLANNED = "harness/commands/commands.c", "harness/commands/cli/shard.c", "harness/commands/tables/shard.c"
 GTEST, OUTPUTS, TABLE = "harness/commands/comparing/gtest.c", "harness/commands/comparing/outputs.c", "harness/commands/tables/table.c"
 CLAIMS, SWEEP, SETS = "harness/commands/tables/claims.c", "harness/commands/tables/sweep.c", "harness/commands/tables/sets.c"
-REPORT, FIGURES, ATLAS = "harness/commands/tables/report.c", "harness/commands/figures.c", "harness/commands/atlas.c"
-RENDER, DRAWN, TRACE = "harness/commands/render.c", "harness/commands/drawn.c", "harness/commands/comparing/trace.c"
+REPORT, FIGURES, ATLAS = "harness/commands/tables/report.c", "harness/commands/drawing/figures.c", "harness/commands/drawing/atlas.c"
+RENDER, DRAWN, TRACE = "harness/commands/drawing/render.c", "harness/commands/drawing/drawn.c", "harness/commands/comparing/trace.c"
 DIFF, GATE, VERIFY = "harness/commands/comparing/diff.c", "harness/commands/comparing/gate.c", "harness/commands/comparing/verify.c"
 BISECT, SHRINK, BASELINE = "harness/commands/comparing/bisect.c", "harness/commands/comparing/shrink.c", "harness/commands/comparing/baseline.c"
-DOCTOR, LIST, MAIN = "harness/commands/doctor.c", "harness/commands/list.c", "harness/main.c"
+DOCTOR, LIST, MAIN = "harness/commands/doctor.c", "harness/commands/list.c", "harness/commands/main.c"
 
 ROWS = [
     Fault("harness/commands/list.c", "for (int i = 0; «lists[i]»; i++)\n        rg_nearest_try(&nearest, what, lists[i]);", "lists[i + 1]", "the last list is never the nearest", tests=("command line, cases",)),
@@ -58,7 +58,7 @@ ROWS = [
     Fault(PARSE, "rg_command_print_help(line->command);\n    return «RG_EXIT_PASS»;", "RG_EXIT_USAGE", "asking for help fails"),
     Fault(OPTION, "row.offset «+= includer->offset»;", "+= 0", "options that commands share lie at the beginning"),
     Fault(OPTION, "row.initial = «includer->initial ? includer->initial : row.initial»;", "row.initial", "a command has no default of its own"),
-    Fault("harness/main.c", "for (int i = «0»; rg_commands[i]; i++)\n        rg_nearest_try", "1", "the first command is never the nearest", tests=("command line, cases",)),
+    Fault("harness/commands/main.c", "for (int i = «0»; rg_commands[i]; i++)\n        rg_nearest_try", "1", "the first command is never the nearest", tests=("command line, cases",)),
     Fault(HELP, "if (used > column && «used + 1 + length > LINE_WIDTH») {", "used + length > LINE_WIDTH + 1", "lines of help are a column too long", tests=("command line, help",)),
     Fault(HELP, "letter[4] = row->letter;", "", "options' letters are all x", tests=("command line, help",)),
     Fault(HELP, "if («length > column - 2»)", "length > column", "a long option touches its meaning", tests=("command line, help",)),

@@ -19,7 +19,7 @@ PAGES, REASONS, LAUNCHES, TAKEN = ("pages of claims",), ("reasons of verdicts",)
 SHEET, TERMINAL = "harness/console/sheet.c", "harness/console/terminal.c"
 
 ROWS = [
-    Fault("harness/atlas/compare.c", "«flat += comparison->rows[i].flat;»", "flat = comparison->rows[i].flat;", "of even pictures only the last is counted", tests=("command line, atlas",)),
+    Fault("harness/commands/drawing/atlas/compare.c", "«flat += comparison->rows[i].flat;»", "flat = comparison->rows[i].flat;", "of even pictures only the last is counted", tests=("command line, atlas",)),
     Fault("harness/tables/measuring/textures.c", "(int)rg_table_value(table, at.row, \"level\"));\n        else\n            «rg_record_end_by_error(record);»", ";", "a texture that cannot be looked at counts as good", tests=("regenerate",)),
     Fault("harness/record/record.c", "snprintf(to, size - used, «\"%s%s %.10g\"», comma", "\"%s%s %g\"", "rows are named by numbers of six digits", tests=("sheets, cells",)),
     Fault("harness/tables/own/grid.c", "if («rows > RG_TABLE_ROWS»)", "rows >= RG_TABLE_ROWS", "a sweep of as many rows as a table may have is refused", tests=("sweep",)),

@@ -6,9 +6,9 @@
 #include <stdio.h>
 
 #include "core/base/outcome.h"
-#include "harness/compare/gate/report/report.h"
 #include "core/base/files/lines.h"
 #include "harness/compare/gate/text/regex.h"
+#include "harness/record/ending.h"
 
 enum rg_known_form {
     RG_FORM_OWN,    // docs/expectations.md

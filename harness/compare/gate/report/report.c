@@ -15,47 +15,26 @@
 #include "harness/console/exit.h"
 
 static const struct {
-    const char *name, *element;
+    const char *element;
     int exit;
 } endings[RG_ENDING_COUNT] = {
-    [RG_ENDING_CRASH] = {"crash", "error", RG_EXIT_FAIL},
-    [RG_ENDING_TIMEOUT] = {"timeout", "error", RG_EXIT_FAIL},
-    [RG_ENDING_ERROR] = {"error", "error", RG_EXIT_FAIL},
-    [RG_ENDING_SETUP] = {"set-up", "error", RG_EXIT_FAIL},
-    [RG_ENDING_LACKING] = {"lacking", "error", RG_EXIT_HARNESS},
-    [RG_ENDING_DIFFERS] = {"differs", "failure", RG_EXIT_FAIL},
-    [RG_ENDING_UNEXPECTED_PASS] = {"unexpected pass", "failure", RG_EXIT_FAIL},
-    [RG_ENDING_NOTHING_MEASURED] = {"nothing measured", "error", RG_EXIT_NOTHING},
-    [RG_ENDING_REGRESSED] = {"regressed", "failure", RG_EXIT_FAIL},
-    [RG_ENDING_INCONCLUSIVE] = {"inconclusive", "skipped", RG_EXIT_INCONCLUSIVE},
-    [RG_ENDING_FLAKE] = {"flake", "skipped", RG_EXIT_PASS},
-    [RG_ENDING_EXPECTED_FAILURE] = {"expected failure", "skipped", RG_EXIT_PASS},
-    [RG_ENDING_UNSUPPORTED] = {"unsupported", "skipped", RG_EXIT_UNSUPPORTED},
-    [RG_ENDING_SKIPPED] = {"skipped", "skipped", RG_EXIT_PASS},
-    [RG_ENDING_IMPROVED] = {"improved", NULL, RG_EXIT_PASS},
-    [RG_ENDING_PASS] = {"pass", NULL, RG_EXIT_PASS},
+    [RG_ENDING_CRASH] = {"error", RG_EXIT_FAIL},
+    [RG_ENDING_TIMEOUT] = {"error", RG_EXIT_FAIL},
+    [RG_ENDING_ERROR] = {"error", RG_EXIT_FAIL},
+    [RG_ENDING_SETUP] = {"error", RG_EXIT_FAIL},
+    [RG_ENDING_LACKING] = {"error", RG_EXIT_HARNESS},
+    [RG_ENDING_DIFFERS] = {"failure", RG_EXIT_FAIL},
+    [RG_ENDING_UNEXPECTED_PASS] = {"failure", RG_EXIT_FAIL},
+    [RG_ENDING_NOTHING_MEASURED] = {"error", RG_EXIT_NOTHING},
+    [RG_ENDING_REGRESSED] = {"failure", RG_EXIT_FAIL},
+    [RG_ENDING_INCONCLUSIVE] = {"skipped", RG_EXIT_INCONCLUSIVE},
+    [RG_ENDING_FLAKE] = {"skipped", RG_EXIT_PASS},
+    [RG_ENDING_EXPECTED_FAILURE] = {"skipped", RG_EXIT_PASS},
+    [RG_ENDING_UNSUPPORTED] = {"skipped", RG_EXIT_UNSUPPORTED},
+    [RG_ENDING_SKIPPED] = {"skipped", RG_EXIT_PASS},
+    [RG_ENDING_IMPROVED] = {NULL, RG_EXIT_PASS},
+    [RG_ENDING_PASS] = {NULL, RG_EXIT_PASS},
 };
-
-enum rg_ending rg_ending_of(enum rg_outcome outcome)
-{
-    static const enum rg_ending of[RG_OUTCOME_COUNT] = {
-        [RG_OK] = RG_ENDING_PASS,
-        [RG_FAIL] = RG_ENDING_DIFFERS,
-        [RG_UNSUPPORTED] = RG_ENDING_UNSUPPORTED,
-        [RG_ERROR] = RG_ENDING_ERROR,
-        [RG_CRASH] = RG_ENDING_CRASH,
-        [RG_TIMEOUT] = RG_ENDING_TIMEOUT,
-        [RG_NOTHING] = RG_ENDING_NOTHING_MEASURED,
-        [RG_LACKING] = RG_ENDING_LACKING,
-        [RG_SETUP] = RG_ENDING_SETUP,
-    };
-    return of[outcome];
-}
-
-const char *rg_ending_name(enum rg_ending ending)
-{
-    return endings[ending].name;
-}
 
 const char *rg_ending_element(enum rg_ending ending)
 {
@@ -65,12 +44,6 @@ const char *rg_ending_element(enum rg_ending ending)
 int rg_ending_exit(enum rg_ending ending)
 {
     return endings[ending].exit;
-}
-
-bool rg_ending_fails(enum rg_ending ending)
-{
-    const int exit = endings[ending].exit;
-    return exit == RG_EXIT_FAIL || exit == RG_EXIT_NOTHING || exit == RG_EXIT_HARNESS;
 }
 
 // --- texts owned by the report ---

@@ -8,8 +8,8 @@ OWN_CACHE = True  # nobody may keep an atlas made by a fault
 LOBES, LEVELS = "core/scene/atlas/lights.c", "core/scene/atlas/levels.c"
 SPLASH, WATER = "core/scene/atlas/splash.c", "core/scene/atlas/optics/water.c"
 DROP, RAYS = "core/scene/atlas/optics/drop.c", "core/scene/atlas/optics/trace.c"
-FIND, COMPARE, FIGURES = "core/scene/atlas/cave/find.c", "core/scene/atlas/cave/compare.c", "harness/atlas/compare.c"
-EXPORT, TEXTURES = "harness/atlas/export.c", "harness/atlas/textures.c"
+FIND, COMPARE, FIGURES = "core/scene/atlas/cave/find.c", "core/scene/atlas/cave/compare.c", "harness/commands/drawing/atlas/compare.c"
+EXPORT, TEXTURES = "harness/commands/drawing/atlas/export.c", "harness/commands/drawing/atlas/textures.c"
 
 ROWS = [
     Fault(LOBES, "direction[0] = (float)(cos(elevation) * «sin(azimuth)»);", "-sin(azimuth)", "lights of the atlas are mirrored"),
