@@ -12,8 +12,8 @@
 #include "harness/commands/commands.h"
 #include "harness/console/interrupt.h"
 #include "harness/console/threads.h"
+#include "harness/devices/measure/serving/serving.h"
 #include "harness/record/passport/build_info.h"
-#include "harness/measure/serving/serving.h"
 #include "harness/devices/workers/worker.h"
 
 static void print_usage(void)

@@ -1,5 +1,6 @@
 // A record: the plain data of one cell of a table. Without pointers or open devices, it outlives
-// the job that made it (harness/measure/job.h), and may come from a file or another process.
+// the job that made it (harness/devices/measure/job.h), and may come from a file or another
+// process.
 #ifndef RG_HARNESS_RECORD_RECORD_H
 #define RG_HARNESS_RECORD_RECORD_H
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/measure/expected.h"
-#include "harness/measure/sampling.h"
+#include "harness/devices/measure/expected.h"
+#include "harness/devices/measure/sampling.h"
 #include "harness/record/passport/passport.h"
 #include "harness/tables/table.h"
 

@@ -59,6 +59,7 @@ def wrong(tree, order):
     lines = circle_lines(tree.uses()) + circle_lines(draw.folder_graph(tree))
     lines += [f"{path} includes {target}: {why}" for path, target, why in order.upwards()]
     lines += [f"{path} uses {name}: only {folder} may" for path, name, folder in order.torn()]
+    lines += order.heavy()
     lines += unrooted(tree) + order.stale() + absent(tree)
     lines += [f"{folder}: {len(names)} rooms, more than {LIMIT}: {' '.join(names)}"
               for folder, (_, names) in sorted(rooms(tree).items()) if len(names) > LIMIT]
@@ -72,6 +73,7 @@ def print_counts(tree, order):
     print(f"includes           {len(tree.includes)}, unrooted {len(unrooted(tree))}, upwards {len(order.upwards())}")
     print(f"circles of files   {len(groups)}, of {sum(map(len, groups))} units")
     print(f"circles of folders {len(circles(draw.folder_graph(tree)))}")
+    print(f"harness            {order.floors()} floors, {len(order.arrows())} arrows")
     print(f"rooms a folder, at most {LIMIT}; the largest, with their files:")
     largest = sorted(rooms(tree).items(), key=lambda row: (-len(row[1][1]), row[0]))
     for folder, (sources, names) in largest[:8]:

@@ -1,4 +1,5 @@
-"""The direction of includes: the rooms of raingauge from top to bottom, and the rooms that some of them may not use.
+"""The direction of includes: the rooms of raingauge from top to bottom, and the rooms that some of them may not use. How many
+floors and arrows the harness may have at most.
 
 A room is a folder with all below it, except rooms of their own. T stands for any technique: a folder of core/techniques that is
 not listed. B stands for any backend: a folder of backends.
@@ -15,7 +16,6 @@ FLOORS = [
     "harness/commands",
     "harness/report",
     "harness/tables harness/compare",
-    "harness/measure",
     "harness/devices",
     "harness/record harness/console harness/judge",
     "core/techniques/T",
@@ -54,6 +54,10 @@ FENCES = {
     "harness/judge": "core/base kernels/dialect",
 }
 
+
+# The most floors of the harness, and the most arrows: pairs of its rooms of which the first includes the second. A new arrow is
+# a decision, since whoever changes the one room has to know the other. Often a value can be passed instead, or a file moved.
+MOST_FLOORS, MOST_ARROWS = 5, 18
 
 # Names that only one folder of the harness may use; rooms above it call its functions instead.
 SEAMS = {
@@ -113,6 +117,28 @@ class Order:
         wrong = [(path, target, self.why_not(path, target))
                  for path, _, target in self.tree.includes if target and self.room[path] and self.room[target]]
         return [row for row in wrong if row[2]]
+
+    @staticmethod
+    def floors():
+        """The number of floors on which the harness has rooms."""
+        return sum(any(room.split("/")[0] == "harness" for room in rooms.split()) for rooms in FLOORS)
+
+    def arrows(self):
+        """{(room, other): (file, header)} of the rooms of the harness that include others, with an include that shows each."""
+        found = {}
+        for path, _, target in self.tree.includes:
+            if target and path.startswith("harness/") and target.startswith("harness/") and self.room[path] != self.room[target]:
+                found.setdefault((self.room[path], self.room[target]), (path, target))
+        return found
+
+    def heavy(self):
+        """What makes the harness hard to grasp: too many floors, or too many arrows between its rooms."""
+        floors, arrows = self.floors(), self.arrows()
+        wrong = [f"the harness has {floors} floors, more than {MOST_FLOORS}"] if floors > MOST_FLOORS else []
+        if len(arrows) > MOST_ARROWS:
+            wrong.append(f"the harness has {len(arrows)} arrows between its rooms, more than {MOST_ARROWS}:")
+            wrong += [f"    {room} -> {other}: {path} includes {target}" for (room, other), (path, target) in sorted(arrows.items())]
+        return wrong
 
     def torn(self):
         """(file, name, folder) of each name that a file of the harness uses although it belongs to another folder."""

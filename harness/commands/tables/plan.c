@@ -10,7 +10,7 @@
 #include "harness/commands/tables/chosen.h"
 #include "harness/console/duration.h"
 #include "harness/console/exit.h"
-#include "harness/measure/calibration.h"
+#include "harness/devices/measure/calibration.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/tables/farm/cut.h"
 #include "harness/tables/farm/found.h"

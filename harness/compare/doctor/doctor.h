@@ -7,9 +7,9 @@
 #include "core/base/outcome.h"
 #include "core/device/device.h"
 #include "core/device/probe.h"
-#include "harness/measure/ceilings.h"
-#include "harness/measure/drawing.h"
-#include "harness/measure/timer_audit.h"
+#include "harness/devices/measure/ceilings.h"
+#include "harness/devices/measure/drawing.h"
+#include "harness/devices/measure/timer_audit.h"
 
 // The findings about one device, up to the driver's failure if it failed.
 struct rg_examination {

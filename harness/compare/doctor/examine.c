@@ -5,8 +5,8 @@
 #include "core/base/log.h"
 #include "harness/compare/doctor/doctor.h"
 #include "harness/devices/devices.h"
+#include "harness/devices/measure/serving/messages.h"
 #include "harness/devices/workers/device.h"
-#include "harness/measure/serving/messages.h"
 
 int rg_examination_failures(const struct rg_examination *examination)
 {

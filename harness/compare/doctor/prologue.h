@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "harness/measure/others.h"
+#include "harness/devices/measure/others.h"
 
 struct rg_prologue {
     rg_watch *watch;   // reads the processors

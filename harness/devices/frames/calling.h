@@ -1,7 +1,7 @@
 // The calls about a session or a run: functions if the instance lives in this process, else
 // messages to its worker, with the fields listed here. Only files of this folder, and those that
-// serve the calls (harness/measure/serving/), may include this; all others use session.h and
-// digests.h.
+// serve the calls (harness/devices/measure/serving/), may include this; all others use session.h
+// and digests.h.
 #ifndef RG_HARNESS_DEVICES_FRAMES_CALLING_H
 #define RG_HARNESS_DEVICES_FRAMES_CALLING_H
 

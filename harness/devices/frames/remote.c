@@ -1,5 +1,5 @@
-// Calls about sessions and runs, here or in a worker (harness/measure/serving/sessions.c serves
-// them).
+// Calls about sessions and runs, here or in a worker (harness/devices/measure/serving/sessions.c
+// serves them).
 #include "harness/devices/workers/device.h"
 #include "harness/devices/frames/calling.h"
 #include "harness/devices/frames/messages.h"

@@ -1,7 +1,7 @@
 // The calls from the harness to workers: one list, with each call's service
-// (harness/measure/serving/) and the worker's activity during it. Tables of fields, used by both
-// sides, describe requests and replies (harness/devices/frames/messages.h,
-// harness/measure/serving/messages.h, harness/devices/workers/device.h).
+// (harness/devices/measure/serving/) and the worker's activity during it. Tables of fields, used by
+// both sides, describe requests and replies (harness/devices/frames/messages.h,
+// harness/devices/measure/serving/messages.h, harness/devices/workers/device.h).
 #ifndef RG_HARNESS_DEVICES_WORKERS_CALLS_H
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 
@@ -29,10 +29,10 @@
     CALL(KERNEL_CODE, kernel_code, "reading a kernel's code")                                      \
     CALL(COMPILE, compile, "compiling a kernel")
 
-// HELLO asks whether both processes use the same messages (harness/measure/serving/hello.c); it
-// stays first for ever, in all builds. LIST is about a backend's devices, LOAD about libraries that
-// a device's name names. OPEN to FIXED are about this worker's one device; the worker ends
-// after CLOSE. The rest are about sessions and runs.
+// HELLO asks whether both processes use the same messages
+// (harness/devices/measure/serving/hello.c); it stays first for ever, in all builds. LIST is about
+// a backend's devices, LOAD about libraries that a device's name names. OPEN to FIXED are about
+// this worker's one device; the worker ends after CLOSE. The rest are about sessions and runs.
 #define RG_CALLS(CALL)                                                                             \
     CALL(HELLO, hello, "greeting")                                                                 \
     CALL(LIST, list, "listing devices")                                                            \

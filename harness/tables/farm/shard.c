@@ -10,7 +10,7 @@
 #include "harness/console/duration.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
-#include "harness/measure/others.h"
+#include "harness/devices/measure/others.h"
 #include "harness/tables/farm/record.h"
 #include "harness/tables/measuring/measure.h"
 #include "harness/tables/print.h"

@@ -9,11 +9,11 @@
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
+#include "harness/devices/measure/job.h"
+#include "harness/devices/measure/others.h"
+#include "harness/devices/measure/sampling.h"
 #include "harness/devices/workers/device.h"
 #include "harness/devices/workers/worker.h"
-#include "harness/measure/job.h"
-#include "harness/measure/others.h"
-#include "harness/measure/sampling.h"
 #include "kernels/dialect/rng.h"
 
 // A slot is the time of a cell's frame: the median of several timings of at least TIMING_MS,

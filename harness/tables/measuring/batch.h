@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_TABLES_MEASURING_BATCH_H
 #define RG_HARNESS_TABLES_MEASURING_BATCH_H
 
-#include "harness/measure/measure.h"
+#include "harness/devices/measure/measure.h"
 #include "harness/tables/table.h"
 
 // Zero all but the borrowed pointers. The owner calls rg_batch_close.

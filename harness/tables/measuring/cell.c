@@ -4,8 +4,8 @@
 
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
-#include "harness/measure/expected.h"
-#include "harness/measure/sampling.h"
+#include "harness/devices/measure/expected.h"
+#include "harness/devices/measure/sampling.h"
 
 int rg_cell_check_frames(const struct rg_table *table)
 {

@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_TABLES_MEASURING_CELL_H
 #define RG_HARNESS_TABLES_MEASURING_CELL_H
 
-#include "harness/measure/job.h"
+#include "harness/devices/measure/job.h"
 #include "harness/tables/papers/published.h"
 
 // The number of frames before a cell's image is compared.

@@ -3,7 +3,7 @@
 #define RG_HARNESS_TABLES_MEASURING_MEASURE_H
 
 #include "harness/console/progress.h"
-#include "harness/measure/job.h"
+#include "harness/devices/measure/job.h"
 #include "harness/record/disk/journal.h"
 #include "harness/tables/table.h"
 

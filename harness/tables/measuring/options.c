@@ -1,5 +1,5 @@
 // The options for measuring cells quickly, fully, and with the fewest samples.
-#include "harness/measure/calibration.h"
+#include "harness/devices/measure/calibration.h"
 #include "harness/tables/measuring/measure.h"
 
 // A median of fewer than 6 samples has no 95 % interval.

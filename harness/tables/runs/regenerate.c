@@ -8,7 +8,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
-#include "harness/measure/others.h"
+#include "harness/devices/measure/others.h"
 #include "harness/record/disk/hold.h"
 #include "harness/tables/launching/course.h"
 #include "harness/tables/runs/budget.h"

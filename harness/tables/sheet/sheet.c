@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/measure/timer_audit.h"
+#include "harness/devices/measure/timer_audit.h"
 
 // A frame's work: items of runs, packed primitives, and shaded fragments.
 enum { TALLIED = 3 };

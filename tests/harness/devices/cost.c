@@ -9,7 +9,7 @@
 #include "core/base/stats.h"
 #include "harness/console/clock.h"
 #include "harness/devices/devices.h"
-#include "harness/measure/serving/serving.h"
+#include "harness/devices/measure/serving/serving.h"
 #include "harness/devices/workers/worker.h"
 #include "harness/devices/frames/session.h"
 #include "harness/devices/frames/calling.h"

@@ -15,12 +15,12 @@
 #include "core/base/log.h"
 #include "harness/console/exit.h"
 #include "harness/devices/devices.h"
+#include "harness/devices/measure/job.h"
 #include "harness/devices/workers/device.h"
 #include "harness/devices/workers/serve.h"
 #include "harness/devices/frames/digests.h"
 #include "harness/devices/frames/messages.h"
 #include "harness/devices/frames/session.h"
-#include "harness/measure/job.h"
 
 // --- in the worker ---
 

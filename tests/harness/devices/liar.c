@@ -14,15 +14,15 @@
 #include "core/base/log.h"
 #include "core/device/probe.h"
 #include "harness/devices/devices.h"
-#include "harness/measure/serving/serving.h"
+#include "harness/devices/measure/ceilings.h"
+#include "harness/devices/measure/serving/messages.h"
+#include "harness/devices/measure/serving/serving.h"
+#include "harness/devices/measure/timer_audit.h"
 #include "harness/devices/workers/channel.h"
 #include "harness/devices/workers/device.h"
 #include "harness/devices/frames/digests.h"
 #include "harness/devices/frames/messages.h"
 #include "harness/devices/frames/session.h"
-#include "harness/measure/ceilings.h"
-#include "harness/measure/serving/messages.h"
-#include "harness/measure/timer_audit.h"
 
 static uint64_t state;
 

@@ -5,7 +5,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/exit.h"
-#include "harness/measure/calibration.h"
+#include "harness/devices/measure/calibration.h"
 #include "harness/record/disk/stored.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/tables/farm/found.h"

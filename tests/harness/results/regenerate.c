@@ -10,7 +10,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/exit.h"
-#include "harness/measure/expected.h"
+#include "harness/devices/measure/expected.h"
 #include "harness/tables/runs/regenerate.h"
 #include "harness/tables/measuring/measure.h"
 #include "tests/tools/expect.h"

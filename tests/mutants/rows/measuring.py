@@ -3,18 +3,18 @@ from fault import Fault
 
 TESTS = ("scripted", "revisited", "loads", "others", "stats", "measure", "timer_audit")
 
-JOB, MEASURE, PASSES = "harness/measure/job.c", "harness/measure/measure.c", "harness/measure/passes.c"
-AUDIT, CEILINGS, STATS = "harness/measure/timer_audit.c", "harness/measure/ceilings.c", "core/base/stats.c"
+JOB, MEASURE, PASSES = "harness/devices/measure/job.c", "harness/devices/measure/measure.c", "harness/devices/measure/passes.c"
+AUDIT, CEILINGS, STATS = "harness/devices/measure/timer_audit.c", "harness/devices/measure/ceilings.c", "core/base/stats.c"
 SESSION = "harness/devices/frames/local.c"
 
 PROGRESS = "harness/console/progress.c"
-SAMPLING = "harness/measure/sampling.c"
-OTHERS, RECORD = "harness/measure/others.c", "harness/record/record.c"
+SAMPLING = "harness/devices/measure/sampling.c"
+OTHERS, RECORD = "harness/devices/measure/others.c", "harness/record/record.c"
 PROLOGUE = "harness/compare/doctor/prologue.c"
 DURATION = "harness/console/duration.c"
 TEXT, DOCUMENT, EXAMINE, WARNINGS, DRAWS, COMPILE = (
     "harness/compare/doctor/" + name + ".c" for name in ("text", "document", "examine", "warnings", "fixed", "compile"))
-FIXED, DRAWING, EXPECTED = "harness/measure/serving/fixed.c", "harness/measure/drawing.c", "harness/measure/expected.c"
+FIXED, DRAWING, EXPECTED = "harness/devices/measure/serving/fixed.c", "harness/devices/measure/drawing.c", "harness/devices/measure/expected.c"
 OF_REPORTS, OF_WARNINGS, OF_FEATURES, OF_DRAWINGS = (
     (name + " doctor",) for name in ("reports of", "warnings of", "features in", "drawings in"))
 OF_SAMPLING, OF_OTHERS = ("sampling",), ("others",)
@@ -38,7 +38,7 @@ ROWS = [
     Fault(RECORD, "count += «record->taken[i] > RG_MOST_TAKEN»;", "record->taken[i] >= RG_MOST_TAKEN", "a share that is allowed is marked", tests=("records",)),
     Fault(RECORD, "return «width > RG_WIDE_INTERVAL» ? sqrt(width) - 1 : 0;", "width > 1.5", "a wide interval is not marked"),
     Fault("harness/compare/doctor/examine.c", "if («!rg_drawn_is_well(&e->drawing.formats[i], e->info.tier)»)", "false", "a device that draws wrongly is well", tests=("command line, doctor",)),
-    Fault("harness/measure/drawing.c", "return «drawn->differing <= (tier == RG_T0 ? 0 : RG_DRAWING_PIXELS / 1000)»;", "drawn->differing < RG_DRAWING_PIXELS", "a device that blends nothing draws well", tests=("command line, doctor",)),
+    Fault("harness/devices/measure/drawing.c", "return «drawn->differing <= (tier == RG_T0 ? 0 : RG_DRAWING_PIXELS / 1000)»;", "drawn->differing < RG_DRAWING_PIXELS", "a device that blends nothing draws well", tests=("command line, doctor",)),
     Fault(PROGRESS, "return high_ms <= «2» * low_ms &&", "1000", "a time is told of units that are not alike", tests=("progress",)),
     Fault(PROGRESS, "return «10» * (now_ms - p->start_ms) >=", "1e9", "a time is told by the first moments", tests=("progress",)),
     Fault(PROGRESS, "if («!mark->done» || p->done <= mark->done ||", "false", "the first units tell of all", tests=("progress",)),
@@ -70,9 +70,9 @@ ROWS = [
     Fault(SAMPLING, "return «frame_ms < LONG_FRAME_MS»;", "false", "no frame is run before a sample"),
     Fault(SAMPLING, "return «frame_ms < LONG_FRAME_MS»;", "true", "a frame is run before samples of long frames"),
     Fault(SAMPLING, "window_frames ? «window_frames - 1» : 100000", "window_frames", "a window has no frame before the sample"),
-    Fault("harness/measure/calibration.c", "const int third = «(calibration->count + 2) / 3»;", "calibration->count", "the beginning of a run is all of it"),
-    Fault("harness/measure/calibration.c", "median_from(calibration, «calibration->count - third», third) : 0;\n}", "0", "a run ends as it began"),
-    Fault("harness/measure/calibration.c", "= «rg_median(ms, LOADS).median»;", "ms[1]", "a moment in which the machine stands still is a drift"),
+    Fault("harness/devices/measure/calibration.c", "const int third = «(calibration->count + 2) / 3»;", "calibration->count", "the beginning of a run is all of it"),
+    Fault("harness/devices/measure/calibration.c", "median_from(calibration, «calibration->count - third», third) : 0;\n}", "0", "a run ends as it began"),
+    Fault("harness/devices/measure/calibration.c", "= «rg_median(ms, LOADS).median»;", "ms[1]", "a moment in which the machine stands still is a drift"),
     Fault(MEASURE, "if («rg_interrupted()») // it may have fewer frames", "false", "a sample that was interrupted has a time"),
     Fault(MEASURE, "if («rg_interrupted()») // fewer frames", "false", "a run that was interrupted settles how a job is sampled"),
     Fault(MEASURE, "if (do_round(r, round))\n            «note_calibration(r);»", ";", "the machine's speed is told once"),
@@ -211,7 +211,7 @@ ROWS = [
     Fault(PASSES, "const double ms = «1.5 * frame_ms»;", "frame_ms", "waiting after each pass takes no time", tests=OF_SAMPLING),
     Fault(PASSES, "least_frames(passes_ms)), «MOST_FRAMES»);", "1e9", "more frames are expected than are timed", tests=OF_SAMPLING),
     Fault(PASSES, "return «passes_ms > 0 ? 2 : 1»;", "2", "passes are timed twice without a limit", tests=OF_SAMPLING),
-    Fault("harness/measure/calibration.c", "if (!calibration->load || «calibration->count > RG_MAX_SAMPLES»)", "calibration->count >= RG_MAX_SAMPLES", "the last load of a long run is left out", tests=OF_SAMPLING),
+    Fault("harness/devices/measure/calibration.c", "if (!calibration->load || «calibration->count > RG_MAX_SAMPLES»)", "calibration->count >= RG_MAX_SAMPLES", "the last load of a long run is left out", tests=OF_SAMPLING),
     Fault(MEASURE, "return «open_ms * (1 + (double)s->samples / (fit > 1 ? fit : 1))»;", "open_ms * (1 + (double)s->samples)", "each sample is expected to open a window", tests=OF_SAMPLING),
     Fault(MEASURE, "job->record->create_ms «+ job->check_frames * job->warm_frame_ms»;", "+ 0", "check frames of a window take no time", tests=OF_SAMPLING),
     Fault(MEASURE, "all_ms += «last == r->all» ?", "true", "a visit that times no passes never ends", tests=OF_SAMPLING),

@@ -38,7 +38,7 @@ ROWS = [
     Fault(MEASURE, "? fmax(«(now_ms - m->first_ms) / done_ms», 1) : 0;", "0.0", "what is left goes on as the warm-up did", tests=("time left",)),
     Fault(MEASURE, "    rg_progress_due(m.bar, «-1»);", "1e7", "a time is told before rows are open", tests=("time left",)),
     Fault(MEASURE, "ms += is_whole ? 0 : «rg_jobs_expected_ms(job, 1, &m->options)»;", "1", "what open jobs take is not told", tests=("time left",)),
-    Fault("harness/measure/measure.c", "return «open_ms * (1 + (double)s->samples / (fit > 1 ? fit : 1))»;", "0.0", "windows that are opened anew take no time", tests=("time left",)),
+    Fault("harness/devices/measure/measure.c", "return «open_ms * (1 + (double)s->samples / (fit > 1 ? fit : 1))»;", "0.0", "windows that are opened anew take no time", tests=("time left",)),
     Fault(CELL, "return «floor(frames / table->window_frames)» *", "0 * frames", "a window is never left"),
     Fault(COMPILE, "if («devices->devices[d]->backend->package»)", "\"\"", "what has no driver is opened beforehand", tests=("compiling beforehand",)),
     Fault(COMPILE, "if («k < jobs->table_count» || tables[i]", "false", "each table of a technique is opened beforehand", tests=("compiling beforehand",)),

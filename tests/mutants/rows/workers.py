@@ -7,12 +7,12 @@ W = "harness/devices/workers/"
 WORKER, CHANNEL, SERVE, MESSAGE, FIELDS, ENVIRONMENT, DEVICE = (
     W + name + ".c" for name in ("worker", "channel", "serve", "message", "fields", "environment", "device"))
 NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/devices/frames/remote.c", "core/base/log.c")
-DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/devices/frames/messages.c", "harness/measure/serving/messages.c"
+DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/devices/frames/messages.c", "harness/devices/measure/serving/messages.c"
 D = "harness/devices/drivers/"
 CACHES, CHOICE, APART, SIDE, PREFIX = (D + name + ".c" for name in ("caches", "choice", "apart", "side", "prefix"))
 PLAN, DOCTOR, EXAMINE = "harness/tables/own/plan.c", "harness/commands/doctor.c", "harness/compare/doctor/examine.c"
 SUBJECT, MANIFEST, VARIABLES, HELD = "harness/devices/frames/subject.c", D + "manifest.c", D + "variables.c", W + "held.c"
-KEPT, SERVING, SERVED = "harness/devices/kept.c", "harness/measure/serving/sessions.c", "harness/measure/serving/device.c"
+KEPT, SERVING, SERVED = "harness/devices/kept.c", "harness/devices/measure/serving/sessions.c", "harness/devices/measure/serving/device.c"
 TRACE, SEQUENCE, FRAME, LOCAL, RECORDER, SESSION = (
     "harness/devices/frames/" + name + ".c" for name in ("trace", "sequence", "frame", "local", "recorder", "session"))
 OF_APART, OF_CACHES, OF_CHOICES, OF_MANIFESTS, OF_PREFIXES = (
@@ -64,7 +64,7 @@ ROWS = [
     Fault(MESSAGES, "return !d->levels || («(double)d->width * d->height * d->layers <= (double)c->size» &&", "true", "sides whose product is no number are multiplied", lives="it wraps, and comes to no size that a reply has"),
     Fault(MESSAGES, "«rg_contents_size(d) == c->size»);", "true", "an image may have bytes of another", tests=DAMAGED),
     Fault(MESSAGES, ": «!memcmp(d, &none, sizeof(none))»;", "true", "what has no levels may be an image", tests=FOUND),
-    Fault("harness/measure/job.c", "if («!rg_session_tell(session, &told)»)", "!rg_session_tell(session, &told) && false", "a record is well of which nothing was told"),
+    Fault("harness/devices/measure/job.c", "if («!rg_session_tell(session, &told)»)", "!rg_session_tell(session, &told) && false", "a record is well of which nothing was told"),
     Fault(SERVE, "prctl(PR_SET_PDEATHSIG, SIGKILL);", ";", "a worker outlives a harness that is killed"),
     Fault(SERVE, "rg_put_int(&reply, «failure.fault»);", "RG_FAULT_INPUT", "every error of a worker is the user's"),
     Fault(SERVE, "rg_doing_share(channel.doing);", ";", "nobody sees what a worker does"),

@@ -9,8 +9,8 @@
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
+#include "harness/devices/measure/serving/fixed.h"
 #include "harness/devices/names.h"
-#include "harness/measure/serving/fixed.h"
 #include "harness/record/passport/key.h"
 
 // A device whose fixed functions are held against a baseline's, or against those of `a`.

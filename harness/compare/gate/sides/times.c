@@ -9,8 +9,8 @@
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/frames/session.h"
-#include "harness/measure/others.h"
-#include "harness/measure/sampling.h"
+#include "harness/devices/measure/others.h"
+#include "harness/devices/measure/sampling.h"
 #include "harness/record/record.h"
 
 // A launch takes several blocks, or times of B alone. Opening a cell costs as much as several

@@ -4,10 +4,10 @@
 #define RG_HARNESS_COMPARE_GATE_SIDES_TIMES_H
 
 #include "harness/compare/gate/cells/cells.h"
+#include "harness/devices/measure/yardsticks.h"
 #include "harness/judge/course.h"
 #include "harness/compare/gate/sides/journal.h"
 #include "harness/compare/gate/sides/sides.h"
-#include "harness/measure/yardsticks.h"
 
 // Times of the launches that count, in the order in which they were taken.
 struct rg_launches {

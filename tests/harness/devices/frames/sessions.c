@@ -15,7 +15,7 @@
 #include "harness/devices/devices.h"
 #include "harness/devices/frames/digests.h"
 #include "harness/devices/frames/session.h"
-#include "harness/measure/serving/serving.h"
+#include "harness/devices/measure/serving/serving.h"
 #include "harness/devices/workers/device.h"
 #include "tests/harness/devices/workers/pair.h"
 #include "tests/tools/expect.h"

@@ -1,6 +1,6 @@
 // What a worker serves, and what its technique, its runs and its kernels tell: the same as in this
 // process, and what the test knows of them.
-#include "harness/measure/serving/serving.h"
+#include "harness/devices/measure/serving/serving.h"
 
 #include "core/device/pass.h"
 #include "harness/devices/frames/digests.h"

@@ -11,11 +11,11 @@
 
 #include "core/device/pass.h"
 #include "harness/devices/frames/messages.h"
+#include "harness/devices/measure/ceilings.h"
+#include "harness/devices/measure/drawing.h"
+#include "harness/devices/measure/serving/messages.h"
+#include "harness/devices/measure/timer_audit.h"
 #include "harness/devices/workers/device.h"
-#include "harness/measure/ceilings.h"
-#include "harness/measure/drawing.h"
-#include "harness/measure/serving/messages.h"
-#include "harness/measure/timer_audit.h"
 #include "tests/tools/expect.h"
 
 // Puts a struct and takes it into another one, which is zeroed before.

@@ -8,8 +8,8 @@
 #include "harness/compare/gate/sides/times.h"
 #include "harness/console/clock.h"
 #include "harness/devices/frames/session.h"
-#include "harness/measure/others.h"
-#include "harness/measure/sampling.h"
+#include "harness/devices/measure/others.h"
+#include "harness/devices/measure/sampling.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"
 

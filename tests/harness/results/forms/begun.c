@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/measure/expected.h"
+#include "harness/devices/measure/expected.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/table.h"
 #include "tests/tools/expect.h"

@@ -16,8 +16,8 @@
 #include "core/base/log.h"
 #include "harness/console/clock.h"
 #include "harness/console/threads.h"
+#include "harness/devices/measure/serving/serving.h"
 #include "harness/devices/workers/worker.h"
-#include "harness/measure/serving/serving.h"
 #include "harness/tables/launching/course.h"
 
 enum { MOST = 16 };

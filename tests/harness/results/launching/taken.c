@@ -15,9 +15,9 @@
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
-#include "harness/measure/others.h"
+#include "harness/devices/measure/others.h"
 #include "harness/tables/launching/course.h"
-#include "tests/harness/measuring/fake.h"
+#include "tests/harness/devices/measuring/fake.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"
 

@@ -15,7 +15,7 @@
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/measuring/measure.h"
 #include "harness/tables/own/plan.h"
-#include "tests/harness/measuring/fake.h"
+#include "tests/harness/devices/measuring/fake.h"
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"
 

@@ -5,7 +5,7 @@
 #define RG_TESTS_HARNESS_RESULTS_PLANNING_SLOW_H
 
 #include "harness/devices/kept.h"
-#include "tests/harness/measuring/fake.h"
+#include "tests/harness/devices/measuring/fake.h"
 
 extern int slow_opened; // instances, since slow_begin
 // The number of the instance that is interrupted, as by Ctrl-C; 0: none.

@@ -1,6 +1,6 @@
 // A drawing is compared with that of cpu:reference, pixel by pixel: by a device that draws what cpu
 // does, but for pixels that the test changes.
-#include "harness/measure/drawing.h"
+#include "harness/devices/measure/drawing.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
