@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/judge/inside.h"
+#include "harness/judge/deciding.h"
 
 // The factor from the standard error of a difference of means to that of Hodges and Lehmann's
 // estimate, for normal noise: the root of the estimate's efficiency, 3 / pi.

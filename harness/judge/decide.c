@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/base/stats.h"
-#include "harness/judge/inside.h"
+#include "harness/judge/deciding.h"
 
 // Launches are averaged in pairs, and pairs in pairs again, if their lag-1 autocorrelation exceeds
 // two bounds: this one, and the one that independent launches exceed by chance in one of twenty

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/judge/inside.h"
+#include "harness/judge/deciding.h"
 
 const struct rg_settle_rule rg_settle_rule = {
     .error = 0.01, .near = 0.04879016416943205, .look_count = 4, .looks = {12, 24, 48, 96}};

@@ -7,7 +7,7 @@
 #include "core/base/log.h"
 #include "core/base/text/add.h"
 #include "harness/record/ending.h"
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 
 enum { ROOM_FOR_END = 500, MOST_TEXT = 300, WORST = 3 };
 

@@ -1,3 +1,5 @@
+#include "harness/report/page.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -6,7 +8,6 @@
 #include "harness/record/output.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/record/schema/schema.h"
-#include "harness/report/report.h"
 #include "harness/tables/claims/json.h"
 
 // The page before and after its data; page/embed.py makes them.

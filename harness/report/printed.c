@@ -1,5 +1,5 @@
 #include "harness/record/named.h"
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 #include "harness/tables/papers/papers.h"
 
 static json_t *columns_json(const struct rg_table *table)

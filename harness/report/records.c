@@ -11,7 +11,7 @@
 #include "core/base/log.h"
 #include "harness/record/disk/document.h"
 #include "harness/record/disk/stored.h"
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 
 static const char mend[] = "name what a command wrote with --json or -o (docs/records.md)";
 

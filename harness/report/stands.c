@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 #include "harness/tables/claims/json.h"
 
 bool rg_page_is(const json_t *object, const char *field, const char *value)

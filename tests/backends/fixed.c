@@ -11,7 +11,7 @@
 
 #include "core/base/log.h"
 #include "core/base/outcome.h"
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 #include "tests/tools/expect.h"
 
 static const char *name;

@@ -21,7 +21,7 @@ sys.dont_write_bytecode = True  # the sources' folder stays unchanged
 
 import draw
 from order import Order
-from rooms import LIMIT, rooms
+from rooms import LIMIT, MOST_NAMESAKES, namesakes, rooms
 from tree import Tree, circles, files
 
 HERE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -63,6 +63,8 @@ def wrong(tree, order):
     lines += unrooted(tree) + order.stale() + absent(tree)
     lines += [f"{folder}: {len(names)} rooms, more than {LIMIT}: {' '.join(names)}"
               for folder, (_, names) in sorted(rooms(tree).items()) if len(names) > LIMIT]
+    lines += [f"{name}: in {len(folders)} folders of the harness, more than {MOST_NAMESAKES}: {' '.join(folders)}"
+              for name, folders in sorted(namesakes(tree.root).items())]
     return lines
 
 

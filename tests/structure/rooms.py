@@ -1,8 +1,12 @@
-"""The number of rooms in a folder: its units and folders."""
+"""The number of rooms in a folder: its units and folders. In how many folders of the harness files have one name."""
 import os
 import re
 
+import tree as sources
+
 LIMIT = 12
+# A name that stands in many folders tells too little: whoever reads it in a message or a list cannot know which file is meant.
+MOST_NAMESAKES = 2
 
 
 def unit(name):
@@ -21,3 +25,13 @@ def rooms(tree):
             folder, name = os.path.split(folder)
             inside.setdefault(folder, set()).add(name + "/")
     return {folder: (len(files.get(folder, [])), sorted(names)) for folder, names in inside.items()}
+
+
+def namesakes(root):
+    """{name: folders} of files of the harness, without their endings, that stand in too many folders. Every folder has a meson.build."""
+    found = {}
+    for path in sources.files(root, re.compile(r"^(?!meson\.build$)")):
+        folder, name = os.path.split(path)
+        if folder.startswith("harness"):
+            found.setdefault(name.split(".")[0], set()).add(folder)
+    return {name: sorted(folders) for name, folders in found.items() if len(folders) > MOST_NAMESAKES}

@@ -10,7 +10,7 @@
 #include "harness/compare/gate/pictures/pictures.h"
 #include "harness/compare/gate/sides/journal.h"
 #include "harness/record/output.h"
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 
 #define AT_FILE(id) offsetof(struct rg_reports_asked, files[RG_AS_##id])
 #define AT_FLAG(id) offsetof(struct rg_reports_asked, flags[RG_AS_##id])

@@ -10,7 +10,7 @@
 #include "harness/console/exit.h"
 #include "harness/console/started.h"
 #include "harness/record/output.h"
-#include "harness/tables/launching/course.h"
+#include "harness/tables/launching/launches.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/needed.h"

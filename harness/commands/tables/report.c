@@ -8,7 +8,7 @@
 #include "harness/commands/cli/shared.h"
 #include "harness/record/disk/stored.h"
 #include "harness/record/output.h"
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 
 struct report_options {
     char *against; // NULL: nothing is compared

@@ -15,10 +15,10 @@
 #include "harness/devices/measure/expected.h"
 #include "harness/devices/names.h"
 #include "harness/record/output.h"
+#include "harness/tables/own/estimate.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/regenerate.h"
 #include "harness/tables/own/grid.h"
-#include "harness/tables/own/plan.h"
 
 struct sweep_options {
     struct rg_words axes, sets;

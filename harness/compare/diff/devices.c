@@ -13,7 +13,7 @@
 #include "core/image/files/io.h"
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/diff/accepts.h"
-#include "harness/compare/diff/report.h"
+#include "harness/compare/diff/pair.h"
 #include "harness/console/exit.h"
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"

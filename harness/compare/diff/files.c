@@ -5,7 +5,7 @@
 #include "core/base/log.h"
 #include "core/image/files/io.h"
 #include "harness/compare/diff/beside.h"
-#include "harness/compare/diff/report.h"
+#include "harness/compare/diff/pair.h"
 #include "harness/console/exit.h"
 
 static bool print_json(const struct rg_diff_request *request,

@@ -8,7 +8,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/devices/devices.h"
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 #include "harness/record/named.h"
 #include "harness/record/passport/passport.h"
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "harness/tables/figures/lists.h"
+#include "harness/tables/figures/papers.h"
 
 #define DECLARE(paper) extern const struct rg_figure rg_figures_##paper[];
 RG_FIGURE_PAPERS(DECLARE)

@@ -10,7 +10,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/devices/measure/others.h"
 #include "harness/record/disk/hold.h"
-#include "harness/tables/launching/course.h"
+#include "harness/tables/launching/launches.h"
 #include "harness/tables/runs/budget.h"
 #include "harness/tables/runs/closing.h"
 #include "harness/tables/runs/needed.h"

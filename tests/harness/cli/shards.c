@@ -12,7 +12,7 @@
 
 #include "core/base/log.h"
 #include "harness/commands/cli/shard.h"
-#include "harness/commands/tables/shard.h"
+#include "harness/commands/tables/plan_shard.h"
 #include "harness/console/exit.h"
 #include "tests/tools/expect.h"
 

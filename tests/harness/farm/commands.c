@@ -9,9 +9,9 @@
 #include "harness/record/disk/stored.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/tables/farm/found.h"
+#include "harness/tables/farm/groups.h"
 #include "harness/tables/farm/make.h"
 #include "harness/tables/farm/merge.h"
-#include "harness/tables/farm/shard.h"
 #include "tests/harness/cli/asked.h"
 #include "tests/tools/expect.h"
 

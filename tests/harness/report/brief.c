@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"
 

@@ -6,7 +6,7 @@
 #include "core/base/log.h"
 #include "harness/console/exit.h"
 #include "harness/record/output.h"
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 #include "tests/harness/cli/asked.h"
 
 // --- stand-ins ---

@@ -16,7 +16,7 @@
 #include "harness/record/output.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/record/schema/schema.h"
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 #include "tests/harness/record/made.h"
 
 // --- stand-ins ---

@@ -12,7 +12,7 @@
 #include <webp/decode.h>
 
 #include "core/image/files/io.h"
-#include "harness/report/report.h"
+#include "harness/report/page.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
 

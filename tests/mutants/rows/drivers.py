@@ -29,7 +29,7 @@ ROUND, COVER, PLANE, TEXTURE, DECODE, MERGE, SCENE, BOUNDS, SECTIONS, CORNERS, S
     f"shaders/fixed/bounds/{name}.c" for name in
     ("span", "cover", "plane", "texture", "decode", "merge", "scene", "bounds", "sections", "corners", "shade"))
 CUBE = "shaders/fixed/bounds/cube.c"
-OF_BOUNDS, JUDGED = ("bounds of places", "bounds of texels", "bounds of draws"), "harness/devices/measure/serving/fixed.c"
+OF_BOUNDS, JUDGED = ("bounds of places", "bounds of texels", "bounds of draws"), "harness/devices/measure/serving/fixed_pairs.c"
 
 # Native devices.
 GL_SAMPLER, VK_SAMPLER, VK_STATE = "backends/gl/api/sampler.c", "backends/vulkan/api/sampler.c", "backends/vulkan/api/pipeline.c"
@@ -98,7 +98,7 @@ ROWS = [
     Fault(VK_RECORD, "fixed->begin_feedback(commands, 0, 0, NULL, NULL);\n    }\n    «call(job);»", ";", "vulkan: nothing is drawn", tests=OF_FIXED_VK),
     Fault("shaders/fixed/parts.c", "if («size > texel && !memcmp(part, part + texel, size - texel)»)", "true", "every picture is constant", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault("shaders/fixed/texels.c", "RG_FIXED_CONSTANT   ? «constant[i % 4]»", "(uint8_t)i", "a constant texture is not constant", tests=OF_FIXED_GL + OF_FIXED_VK),
-    Fault("harness/devices/measure/serving/fixed.c", "if («told->digest != told->other»)", "false", "every closed case holds", tests=("fixed functions",)),
+    Fault("harness/devices/measure/serving/fixed_pairs.c", "if («told->digest != told->other»)", "false", "every closed case holds", tests=("fixed functions",)),
     Fault("shaders/fixed/texels.c", "if («state->flip && layer == 0 && level == 0»)", "false", "no bit of a texture is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault("shaders/fixed/vertices.c", "if («flip»)", "false", "no bit of a vertex is flipped", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault("harness/compare/doctor/fixed.c", "rg_exit_of_all(«counts»)", "(int[RG_OUTCOME_COUNT]){[RG_OK] = 1}", "a crash of a draw passes", tests=("command line, fixed",)),

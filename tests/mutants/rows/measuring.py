@@ -13,8 +13,8 @@ OTHERS, RECORD = "harness/devices/measure/others.c", "harness/record/record.c"
 PROLOGUE = "harness/compare/doctor/prologue.c"
 DURATION = "harness/console/duration.c"
 TEXT, DOCUMENT, EXAMINE, WARNINGS, DRAWS, COMPILE = (
-    "harness/compare/doctor/" + name + ".c" for name in ("text", "document", "examine", "warnings", "fixed", "compile"))
-FIXED, DRAWING, EXPECTED = "harness/devices/measure/serving/fixed.c", "harness/devices/measure/drawing.c", "harness/devices/measure/expected.c"
+    "harness/compare/doctor/" + name + ".c" for name in ("print", "document", "examine", "warnings", "fixed", "compile"))
+FIXED, DRAWING, EXPECTED = "harness/devices/measure/serving/fixed_pairs.c", "harness/devices/measure/drawing.c", "harness/devices/measure/expected.c"
 OF_REPORTS, OF_WARNINGS, OF_FEATURES, OF_DRAWINGS = (
     (name + " doctor",) for name in ("reports of", "warnings of", "features in", "drawings in"))
 OF_SAMPLING, OF_OTHERS = ("sampling",), ("others",)

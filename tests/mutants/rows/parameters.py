@@ -11,7 +11,7 @@ THREADS = "harness/console/threads.c"
 
 LOG = "core/base/log.c"
 HELP, SUBJECT, SHARED = "harness/commands/cli/help.c", "harness/commands/cli/subject.c", "harness/commands/cli/shared.c"
-COMMANDS, SHARD, PLANNED = "harness/commands/commands.c", "harness/commands/cli/shard.c", "harness/commands/tables/shard.c"
+COMMANDS, SHARD, PLANNED = "harness/commands/commands.c", "harness/commands/cli/shard.c", "harness/commands/tables/plan_shard.c"
 GTEST, OUTPUTS, TABLE = "harness/commands/comparing/gtest.c", "harness/commands/comparing/outputs.c", "harness/commands/tables/table.c"
 CLAIMS, SWEEP, SETS = "harness/commands/tables/claims.c", "harness/commands/tables/sweep.c", "harness/commands/tables/sets.c"
 REPORT, FIGURES, ATLAS = "harness/commands/tables/report.c", "harness/commands/drawing/figures.c", "harness/commands/drawing/atlas.c"
@@ -253,5 +253,5 @@ ROWS = [
     Fault("harness/commands/list.c", "if («arguments->count > 1») {\n        rg_error(\"list:", "false", "words that list knows not are skipped", tests=("words that commands refuse",)),
     Fault("harness/commands/tables/sweep.c", "if («*devices»)\n            return rg_error(\"--axis device: stands", "false", "the last axis of devices counts", tests=("words that commands refuse",)),
     Fault(THREADS, "const int wanted = «omp_get_max_threads() - 1»;", "omp_get_max_threads()", "one thread more than asked for has to be possible", tests=("numbers of threads",)),
-    Fault("harness/commands/pages/main.c", "stderr), «2»;", "0", "the build goes on with a page that is none", tests=("command line, pages",)),
+    Fault("harness/commands/pages/pages.c", "stderr), «2»;", "0", "the build goes on with a page that is none", tests=("command line, pages",)),
 ]

@@ -6,10 +6,10 @@ TESTS = ("priority", "within a budget", "time left", "foreseen")
 ORDER, CELL, BUDGET = "harness/tables/runs/order.c", "harness/tables/measuring/cell.c", "harness/tables/runs/budget.c"
 FARM, PLANS, MERGES = "harness/tables/farm/", ("plans of a farm",), ("merges of a farm",)
 TIMES, RECORDS, SHARDS, VISITS = ("times of a farm",), ("records of a farm",), ("shards of a farm",), ("visits to rows",)
-OWN_PLAN, NEEDED, CLOSING = "harness/tables/own/plan.c", "harness/tables/runs/needed.c", "harness/tables/runs/closing.c"
+OWN_PLAN, NEEDED, CLOSING = "harness/tables/own/estimate.c", "harness/tables/runs/needed.c", "harness/tables/runs/closing.c"
 REGENERATE = "harness/tables/runs/regenerate.c"
 COMPILE, PROGRESS, MEASURE = "harness/tables/runs/compile.c", "harness/console/progress.c", "harness/tables/measuring/measure.c"
-PLAN, MERGE, PLANNED = "harness/commands/tables/plan.c", "harness/commands/tables/merge.c", "harness/commands/tables/shard.c"
+PLAN, MERGE, PLANNED = "harness/commands/tables/plan.c", "harness/commands/tables/merge.c", "harness/commands/tables/plan_shard.c"
 CHOSEN = "harness/commands/tables/chosen.c"
 
 ROWS = [
@@ -47,7 +47,7 @@ ROWS = [
     Fault(COMPILE, "if («status» && exit != RG_EXIT_UNSUPPORTED", "0", "what is not compiled is not told", tests=("compiling beforehand",)),
     Fault(COMPILE, "status && «exit != RG_EXIT_UNSUPPORTED»", "true", "what is unsupported is told as a failure", tests=("compiling beforehand",)),
     Fault(COMPILE, "begun < count_of(jobs) && «!rg_interrupted()») {", "true", "what was interrupted begins the rest", tests=("compiling beforehand",)),
-    Fault("harness/tables/own/plan.c", "probe_settings(device, &subject, «rg_cell_steps(table)», probe)", "1", "a sweep is of the first frames", tests=("foreseen",)),
+    Fault("harness/tables/own/estimate.c", "probe_settings(device, &subject, «rg_cell_steps(table)», probe)", "1", "a sweep is of the first frames", tests=("foreseen",)),
     Fault(CELL, "*step_ms = passed_ms «/ fmax(done, 1)»;", "/ 1", "each step takes what all do", tests=("foreseen",)),
     Fault(CELL, "done < steps && «passed_ms < LONGEST_MS» &&", "true", "looking takes as long as what it foresees", tests=("foreseen",)),
     Fault(CELL, "passed_ms < LONGEST_MS && «!rg_interrupted()») {", "true", "an interrupted look goes on", tests=("foreseen",)),
@@ -72,8 +72,8 @@ ROWS = [
     Fault(FARM + "found.c", "    if («before») {", "false", "a record counts twice", tests=MERGES),
     Fault(FARM + "found.c", "return «*entry->d_name != '.'» &&", "true", "a copy under way is a record", tests=MERGES),
     Fault(FARM + "merge.c", "table->left_out[row - table->first_row] = «!rg_farm_has_row(m->plan, m->first, m->end, row)»;", "false", "rows without a plan are missing", tests=MERGES),
-    Fault(FARM + "shard.c", "!rg_interrupted() && «!m->is_lost»; g++)", "true", "a shard measures on though its records are lost", tests=("command line, befallen",)),
-    Fault(FARM + "shard.c", "    if («found != RG_FARM_WHOLE»)", "true", "a shard that runs again measures all", tests=("command line, befallen",)),
+    Fault(FARM + "groups.c", "!rg_interrupted() && «!m->is_lost»; g++)", "true", "a shard measures on though its records are lost", tests=("command line, befallen",)),
+    Fault(FARM + "groups.c", "    if («found != RG_FARM_WHOLE»)", "true", "a shard that runs again measures all", tests=("command line, befallen",)),
     Fault(FARM + "merge.c", "table->left_out[row - table->first_row] = «true»;", "false", "rows of another machine are missing", tests=MERGES),
     Fault("harness/commands/tables/plan.c", "plan->groups[g].seconds > «plan->groups[found].seconds»", "plan->groups[g - 1].seconds", "a plan names some group as its largest", tests=("command line, farm",)),
     Fault("harness/tables/measuring/options.c", "return «is_full» ? &full : &quick;", "!is_full", "full tables are measured as quick ones", tests=("foreseen",)),
@@ -109,14 +109,14 @@ ROWS = [
     Fault(FARM + "merge.c", "same = «!strcmp(a->variants[i], b->variants[i])»;", "true", "variants change places in a table", tests=RECORDS),
     Fault(FARM + "merge.c", ": *table.table ? «rg_result_exit(&table)»", "RG_EXIT_PASS", "a merge of cells that failed passes", tests=RECORDS),
     Fault(FARM + "merge.c", "was changed meanwhile; merge again\", «record->path»);", "group->id", "a record that vanished is told without its path", tests=RECORDS),
-    Fault(FARM + "shard.c", "if («shard_of[g] == shard->number»)", "shard_of[g] >= shard->number", "a shard measures later shards' groups", tests=SHARDS),
-    Fault(FARM + "shard.c", ".last_row = cells[«group->cell_count - 1»].row - 1,", "0", "a shard measures a group's first row", tests=SHARDS),
-    Fault(FARM + "shard.c", "left_out[row - part.first_row] = «!rg_farm_has_row(m->plan, g, g + 1, row)»;", "false", "a shard measures rows between those of a group", tests=SHARDS),
-    Fault(FARM + "shard.c", "rg_duration_text(«group->seconds», expected)", "seconds", "a group is told to take what was expected", tests=SHARDS),
-    Fault(FARM + "shard.c", "const double seconds = (rg_now_ms() - begin_ms) «/ 1000»;", "/ 1", "a record's seconds are milliseconds", tests=SHARDS),
-    Fault(FARM + "shard.c", "const int exit = «rg_result_exit(&there)»;", "RG_EXIT_PASS", "a shard that goes on forgets what failed", tests=SHARDS),
-    Fault(FARM + "shard.c", "«rg_closing_add(&m->closing, &result);»", ";", "a shard does not tell what it measured", tests=SHARDS),
-    Fault(FARM + "shard.c", "if («!m->groups») {", "false", "a shard without groups passes", tests=SHARDS),
+    Fault(FARM + "groups.c", "if («shard_of[g] == shard->number»)", "shard_of[g] >= shard->number", "a shard measures later shards' groups", tests=SHARDS),
+    Fault(FARM + "groups.c", ".last_row = cells[«group->cell_count - 1»].row - 1,", "0", "a shard measures a group's first row", tests=SHARDS),
+    Fault(FARM + "groups.c", "left_out[row - part.first_row] = «!rg_farm_has_row(m->plan, g, g + 1, row)»;", "false", "a shard measures rows between those of a group", tests=SHARDS),
+    Fault(FARM + "groups.c", "rg_duration_text(«group->seconds», expected)", "seconds", "a group is told to take what was expected", tests=SHARDS),
+    Fault(FARM + "groups.c", "const double seconds = (rg_now_ms() - begin_ms) «/ 1000»;", "/ 1", "a record's seconds are milliseconds", tests=SHARDS),
+    Fault(FARM + "groups.c", "const int exit = «rg_result_exit(&there)»;", "RG_EXIT_PASS", "a shard that goes on forgets what failed", tests=SHARDS),
+    Fault(FARM + "groups.c", "«rg_closing_add(&m->closing, &result);»", ";", "a shard does not tell what it measured", tests=SHARDS),
+    Fault(FARM + "groups.c", "if («!m->groups») {", "false", "a shard without groups passes", tests=SHARDS),
     Fault(PLAN, "found = plan->groups[g].seconds > plan->groups[found].seconds ? «g» : found;", "g - 1", "a plan names the group before its largest", tests=("what a farm asks for",)),
     Fault(PLAN, "rg_duration_text(«longest_s», longest)", "all_s", "a plan's longest shard is all of it", tests=("what a farm asks for",)),
     Fault(PLAN, "rg_duration_text(«all_s / plan->shards», mean)", "all_s / plan->group_count", "a plan's mean is that of its groups", tests=("what a farm asks for",)),

@@ -5,13 +5,13 @@ TESTS = ("claims by launches", "claims", "launches", "courses of claims", "order
 
 JUDGE, EVIDENCE, ORDER, PARTS = ("harness/tables/claims/judge.c", "harness/tables/claims/evidence.c",
                                 "harness/tables/claims/order.c", "harness/tables/claims/parts.c")
-SETTLE, COURSE, TEXT, OUTCOMES = "harness/judge/settle.c", "harness/tables/launching/course.c", "harness/tables/claims/text.c", "harness/tables/claims/outcomes.c"
+SETTLE, COURSE, TEXT, OUTCOMES = "harness/judge/settle.c", "harness/tables/launching/launches.c", "harness/tables/claims/text.c", "harness/tables/claims/outcomes.c"
 MARGIN, SLOPE = "harness/tables/claims/margin.c", "harness/record/slope.c"
 OWN = "harness/tables/own/"
 SHEETS, PUBLISHED = "harness/tables/sheet/", "harness/tables/papers/published.c"
 TREND, COSTS, PREPARE, BEGIN = ("harness/tables/sheet/trend.c", "harness/tables/sheet/costs.c",
                                 "harness/tables/measuring/prepare.c", "harness/tables/begin.c")
-TOTALS, COMPARE, CLAIMS, DOCUMENT = ("harness/tables/claims/totals.c", "harness/tables/claims/compare.c", "harness/tables/claims/claims.c",
+TOTALS, COMPARE, CLAIMS, DOCUMENT = ("harness/tables/claims/totals.c", "harness/tables/claims/machines.c", "harness/tables/claims/of_papers.c",
                                      "harness/tables/claims/json.c")
 LAUNCH, PRINT, DRAW, TEXTURES = ("harness/tables/launching/launch.c", "harness/tables/print.c", "harness/tables/figures/draw.c",
                                  "harness/tables/measuring/textures.c")
@@ -95,13 +95,13 @@ ROWS = [
     Fault("harness/record/passport/origins.c", "same = same && («!known || json_equal(known, parts)»);", "true", "a machine with another driver is the same one", tests=("key",)),
     Fault("harness/record/passport/origins.c", "bool same = «json_equal(origin->host, host)»;", "true", "all machines are one", tests=("key", "command line, machines")),
     Fault("harness/tables/claims/totals.c", "(of.origin == EVERY || «outcome->origin == of.origin»)", "true", "each machine is told the counts of all", tests=("command line, machines",)),
-    Fault("harness/tables/claims/compare.c", "!is_same_place(outcome, first) || «!is_seen(outcome)»)", "false", "verdicts that are not seen differ", tests=("command line, machines",)),
+    Fault("harness/tables/claims/machines.c", "!is_same_place(outcome, first) || «!is_seen(outcome)»)", "false", "verdicts that are not seen differ", tests=("command line, machines",)),
     Fault(OUTCOMES, "(«own ? outcome->origin : -1»))", "-1", "kept launches of a machine itself give no verdict", tests=("command line, machines",)),
     Fault("harness/commands/tables/table.c", "origins->count > 1 ? «rg_origins_known(origins, result->passport)» : -1;", "-1", "the tables of a machine replace another's", tests=("command line, machines",)),
     Fault("harness/record/disk/stored.c", "return «rg_key_is(entry->d_name)»;", "true", "results of any folder inside are read as a machine's", tests=("command line, machines",)),
     Fault("harness/tables/claims/json.c", "if (!i || «outcome->claim != o->outcomes[i - 1].claim») {", "true", "programs are told a claim once a device", tests=("command line, kept",)),
     Fault("harness/tables/claims/json.c", "bound(«test->needs & RG_CLAIM_LEAST», claim->least)", "true", "programs are told bounds that a test has not", tests=("command line, kept",)),
-    Fault("harness/tables/claims/claims.c", "part = is_of_word ? 0 : *c == ',' || part == '/' ? part : «'-'»;", "0", "ids of claims run their words together", tests=("command line, kept",)),
+    Fault("harness/tables/claims/of_papers.c", "part = is_of_word ? 0 : *c == ',' || part == '/' ? part : «'-'»;", "0", "ids of claims run their words together", tests=("command line, kept",)),
     Fault(OUTCOMES, "const char *length = «result->full ? \"full\" : \"quick\"»;", "\"quick\"", "claims of full tables are told as quick", tests=("command line, kept",)),
     Fault(TEXT, "if («*devices»)\n            rg_sheet_note(sheet, \"%s, %s, %s on %s: %s.\"", "true", "a reason of several devices is told again for each of them", tests=("command line, kept",)),
     Fault("harness/tables/own/grid.c", "snprintf(set, sizeof(set), \"%s\", «grid->set ? grid->set : \"\"»);", "\"\"", "what a file sets in all rows is lost", tests=("command line, results",)),

@@ -41,8 +41,8 @@ struct rg_baseline_device {
 
 // Zeroed: an empty baseline. The owner calls rg_baseline_free.
 struct rg_baseline {
-    json_t *passport; // with digests of fixed functions (harness/devices/measure/serving/fixed.h);
-                      // owned
+    json_t *passport; // with digests of fixed functions
+                      // (harness/devices/measure/serving/fixed_pairs.h); owned
     int device_count;
     struct rg_baseline_device devices[RG_MAX_DEVICES];
     struct rg_launches yardsticks[RG_YARDSTICKS]; // taken between the launches

@@ -5,7 +5,7 @@
 
 #include "core/base/text/add.h"
 #include "harness/compare/gate/baseline/baseline.h"
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 #include "harness/record/passport/key.h"
 
 // Appends to the changes of a cell, in one line.

@@ -8,7 +8,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/console/progress.h"
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/passport.h"
 

@@ -5,7 +5,7 @@
 
 #include "core/base/log.h"
 #include "core/image/files/io.h"
-#include "harness/compare/diff/report.h"
+#include "harness/compare/diff/pair.h"
 #include "harness/record/output.h"
 
 static void prefix_of(const char *folder, const char *name, char prefix[PATH_MAX])

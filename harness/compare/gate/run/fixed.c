@@ -9,7 +9,7 @@
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 #include "harness/devices/names.h"
 #include "harness/record/passport/key.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/clock.h"
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 #include "tests/harness/gate/baseline/made.h"
 #include "tests/harness/gate/cells/read.h"
 #include "tests/tools/expect.h"

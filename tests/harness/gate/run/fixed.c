@@ -9,7 +9,7 @@
 #include "core/base/log.h"
 #include "harness/compare/gate/run/fixed.h"
 #include "harness/console/clock.h"
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 #include "shaders/fixed/fixed.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"

@@ -9,7 +9,7 @@
 
 #include "core/base/log.h"
 #include "core/image/files/io.h"
-#include "harness/compare/diff/report.h"
+#include "harness/compare/diff/pair.h"
 #include "harness/compare/gate/pictures/pictures.h"
 #include "harness/compare/gate/sides/alike.h"
 #include "harness/devices/frames/frame.h"

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "harness/tables/claims/outcomes.h"
-#include "harness/tables/launching/course.h"
+#include "harness/tables/launching/launches.h"
 #include "harness/tables/papers/papers.h"
 #include "tests/tools/expect.h"
 

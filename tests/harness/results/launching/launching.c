@@ -18,7 +18,7 @@
 #include "harness/console/threads.h"
 #include "harness/devices/measure/serving/serving.h"
 #include "harness/devices/workers/worker.h"
-#include "harness/tables/launching/course.h"
+#include "harness/tables/launching/launches.h"
 
 enum { MOST = 16 };
 

@@ -16,7 +16,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/measure/others.h"
-#include "harness/tables/launching/course.h"
+#include "harness/tables/launching/launches.h"
 #include "tests/harness/devices/measuring/fake.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"

@@ -14,7 +14,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/measuring/measure.h"
-#include "harness/tables/own/plan.h"
+#include "harness/tables/own/estimate.h"
 #include "tests/harness/devices/measuring/fake.h"
 #include "tests/harness/results/planning/slow.h"
 #include "tests/tools/expect.h"

@@ -5,7 +5,7 @@
 #include "core/base/log.h"
 #include "harness/compare/doctor/compile.h"
 #include "harness/console/exit.h"
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"
 #include "tests/tools/process/printed.h"

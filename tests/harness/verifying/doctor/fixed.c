@@ -16,7 +16,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/devices/devices.h"
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 #include "shaders/fixed/fixed.h"
 
 // --- stand-ins ---

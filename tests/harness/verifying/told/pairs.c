@@ -14,7 +14,7 @@
 #include "core/base/log.h"
 #include "harness/compare/diff/accepts.h"
 #include "harness/compare/diff/beside.h"
-#include "harness/compare/diff/report.h"
+#include "harness/compare/diff/pair.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"
 #include "tests/tools/process/printed.h"

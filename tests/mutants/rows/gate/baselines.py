@@ -8,7 +8,7 @@ COMPARE, RUN = "harness/compare/gate/run/agree.c", "harness/compare/gate/run/gat
 CHANGES, MAKE, TAKE = "harness/compare/gate/baseline/changes.c", "harness/compare/gate/baseline/make.c", "harness/compare/gate/baseline/take.c"
 COMMAND, ALIKE = "harness/commands/comparing/baseline.c", "harness/compare/gate/sides/alike.c"
 
-FIXED, FUNCTIONS, OF_FIXED = "harness/compare/gate/run/fixed.c", "harness/devices/measure/serving/fixed.c", ("command line, fixed",)
+FIXED, FUNCTIONS, OF_FIXED = "harness/compare/gate/run/fixed.c", "harness/devices/measure/serving/fixed_pairs.c", ("command line, fixed",)
 OF_FILE, OF_CHANGES, OF_MAKING, OF_TAKING = (
     (name,) for name in ("baselines as files", "changes of a baseline", "making of a baseline", "rows of a baseline"))
 

@@ -4,7 +4,7 @@ from fault import Fault
 TESTS = ("the page",)
 VALUES = ("values of the page",)
 
-RECORDS, PICTURES, PAGE = "harness/report/records.c", "harness/report/pictures/pictures.c", "harness/report/page.c"
+RECORDS, PICTURES, PAGE = "harness/report/records.c", "harness/report/pictures/embedded.c", "harness/report/page.c"
 CODES, LINEAR = "harness/report/pictures/codes.c", "harness/report/pictures/linear.c"
 BRIEF, STANDS, PRINTED = "harness/report/brief.c", "harness/report/stands.c", "harness/report/printed.c"
 

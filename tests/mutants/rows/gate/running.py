@@ -245,7 +245,7 @@ ROWS = [
     Fault(FIXED, ": «rg_fixed_kept_within(h->run->asked->baseline->passport, h->device, draw)»;", "true", "a baseline's digest may differ", tests=DRAWN),
     Fault(FIXED, "h->a ? «h->left_a.is_within[draw]»", "true", "A may be beyond its bounds", tests=DRAWN),
     Fault(FIXED, "return was_within && «h->now.is_within[draw]»;", "true", "B may be beyond its bounds", tests=DRAWN),
-    Fault("harness/devices/measure/serving/fixed.c", "if (its && «!strcmp(its, rg_fixed_draws[draw].feature)»)\n            return true;", "true", "a baseline that says of one draw that it was within says so of all", tests=DRAWN),
+    Fault("harness/devices/measure/serving/fixed_pairs.c", "if (its && «!strcmp(its, rg_fixed_draws[draw].feature)»)\n            return true;", "true", "a baseline that says of one draw that it was within says so of all", tests=DRAWN),
     Fault(FIXED, "             h->a ? «(size_t)rg_fixed_count()» : json_object_size(h->then), why);", "json_object_size(h->then)", "of two drivers no number of digests is told", tests=DRAWN),
     Fault(FIXED, "const double seconds = «(rg_now_ms() - start_ms) / 1000»;", "rg_now_ms() - start_ms", "milliseconds of fixed functions are seconds", tests=DRAWN),
     Fault(FIXED, "    if («h->left_a.failed != RG_OK»)\n", "false", "a first driver that falls leaves less to compare", tests=DRAWN),

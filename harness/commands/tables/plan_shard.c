@@ -1,4 +1,4 @@
-#include "harness/commands/tables/shard.h"
+#include "harness/commands/tables/plan_shard.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "harness/devices/devices.h"
 #include "harness/record/output.h"
 #include "harness/record/passport/build_info.h"
-#include "harness/tables/farm/shard.h"
+#include "harness/tables/farm/groups.h"
 #include "harness/tables/papers/papers.h"
 
 // --- which shard ---

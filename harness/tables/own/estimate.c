@@ -1,4 +1,4 @@
-#include "harness/tables/own/plan.h"
+#include "harness/tables/own/estimate.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "harness/tables/launching/course.h"
+#include "harness/tables/launching/launches.h"
 
 #include <string.h>
 

@@ -3,8 +3,8 @@
 // Records are the JSON that commands write (docs/records.md). This code reads and checks them, and
 // puts them into the page as they are, with the papers' printed rows and the pictures that they
 // name. The files in `page/`, which the build embeds, show them.
-#ifndef RG_HARNESS_REPORT_REPORT_H
-#define RG_HARNESS_REPORT_REPORT_H
+#ifndef RG_HARNESS_REPORT_PAGE_H
+#define RG_HARNESS_REPORT_PAGE_H
 
 #include "harness/tables/claims/outcomes.h"
 

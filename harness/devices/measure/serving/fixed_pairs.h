@@ -1,7 +1,7 @@
 // Draws of fixed functions in pairs, on the device of a worker: a draw and its neighbour, which
 // must differ, or the two ways of a closed case, which must not.
-#ifndef RG_HARNESS_DEVICES_MEASURE_SERVING_FIXED_H
-#define RG_HARNESS_DEVICES_MEASURE_SERVING_FIXED_H
+#ifndef RG_HARNESS_DEVICES_MEASURE_SERVING_FIXED_PAIRS_H
+#define RG_HARNESS_DEVICES_MEASURE_SERVING_FIXED_PAIRS_H
 
 #include <jansson.h>
 

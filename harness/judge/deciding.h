@@ -1,6 +1,6 @@
 // Shared by both ways of deciding; for this folder's files alone.
-#ifndef RG_HARNESS_JUDGE_INSIDE_H
-#define RG_HARNESS_JUDGE_INSIDE_H
+#ifndef RG_HARNESS_JUDGE_DECIDING_H
+#define RG_HARNESS_JUDGE_DECIDING_H
 
 #include "harness/judge/decide.h"
 

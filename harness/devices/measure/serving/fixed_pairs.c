@@ -1,4 +1,4 @@
-#include "harness/devices/measure/serving/fixed.h"
+#include "harness/devices/measure/serving/fixed_pairs.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -1,6 +1,6 @@
 // Measures the groups of a plan's shard.
-#ifndef RG_HARNESS_TABLES_FARM_SHARD_H
-#define RG_HARNESS_TABLES_FARM_SHARD_H
+#ifndef RG_HARNESS_TABLES_FARM_GROUPS_H
+#define RG_HARNESS_TABLES_FARM_GROUPS_H
 
 #include "harness/devices/devices.h"
 #include "harness/tables/farm/cut.h"

@@ -1,4 +1,4 @@
-#include "harness/tables/farm/shard.h"
+#include "harness/tables/farm/groups.h"
 
 #include <stdio.h>
 #include <stdlib.h>

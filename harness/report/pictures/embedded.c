@@ -13,9 +13,9 @@
 #include "core/image/files/io.h"
 #include "harness/record/named.h"
 #include "harness/record/numbered.h"
+#include "harness/report/page.h"
 #include "harness/report/pictures/codes.h"
 #include "harness/report/pictures/linear.h"
-#include "harness/report/report.h"
 
 enum { MOST_BYTES = 16 << 20 }; // of one picture
 

@@ -1,6 +1,6 @@
 // Estimates the time and memory that a table takes, before it is measured.
-#ifndef RG_HARNESS_TABLES_OWN_PLAN_H
-#define RG_HARNESS_TABLES_OWN_PLAN_H
+#ifndef RG_HARNESS_TABLES_OWN_ESTIMATE_H
+#define RG_HARNESS_TABLES_OWN_ESTIMATE_H
 
 #include <stdio.h>
 

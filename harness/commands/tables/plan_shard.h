@@ -1,6 +1,6 @@
 // Which shard of a plan a command measures, and measuring it.
-#ifndef RG_HARNESS_COMMANDS_TABLES_SHARD_H
-#define RG_HARNESS_COMMANDS_TABLES_SHARD_H
+#ifndef RG_HARNESS_COMMANDS_TABLES_PLAN_SHARD_H
+#define RG_HARNESS_COMMANDS_TABLES_PLAN_SHARD_H
 
 #include "harness/commands/cli/shard.h"
 #include "harness/tables/farm/plan.h"

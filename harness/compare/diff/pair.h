@@ -1,6 +1,6 @@
 // Reports on a compared pair of pictures: for people, for machines, and as heat maps.
-#ifndef RG_HARNESS_COMPARE_DIFF_REPORT_H
-#define RG_HARNESS_COMPARE_DIFF_REPORT_H
+#ifndef RG_HARNESS_COMPARE_DIFF_PAIR_H
+#define RG_HARNESS_COMPARE_DIFF_PAIR_H
 
 #include <jansson.h>
 #include <stdbool.h>

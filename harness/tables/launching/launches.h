@@ -1,8 +1,8 @@
 // The course of a table's claims: launches of each device until every claim is decided, or no look
 // is left. `claims` are rg_claims, or others, likewise ended by one without a table. The next step
 // follows from the records alone, so that a course goes on from a journal.
-#ifndef RG_HARNESS_TABLES_LAUNCHING_COURSE_H
-#define RG_HARNESS_TABLES_LAUNCHING_COURSE_H
+#ifndef RG_HARNESS_TABLES_LAUNCHING_LAUNCHES_H
+#define RG_HARNESS_TABLES_LAUNCHING_LAUNCHES_H
 
 #include "harness/console/progress.h"
 #include "harness/record/disk/journal.h"

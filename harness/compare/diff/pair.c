@@ -1,4 +1,4 @@
-#include "harness/compare/diff/report.h"
+#include "harness/compare/diff/pair.h"
 
 #include <math.h>
 #include <stdio.h>
