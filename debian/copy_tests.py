@@ -3,7 +3,7 @@
 
 These are the tests of devices, techniques and arithmetic that are programs. Scripts of the tree are left out, and tests of host code, which
 depend on no machine. Programs keep their places relative to the library that they share, so that they find it. FOLDER is `tests` in the
-folder of raingauge's readers, which tests find by the link `core`.
+folder of raingauge's readers, which tests find by links in `core`.
 """
 import json
 import os
@@ -14,6 +14,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LIBRARY = "tests/libtested.so"
+READERS = ("raingauge_importer", "raingauge_oiio.so", "raingauge_picture_reader")
 # Beginnings of names of tests that look at what only a source tree or a build has.
 NEED_THE_TREE = ("fuzz ",)
 
@@ -61,7 +62,9 @@ def main():
     build, folder = (pathlib.Path(path).resolve() for path in sys.argv[1:])
     copies = Copies(build, folder)
     copies.bring(build / LIBRARY, LIBRARY)
-    (folder / "core").symlink_to("..")
+    (folder / "core").mkdir()
+    for name in READERS:
+        (folder / "core" / name).symlink_to("../../" + name)
     tests = [{"name": test["name"], "command": copies.command(test["cmd"]),
               "environment": {name: value for name, value in test["env"].items() if name != "LD_LIBRARY_PATH"}}
              for test in introspect(build) if is_wanted(test, build)]
