@@ -161,17 +161,25 @@ static void pack_face(const struct rg_environment *environment, int face, int si
     }
 }
 
+bool rg_environment_halve_to(const struct rg_environment *environment, int size_px,
+                             struct rg_environment **halved)
+{
+    while ((*halved ? *halved : environment)->size >= 2 * size_px) {
+        struct rg_environment *smaller = rg_environment_halve(*halved ? *halved : environment);
+        rg_environment_destroy(*halved);
+        *halved = smaller;
+        if (!smaller)
+            return false;
+    }
+    return true;
+}
+
 bool rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels)
 {
     // Bilinear filtering alone would skip texels of a much larger map.
     struct rg_environment *halved = NULL;
-    while ((halved ? halved : environment)->size >= 2 * size_px) {
-        struct rg_environment *smaller = rg_environment_halve(halved ? halved : environment);
-        rg_environment_destroy(halved);
-        halved = smaller;
-        if (!halved)
-            return false;
-    }
+    if (!rg_environment_halve_to(environment, size_px, &halved))
+        return false;
     const size_t face_texels = (size_t)size_px * (size_t)size_px;
     for (int face = 0; face < 6; face++)
         pack_face(halved ? halved : environment, face, size_px,

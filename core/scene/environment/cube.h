@@ -26,6 +26,13 @@ void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, con
 // must be at least 2. The caller destroys it.
 struct rg_environment *rg_environment_halve(const struct rg_environment *environment);
 
+// Goes on halving until there are less than twice size_px texels along a face: from `*halved`,
+// which it replaces, or from the environment itself if `*halved` is NULL, which it stays where
+// nothing has to be halved. The caller destroys `*halved`. False, and one logged line, when memory
+// runs out.
+bool rg_environment_halve_to(const struct rg_environment *environment, int size_px,
+                             struct rg_environment **halved);
+
 // Resamples all six faces to size_px^2 texels of RG11B10F each: halves them while they are at least
 // twice as large, then interpolates. The outermost texels' centres lie on the cube's edges, so that
 // neighbouring faces hold the same light there and filtering within a face shows no seam. The

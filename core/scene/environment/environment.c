@@ -187,11 +187,14 @@ struct rg_image *rg_environment_upload(const struct rg_environment *environment,
 {
     struct rg_image *image = rg_image_create(
         device, &(struct rg_image_desc){RG_RG11B10F, size_px, size_px, 6, levels}, "environment");
+    struct rg_environment *halved = NULL; // from level to level
     for (int level = 0; image && level < levels; level++) {
-        if (!write_level(environment, level, image)) {
+        if (!rg_environment_halve_to(environment, rg_level_size(size_px, level), &halved) ||
+            !write_level(halved ? halved : environment, level, image)) {
             rg_image_destroy(image);
             image = NULL;
         }
     }
+    rg_environment_destroy(halved);
     return image;
 }
