@@ -9,25 +9,36 @@
 #include "harness/console/duration.h"
 #include "harness/console/progress.h"
 
-bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, int frames,
-                   struct rg_picture *picture)
+// Reads the picture of a session, NULL after a failure, and closes it.
+static bool read_last(struct rg_session *session, struct rg_picture *picture)
 {
-    struct rg_session *session = rg_session_run(device, subject, frames);
     const bool ok = session && rg_session_read_picture(session, picture);
     rg_session_close(session);
     return ok;
 }
 
-bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
-                       struct rg_picture *picture)
+bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, int frames,
+                   struct rg_picture *picture)
+{
+    return read_last(rg_session_run(device, subject, frames), picture);
+}
+
+struct rg_session *rg_frame_run_dry(struct rg_device *device, const struct rg_subject *subject,
+                                    int frames)
 {
     const struct rg_technique *technique = subject->technique;
     struct rg_subject dry = *subject;
     void *settings = rg_settings_copy(technique, subject->settings, technique->proof->dry);
     dry.settings = settings;
-    const bool ok = settings && rg_frame_draw(device, &dry, frames, picture);
+    struct rg_session *session = settings ? rg_session_run(device, &dry, frames) : NULL;
     free(settings);
-    return ok;
+    return session;
+}
+
+bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
+                       struct rg_picture *picture)
+{
+    return read_last(rg_frame_run_dry(device, subject, frames), picture);
 }
 
 bool rg_frame_compare_rain(struct rg_device *device, const struct rg_subject *subject, int frames,

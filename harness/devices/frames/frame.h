@@ -14,6 +14,11 @@ bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, i
 bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
                        struct rg_picture *picture);
 
+// The session that drew it, which the caller closes: while it is open, other sessions on the device
+// share its large data. NULL, and one logged line, on failure.
+struct rg_session *rg_frame_run_dry(struct rg_device *device, const struct rg_subject *subject,
+                                    int frames);
+
 // Whether one of two devices draws scenes in another way: it is native, and the other is not.
 bool rg_frame_scenes_differ(const struct rg_device_info *a, const struct rg_device_info *b);
 

@@ -85,11 +85,18 @@ static void end_error(struct rg_truth_error *error, enum rg_outcome outcome, con
 }
 
 // Draws the background without rain, from which the rain mask is made. cpu draws the same as
-// cpu:reference, and faster.
+// cpu:reference, and faster. The session is kept, so that a job on cpu does not make the scene
+// again.
 static bool draw_dry(struct preparation *p)
 {
     struct rg_device *device = rg_kept_device(p->kept, "cpu");
-    return device && rg_frame_draw_dry(device, &p->drawn, p->check_frames, &p->expected.dry);
+    struct rg_session *session =
+        device ? rg_frame_run_dry(device, &p->drawn, p->check_frames) : NULL;
+    if (!session)
+        return false;
+    const bool ok = rg_session_read_picture(session, &p->expected.dry);
+    rg_kept_put(p->kept, session);
+    return ok;
 }
 
 // Ends all records if the image is the same without rain: a device that draws no rain would pass,
