@@ -6,7 +6,7 @@ import struct
 import tempfile
 import zlib
 
-from cases import NO_CACHE
+from cases import NO_CACHE, SHOWN
 from machine import lacking, run_json
 
 
@@ -39,6 +39,17 @@ def check_atlas(runner):
         if len(rows) != 10 * 5 * 91 or not all(float(row["factor"]) > 0 for row in rows):
             problems.append("factors.csv: %d rows" % len(rows))
     return problems
+
+
+def check_drawn(runner):
+    """a picture of rain makes the atlas of measured drops if there is none, and the next picture reads it"""
+    kept, found, problems = os.path.join(os.environ["XDG_CACHE_HOME"], "raingauge", "streaks-measured-small.atlas"), [], []
+    with tempfile.TemporaryDirectory() as out:
+        for _ in range(2):
+            drawn = runner.run((SHOWN + "-o %s/a.png" % out).split())
+            problems += ["exit status %d, %s" % (drawn.returncode, drawn.stderr)] if drawn.returncode or drawn.stderr else []
+            found.append(os.path.exists(kept) and (os.stat(kept).st_ino, os.stat(kept).st_mtime_ns))
+    return problems if found[0] and found[0] == found[1] else problems + ["kept: %s" % found]
 
 
 def write_codes(path, width, rows):
@@ -109,6 +120,7 @@ def check_atlas_not_kept(runner):
     return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
 
 
-FIRST = [check_atlas, check_compared]
+# Other tests read what these make.
+FIRST = [check_atlas, check_compared, check_drawn]
 CHECKS = [check_textures]
 LONG = [check_atlas_not_kept]

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 
 import forms
-from cases import DIFF, RENDER, STAGES, TABLE
+from cases import DIFF, RENDER, SMALL_STAGES, SMALL_TABLE
 from machine import lacking, run_json
 
 
@@ -77,9 +77,9 @@ def check_foreign(runner):
     problems, marked = [], "cpu@N=?\x1b[2J"
     with tempfile.TemporaryDirectory() as tmp:
         for args, named in ((RENDER + "-o %s/a.png" % tmp, lambda told: [told["device"], told["passport"]["devices"][0]["name"]]),
-                            (STAGES.replace("--device cpu ", ""), lambda told: [check["device"] for check in told["checks"]]),
+                            (SMALL_STAGES.replace("--device cpu ", ""), lambda told: [check["device"] for check in told["checks"]]),
                             (DIFF.replace("--device cpu,cpu:reference ", ""), lambda told: [told["pairs"][0]["b"]]),
-                            (TABLE.replace("--device cpu ", ""), lambda told: [cell["device"] for cell in told["cells"]])):
+                            (SMALL_TABLE.replace("--device cpu ", ""), lambda told: [cell["device"] for cell in told["cells"]])):
             both = "cpu:reference," if args.startswith("diff") else ""
             done = runner.run(args.split() + ["--json", "--device", both + FOREIGN])
             names = {name.replace("?[2J", "\x1b[2J") for name in named(json.loads(done.stdout or "null"))} if done.stdout.strip() else None
@@ -154,7 +154,7 @@ def check_full_stdout(runner):
                                 text=True, timeout=60, check=False)
         if closed.returncode != 71 or not re.fullmatch(r"raingauge: standard output: .*\n", closed.stderr):
             problems.append("%s, closed: exit status %d, stderr: %s" % (args, closed.returncode, closed.stderr))
-    for args in ("--help", "--version", "render --help", "list techniques", "list params flow --json", STAGES, DIFF + "--json"):
+    for args in ("--help", "--version", "render --help", "list techniques", "list params flow --json", SMALL_STAGES, DIFF + "--json"):
         with open("/dev/full", "w") as full:
             result = runner.run(args.split(), stdout=full)
         if result.returncode != 71 or not re.fullmatch(r"raingauge: standard output: .*\n", result.stderr):

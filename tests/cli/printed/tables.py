@@ -10,7 +10,7 @@ import time
 
 import forms
 import misbehaving
-from cases import FORMATS, TABLE
+from cases import FORMATS, SMALL_TABLE, TABLE
 from machine import lacking, run_json
 
 
@@ -248,10 +248,10 @@ def check_forms(runner):
 def check_tables_in_a_row(runner):
     """table with several names prints each one separately"""
     problems = []
-    text = runner.run((TABLE + "stuppacher-2").split()).stdout
+    text = runner.run((SMALL_TABLE + "stuppacher-2").split()).stdout
     if not re.fullmatch(r"## stuppacher-2\n\n.*\n\n## stuppacher-2\n\n.*", text, re.S):
         problems.append("md:\n" + text)
-    parts = runner.run((TABLE + "stuppacher-2 --format csv").split()).stdout.split("\n\n")
+    parts = runner.run((SMALL_TABLE + "stuppacher-2 --format csv").split()).stdout.split("\n\n")
     if len(parts) != 2:
         problems.append("csv: %s" % parts)
     for part in parts:
@@ -272,7 +272,7 @@ def check_table_files(runner):
         problems.append("json: " + texts["json"])
         for form, check in (("csv", check_csv), ("tex", check_tex), ("md", check_md)):
             problems += check(texts[form]) + check(runner.run(["table", "--from", tmp, "--format", form]).stdout)
-    problems += check_md(runner.run(TABLE.split()).stdout)
+    problems += check_md(runner.run(SMALL_TABLE.split()).stdout)
     return problems
 
 
