@@ -149,36 +149,17 @@ struct gate_input {
     struct rg_known known;
 };
 
-static bool add_name(const char *cell, const char *device, struct rg_report *report)
-{
-    char *name = rg_gate_case_name(cell, device);
-    const bool ok =
-        name &&
-        rg_report_add(report, &(struct rg_report_case){.name = name, .ending = RG_ENDING_SKIPPED});
-    free(name);
-    return ok;
-}
-
-static bool add_names(const struct gate_options *o, const struct gate_input *in,
-                      const struct rg_gate_pair *pair, struct rg_report *report)
-{
-    const char *device = pair->names[RG_SIDE_B];
-    bool ok = true;
-    for (int64_t i = 0; ok && i < in->cells.count; i++)
-        ok = add_name(in->cells.cells[i].name, device, report);
-    return ok && (!rg_gate_has_fixed(o->baseline ? &in->baseline : NULL, pair) ||
-                  add_name(RG_GATE_FIXED, device, report));
-}
-
 static int list_cases(const struct gate_options *o, const struct gate_input *in)
 {
-    struct rg_report report = {.case_count = 0};
-    bool ok = true;
-    for (int i = 0; ok && i < in->pairs.count; i++)
-        ok = add_names(o, in, &in->pairs.all[i], &report);
-    if (ok)
-        rg_gtest_list(stdout, &report, o->gtest.filter ? o->gtest.filter : "*");
-    rg_report_free(&report);
+    const struct rg_gate_request request = {.cells = &in->cells,
+                                            .pairs = &in->pairs,
+                                            .baseline = o->baseline ? &in->baseline : NULL,
+                                            .filter = o->gtest.filter,
+                                            .shard = {1, 1}};
+    struct rg_gate gate = {.case_count = 0};
+    const bool ok = rg_gate_list(&request, &gate);
+    rg_gtest_list(stdout, gate.names);
+    rg_gate_free(&gate);
     return ok ? RG_EXIT_PASS : rg_exit_of_error();
 }
 

@@ -76,30 +76,34 @@ static bool is_same_suite(const char *a, const char *b)
 
 // --- the list ---
 
-// Whether an earlier case has listed this suite already.
-static bool is_listed(const struct rg_report *report, int until, const char *made,
-                      const char *filter)
+static void name_at(const json_t *names, size_t i, char made[RG_GTEST_NAME])
 {
-    char earlier[RG_GTEST_NAME];
-    for (int i = 0; i < until; i++) {
-        rg_gtest_name(report->cases[i].name, earlier);
-        if (rg_gtest_matches(filter, earlier) && is_same_suite(earlier, made))
-            return true;
-    }
-    return false;
+    rg_gtest_name(json_string_value(json_array_get(names, i)), made);
 }
 
-void rg_gtest_list(FILE *out, const struct rg_report *report, const char *filter)
+// Whether an earlier case has listed this suite already.
+static bool is_listed(const json_t *names, size_t until, const char *made)
+{
+    char earlier[RG_GTEST_NAME];
+    bool any = false;
+    for (size_t i = 0; !any && i < until; i++) {
+        name_at(names, i, earlier);
+        any = is_same_suite(earlier, made);
+    }
+    return any;
+}
+
+void rg_gtest_list(FILE *out, const json_t *names)
 {
     char first[RG_GTEST_NAME], made[RG_GTEST_NAME];
-    for (int i = 0; i < report->case_count; i++) {
-        rg_gtest_name(report->cases[i].name, first);
-        if (!rg_gtest_matches(filter, first) || is_listed(report, i, first, filter))
+    for (size_t i = 0; i < json_array_size(names); i++) {
+        name_at(names, i, first);
+        if (is_listed(names, i, first))
             continue;
         fprintf(out, "%.*s.\n", suite_length(first), first);
-        for (int j = i; j < report->case_count; j++) {
-            rg_gtest_name(report->cases[j].name, made);
-            if (rg_gtest_matches(filter, made) && is_same_suite(first, made))
+        for (size_t j = i; j < json_array_size(names); j++) {
+            name_at(names, j, made);
+            if (is_same_suite(first, made))
                 fprintf(out, "  %s\n", made + suite_length(made) + 1);
         }
     }

@@ -33,8 +33,8 @@ bool rg_gtest_shards(struct rg_gtest_shards *shards);
 enum { RG_GTEST_KEPT = 160, RG_GTEST_NAME = 256 };
 void rg_gtest_name(const char *name, char made[RG_GTEST_NAME]);
 
-// --gtest_list_tests: lists the selected cases by suite; none needs to have run.
-void rg_gtest_list(FILE *out, const struct rg_report *report, const char *filter);
+// --gtest_list_tests: lists cases, an array of their names, by suite.
+void rg_gtest_list(FILE *out, const json_t *names);
 
 // Prints what googletest prints after a run of these cases.
 bool rg_gtest_print(const struct rg_report *report, FILE *out);

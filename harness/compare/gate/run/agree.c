@@ -1,4 +1,4 @@
-#include "harness/compare/gate/run/agree.h"
+#include "harness/compare/gate/run/running.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "harness/compare/gate/run/fixed.h"
+#include "harness/compare/gate/run/running.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -56,25 +56,17 @@ static json_t *parts_of_bits(json_t *parts)
                      json_object_get(parts, "variables"), "device", hardware(device ? device : ""));
 }
 
-// Why digests are not compared with a baseline's; "": they are.
-static void put_unlike(const struct rg_running_gate *r, int side, char why[RG_KEY_TEXT])
+// Why digests are not compared; "": they are. Two drivers run on one processor.
+static void put_unlike(const struct held *h, char why[RG_KEY_TEXT])
 {
-    const struct rg_baseline_device *was =
-        rg_baseline_device(r->asked->baseline, r->sides[side].name);
-    json_t *now = parts_of_bits(r->parts[side]), *then = parts_of_bits(was->parts);
+    const struct rg_baseline *baseline = h->run->asked->baseline;
+    json_t *then = h->a ? json_pack("{so}", "device", hardware(h->a->info.device))
+                        : parts_of_bits(rg_baseline_device(baseline, h->device)->parts);
+    json_t *now = h->a ? json_pack("{so}", "device", hardware(h->b->info.device))
+                       : parts_of_bits(h->b->parts);
     rg_key_difference(now, then, why);
-    json_decref(now);
-    json_decref(then);
-}
-
-// The same of two drivers, which run on one processor.
-static void put_unlike_sides(const struct rg_running_gate *r, int a, int b, char why[RG_KEY_TEXT])
-{
-    json_t *then = json_pack("{so}", "device", hardware(r->infos[a].device));
-    json_t *now = json_pack("{so}", "device", hardware(r->infos[b].device));
-    rg_key_difference(now, then, why);
-    if (!*why)
-        rg_devices_settings(r->sides[b].name, r->sides[a].name, why, RG_KEY_TEXT);
+    if (!*why && h->a)
+        rg_devices_settings(h->b->name, h->a->name, why, RG_KEY_TEXT);
     json_decref(now);
     json_decref(then);
 }
@@ -238,32 +230,24 @@ static bool launch_and_hold(struct held *h)
     return ok;
 }
 
-static bool is_there(const struct rg_running_gate *r, int side)
+static bool hold_pair(struct rg_running_gate *r, struct rg_side *sides, char driver[160])
 {
-    return *r->infos[side].name;
-}
-
-static bool hold_pair(struct rg_running_gate *r, int pair)
-{
-    const int a = pair * RG_SIDES + RG_SIDE_A, b = pair * RG_SIDES + RG_SIDE_B;
     const struct rg_baseline *baseline = r->asked->baseline;
+    struct rg_side *a = &sides[RG_SIDE_A], *b = &sides[RG_SIDE_B];
     char others[RG_DEVICE_NAME_SIZE + 8] = "the baseline's", why[RG_KEY_TEXT];
     struct held h = {.run = r,
-                     .device = r->sides[b].name,
-                     .driver = r->gate->drivers[pair],
+                     .device = b->name,
+                     .driver = driver,
                      .others = others,
-                     .a = baseline ? NULL : &r->sides[a],
-                     .b = &r->sides[b],
-                     .then = baseline ? rg_fixed_kept(baseline->passport, r->sides[b].name) : NULL};
-    snprintf(r->gate->drivers[pair], sizeof(r->gate->drivers[0]), "%s", r->infos[b].driver);
+                     .a = baseline ? NULL : a,
+                     .b = b,
+                     .then = baseline ? rg_fixed_kept(baseline->passport, b->name) : NULL};
+    snprintf(driver, sizeof(r->gate->drivers[0]), "%s", b->info.driver);
     if (h.a)
-        snprintf(others, sizeof(others), "%s's", h.a->name);
-    if (!is_there(r, b) || (h.a && !is_there(r, a)))
+        snprintf(others, sizeof(others), "%s's", a->name);
+    if (!*b->info.name || (h.a && !*a->info.name))
         return skip(&h, RG_ENDING_UNSUPPORTED, "the device did not open");
-    if (h.a)
-        put_unlike_sides(r, a, b, why);
-    else
-        put_unlike(r, b, why);
+    put_unlike(&h, why);
     if (*why)
         return skip(&h, RG_ENDING_SKIPPED, why);
     if (rg_gate_is_over(r))
@@ -274,8 +258,10 @@ static bool hold_pair(struct rg_running_gate *r, int pair)
 bool rg_gate_hold_fixed(struct rg_running_gate *r)
 {
     bool ok = true;
-    for (int pair = 0; ok && pair < r->asked->pairs->count && !rg_interrupted(); pair++)
-        ok = !r->has_fixed[pair * RG_SIDES + RG_SIDE_B] || hold_pair(r, pair);
+    for (int pair = 0; ok && pair < r->asked->pairs->count && !rg_interrupted(); pair++) {
+        struct rg_side *sides = &r->sides[pair * RG_SIDES];
+        ok = !sides[RG_SIDE_B].has_fixed || hold_pair(r, sides, r->gate->drivers[pair]);
+    }
     r->gate->is_told = ok;
     return ok;
 }

@@ -8,10 +8,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/cells/unused.h"
-#include "harness/compare/gate/run/agree.h"
-#include "harness/compare/gate/run/choose.h"
-#include "harness/compare/gate/run/fixed.h"
-#include "harness/compare/gate/run/timing.h"
+#include "harness/compare/gate/run/running.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
@@ -21,34 +18,38 @@
 
 // --- sides ---
 
+static bool was_open(const struct rg_side *side)
+{
+    return *side->info.name;
+}
+
 // Launches each side once. Names of pairs must be valid, the two of a pair distinct, and required
 // devices there; any other missing side only ends its cases. Returns an enum rg_exit.
 static int look_at_sides(struct rg_running_gate *r)
 {
-    struct rg_side_seen seen[RG_GATE_MOST_SIDES];
     struct rg_gate_target targets[RG_MAX_DEVICES];
-    const bool are_pairs = !r->asked->baseline;
-    int count = 0, target_count = 0;
+    int target_count = 0;
     for (int i = 0; i < r->side_count && !rg_interrupted(); i++) {
+        struct rg_side *side = &r->sides[i];
         const bool is_b = i % RG_SIDES == RG_SIDE_B;
-        const struct rg_device_info *info = &r->infos[i];
-        const struct rg_side_seen *saw = &seen[count];
-        if (!r->sides[i].name)
+        if (!side->name)
             continue;
-        seen[count++] = rg_side_look(&r->sides[i], &r->infos[i]);
-        rg_side_close(&r->sides[i]);
+        rg_side_look(side);
+        rg_side_close(side);
         if (is_b)
             targets[target_count++] =
-                (struct rg_gate_target){saw->name, saw->is_open ? info->driver : NULL};
-        if (are_pairs && (!saw->is_name || (is_b && saw->is_open && saw[-1].is_open &&
-                                            !rg_devices_are_apart(info - 1, info))))
+                (struct rg_gate_target){side->name, was_open(side) ? side->info.driver : NULL};
+        if (!r->asked->baseline &&
+            (!side->is_name || (is_b && was_open(side) && was_open(side - 1) &&
+                                !rg_devices_are_apart(&side[-1].info, &side->info))))
             return RG_EXIT_USAGE;
     }
     if (rg_interrupted())
         return RG_EXIT_PASS;
     rg_gate_warn_of_unused_on(r->asked->known, r->asked->cells, targets, target_count);
-    return rg_sides_have(seen, count, r->asked->require, &r->gate->report) ? RG_EXIT_PASS
-                                                                           : RG_EXIT_FAIL;
+    return rg_sides_have(r->sides, r->side_count, r->asked->require, &r->gate->report)
+               ? RG_EXIT_PASS
+               : RG_EXIT_FAIL;
 }
 
 // Describes the machine, and the sides that are present, on which the report's numbers depend.
@@ -57,8 +58,8 @@ static bool set_passport(struct rg_running_gate *r)
     struct rg_device_info there[RG_GATE_MOST_SIDES];
     int count = 0;
     for (int side = 0; side < r->side_count; side++)
-        if (*r->infos[side].name)
-            there[count++] = r->infos[side];
+        if (was_open(&r->sides[side]))
+            there[count++] = r->sides[side].info;
     r->passport = rg_passport_json(there, count);
     if (r->asked->baseline)
         rg_key_libraries(r->passport, r->asked->baseline->passport, r->truth.libraries);
@@ -70,19 +71,18 @@ static bool set_passport(struct rg_running_gate *r)
 
 // Finds out whether the times of a side that runs alone can be compared with the baseline's, and
 // writes the reason to `out`.
-static void compare_key(struct rg_running_gate *r, int side, FILE *out)
+static void compare_key(const struct rg_running_gate *r, struct rg_side *side, FILE *out)
 {
-    const struct rg_baseline_device *was =
-        rg_baseline_device(r->asked->baseline, r->sides[side].name);
-    json_t *device = rg_passport_device(&r->infos[side]);
+    const struct rg_baseline_device *was = rg_baseline_device(r->asked->baseline, side->name);
+    json_t *device = rg_passport_device(&side->info);
     char now_key[RG_KEY_SIZE], was_key[RG_KEY_SIZE], text[RG_KEY_TEXT];
-    r->parts[side] = rg_key_parts(r->passport, device);
-    r->same_key[side] = json_equal(r->parts[side], was->parts);
+    side->parts = rg_key_parts(r->passport, device);
+    side->same_key = json_equal(side->parts, was->parts);
     json_decref(device);
-    rg_key_hash(r->parts[side], now_key);
+    rg_key_hash(side->parts, now_key);
     rg_key_hash(was->parts, was_key);
-    rg_key_difference(r->parts[side], was->parts, text);
-    if (r->same_key[side])
+    rg_key_difference(side->parts, was->parts, text);
+    if (side->same_key)
         fprintf(out, "%s: key %s, as the baseline's\n", was->name, now_key);
     else
         fprintf(out, "%s: key %s, and the baseline's is %s, so that times are advisory: %s\n",
@@ -95,12 +95,13 @@ static bool note_sides(struct rg_running_gate *r)
     size_t size;
     char line[RG_DRIVER_LINE];
     FILE *out = open_memstream(&r->gate->note, &size);
-    for (int side = 0; out && side < r->side_count; side++) {
-        if (!*r->infos[side].name)
+    for (int i = 0; out && i < r->side_count; i++) {
+        struct rg_side *side = &r->sides[i];
+        if (!was_open(side))
             continue;
-        rg_driver_line(&r->infos[side], line);
+        rg_driver_line(&side->info, line);
         if (!r->asked->baseline)
-            fprintf(out, "%c  ", "AB"[side % RG_SIDES]);
+            fprintf(out, "%c  ", "AB"[i % RG_SIDES]);
         fprintf(out, "%s\n", line);
         if (r->asked->baseline)
             compare_key(r, side, out);
@@ -184,7 +185,7 @@ static void compare(struct rg_running_gate *r, struct rg_gate_case *c)
     if (!c->before) {
         c->is_timed = true;
     } else if (c->before->launches.count) {
-        c->is_timed = r->same_key[c->sides[RG_SIDE_B] - r->sides];
+        c->is_timed = c->sides[RG_SIDE_B]->same_key;
         c->is_advised = !c->is_timed;
     }
 }
@@ -252,26 +253,19 @@ static int exit_of(const struct rg_running_gate *r)
     return rg_exit_of_error();
 }
 
-// False if a device was ever closed badly.
-static bool close_all(struct rg_running_gate *r)
+// The enum rg_exit of how devices were ever closed, and of what opening them lacked.
+static int close_all(struct rg_running_gate *r)
 {
-    bool clean = rg_truth_close(&r->truth);
-    for (int side = 0; side < r->side_count; side++) {
-        rg_side_close(&r->sides[side]);
-        clean = clean && !r->sides[side].was_closed_badly;
+    bool clean = rg_truth_close(&r->truth), was_lacking = false;
+    for (struct rg_side *side = r->sides; side < r->sides + r->side_count; side++) {
+        rg_side_close(side);
+        clean = clean && !side->was_closed_badly;
+        was_lacking = was_lacking || side->was_lacking;
+        json_decref(side->parts);
     }
-    for (int i = 0; i < RG_GATE_MOST_SIDES; i++)
-        json_decref(r->parts[i]);
     json_decref(r->passport);
-    return clean;
-}
-
-static bool was_lacking(const struct rg_running_gate *r)
-{
-    bool any = false;
-    for (int side = 0; side < r->side_count; side++)
-        any = any || r->sides[side].was_lacking;
-    return any;
+    return rg_exit_worse(clean ? RG_EXIT_PASS : RG_EXIT_FAIL,
+                         was_lacking ? RG_EXIT_HARNESS : RG_EXIT_PASS);
 }
 
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
@@ -288,13 +282,10 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     if (are_there)
         found = !ok ? rg_exit_of_error() : rg_interrupted() ? RG_EXIT_PASS : exit_of(&r);
     const bool is_done = ok && !rg_interrupted() && found != RG_EXIT_USAGE;
-    const bool is_kept = rg_gate_journal_close(r.journal, is_done);
-    const int kept = is_kept ? RG_EXIT_PASS : rg_exit_of_error();
+    const int kept = rg_gate_journal_close(r.journal, is_done) ? RG_EXIT_PASS : rg_exit_of_error();
     if (rg_interrupted() && request->folder)
         rg_info("gate: interrupted; the same command goes on");
-    gate->beyond = rg_exit_worse(kept, close_all(&r) ? RG_EXIT_PASS : RG_EXIT_FAIL);
-    if (was_lacking(&r))
-        gate->beyond = rg_exit_worse(gate->beyond, RG_EXIT_HARNESS);
+    gate->beyond = rg_exit_worse(kept, close_all(&r));
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
     return rg_exit_worse(found, gate->beyond);

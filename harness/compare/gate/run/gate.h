@@ -28,7 +28,11 @@ void rg_gate_free(struct rg_gate *gate);
 // do not decide, nothing measured if nothing was compared, unsupported if a side is.
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate);
 
-// Whether a pair has a case of its fixed functions (run/fixed.h): the baseline has digests of B's,
+// Only fills in the names of the cases that the filter selects, and runs nothing. False, and one
+// logged line, without memory.
+bool rg_gate_list(const struct rg_gate_request *request, struct rg_gate *gate);
+
+// Whether a pair has a case of its fixed functions (run/fixed.c): the baseline has digests of B's,
 // or, with none, A and B are two drivers of an API that draws them.
 bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_pair *pair);
 

@@ -1,4 +1,4 @@
-#include "harness/compare/gate/run/timing.h"
+#include "harness/compare/gate/run/running.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -6,7 +6,6 @@
 
 #include "core/base/alloc.h"
 #include "core/base/text/add.h"
-#include "harness/compare/gate/run/agree.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 

@@ -30,21 +30,20 @@ enum rg_outcome rg_side_failure(bool *is_ours, char *why, size_t size)
     return failure.outcome;
 }
 
-struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *info)
+void rg_side_look(struct rg_side *side)
 {
-    struct rg_side_seen seen = {side->name, true, true, rg_side_launch(side), ""};
-    if (seen.is_open) {
-        *info = side->device->info;
-        return seen;
+    side->is_name = side->is_there = true;
+    if (rg_side_launch(side)) {
+        side->info = side->device->info;
+        return;
     }
     const struct rg_failure failure = rg_failure_take();
-    rg_text_copy(seen.why, sizeof(seen.why), failure.line);
-    seen.is_name = failure.fault != RG_FAULT_INPUT;
-    seen.is_there = failure.outcome != RG_UNSUPPORTED;
-    return seen;
+    rg_text_copy(side->why, sizeof(side->why), failure.line);
+    side->is_name = failure.fault != RG_FAULT_INPUT;
+    side->is_there = failure.outcome != RG_UNSUPPORTED;
 }
 
-bool rg_side_is_missing(const char *name, const struct rg_side_seen *side, struct rg_report *report)
+bool rg_side_is_missing(const char *name, const struct rg_side *side, struct rg_report *report)
 {
     char text[RG_DEVICE_NAME_SIZE + 16];
     snprintf(text, sizeof(text), "required.%s", name);
@@ -60,16 +59,16 @@ bool rg_side_is_missing(const char *name, const struct rg_side_seen *side, struc
 
 // A device that is there does not make up for a missing one of the same API, because the two are
 // compared with each other.
-static bool is_there(const struct rg_side_seen *seen, int count, const char *name,
+static bool is_there(const struct rg_side *sides, int count, const char *name,
                      struct rg_report *report)
 {
     bool any = false;
     for (int i = 0; i < count; i++) {
-        if (!rg_device_is_of(seen[i].name, name))
+        if (!sides[i].name || !rg_device_is_of(sides[i].name, name))
             continue;
-        if (!seen[i].is_there) {
-            rg_driver_error("--require %s: '%s' is not there", name, seen[i].name);
-            return rg_side_is_missing(name, &seen[i], report);
+        if (!sides[i].is_there) {
+            rg_driver_error("--require %s: '%s' is not there", name, sides[i].name);
+            return rg_side_is_missing(name, &sides[i], report);
         }
         any = true;
     }
@@ -94,7 +93,7 @@ bool rg_sides_are_apart(const char *names)
     return true;
 }
 
-bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require,
+bool rg_sides_have(const struct rg_side *sides, int count, const char *require,
                    struct rg_report *report)
 {
     struct rg_device_name name;
@@ -102,7 +101,7 @@ bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *requi
     while (require && *require) {
         if (!rg_device_name_read(&require, &name))
             return false;
-        all = is_there(seen, count, name.name, report) && all;
+        all = is_there(sides, count, name.name, report) && all;
     }
     return all;
 }

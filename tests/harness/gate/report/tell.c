@@ -114,14 +114,26 @@ static const struct {
     {"text", rg_report_text},   {"coloured", coloured}, {"annotations", rg_report_annotations},
     {"gtest", rg_gtest_print},  {"names", names},       {"again", again}};
 
+static bool list(const struct rg_report *report, const char *filter)
+{
+    char made[RG_GTEST_NAME];
+    json_t *names = json_array();
+    for (int i = 0; i < report->case_count; i++) {
+        rg_gtest_name(report->cases[i].name, made);
+        if (rg_gtest_matches(filter, made))
+            json_array_append_new(names, json_string(report->cases[i].name));
+    }
+    rg_gtest_list(stdout, names);
+    json_decref(names);
+    return true;
+}
+
 static bool tell(const struct rg_report *report, const char *form, const char *path)
 {
     if (!strcmp(form, "summary"))
         return rg_report_append(report, &rg_report_forms[RG_AS_SUMMARY], path);
-    if (!strcmp(form, "list")) {
-        rg_gtest_list(stdout, report, path);
-        return true;
-    }
+    if (!strcmp(form, "list"))
+        return list(report, path);
     for (size_t i = 0; i < sizeof(forms) / sizeof(*forms); i++)
         if (!strcmp(forms[i].name, form))
             return strcmp(path, "-") ? rg_report_write(report, forms[i].form, path)

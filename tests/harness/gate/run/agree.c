@@ -6,7 +6,7 @@
 
 #include "core/base/log.h"
 #include "harness/compare/blame/blame.h"
-#include "harness/compare/gate/run/agree.h"
+#include "harness/compare/gate/run/running.h"
 #include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/compare/gate/run/choose.h"
+#include "harness/compare/gate/run/running.h"
 #include "tests/harness/gate/cells/read.h"
 #include "tests/tools/expect.h"
 
@@ -82,8 +82,8 @@ static void cases_are_those_of_the_filter_pair_by_pair(void **state)
         assert_int_equal(made.gate.chosen, json_array_size(made.gate.names));
         assert_int_equal(made.run.family[0], rows[i].of_gl);
         assert_int_equal(made.run.family[1], rows[i].of_vulkan);
-        assert_int_equal(made.run.has_fixed[3], rows[i].has_fixed);
-        assert_false(made.run.has_fixed[1]);
+        assert_int_equal(made.run.sides[3].has_fixed, rows[i].has_fixed);
+        assert_false(made.run.sides[1].has_fixed);
         rg_gate_free(&made.gate);
     }
 }
@@ -147,7 +147,7 @@ static void with_a_baseline_b_runs_alone_and_all_are_timed_together(void **state
         assert_int_equal(c->device_count, 1);
         assert_string_equal(c->devices[0], i < 4 ? "gl" : "vulkan");
     }
-    assert_true(made.run.has_fixed[3]);
+    assert_true(made.run.sides[3].has_fixed);
     rg_gate_free(&made.gate);
     rg_baseline_free(&baseline);
 }
@@ -206,7 +206,7 @@ static void fixed_functions_go_to_one_shard(void **state)
     choose(&other, &second);
     assert_string_equal(first.names, "one.vulkan three.vulkan");
     assert_string_equal(second.names, "two.vulkan four.vulkan");
-    assert_true(first.run.has_fixed[3] && !second.run.has_fixed[3]);
+    assert_true(first.run.sides[3].has_fixed && !second.run.sides[3].has_fixed);
     assert_int_equal(first.gate.cases[1].place, 2);
     assert_int_equal(second.gate.cases[1].place, 3);
     assert_true(first.run.family[1] == 4 && second.run.family[1] == 4);

@@ -7,7 +7,7 @@
 
 #include "backends/backend.h"
 #include "core/base/log.h"
-#include "harness/compare/gate/run/fixed.h"
+#include "harness/compare/gate/run/running.h"
 #include "harness/console/clock.h"
 #include "harness/devices/measure/serving/fixed_pairs.h"
 #include "shaders/fixed/fixed.h"
@@ -108,13 +108,13 @@ static void begin(bool has_baseline, json_t *then, json_t *now)
     run.asked = &request;
     run.gate = &gate;
     run.side_count = 2;
-    run.has_fixed[RG_SIDE_B] = true;
-    run.parts[RG_SIDE_B] = parts(llvmpipe);
+    run.sides[RG_SIDE_B].has_fixed = true;
+    run.sides[RG_SIDE_B].parts = parts(llvmpipe);
     for (int side = 0; side < RG_SIDES; side++) {
         run.sides[side].name = pairs.all[0].names[side];
-        snprintf(run.infos[side].name, RG_DEVICE_NAME_SIZE, "%s", run.sides[side].name);
-        snprintf(run.infos[side].device, sizeof(run.infos[side].device), "%s", llvmpipe);
-        snprintf(run.infos[side].driver, sizeof(run.infos[side].driver), "Mesa %d", side);
+        snprintf(run.sides[side].info.name, RG_DEVICE_NAME_SIZE, "%s", run.sides[side].name);
+        snprintf(run.sides[side].info.device, sizeof(run.sides[side].info.device), "%s", llvmpipe);
+        snprintf(run.sides[side].info.driver, sizeof(run.sides[side].info.driver), "Mesa %d", side);
     }
 }
 
@@ -122,7 +122,7 @@ static void end(void)
 {
     json_decref(digests[RG_SIDE_A]);
     json_decref(digests[RG_SIDE_B]);
-    json_decref(run.parts[RG_SIDE_B]);
+    json_decref(run.sides[RG_SIDE_B].parts);
     rg_baseline_free(&baseline);
     gate.results = NULL;
     rg_gate_free(&gate);
@@ -239,7 +239,7 @@ static void what_cannot_be_compared_is_skipped_and_says_why(void **state)
             json_object_set_new(baseline.devices[0].parts, rows[i].part,
                                 json_string(rows[i].value));
         else if (!strcmp(rows[i].value, "name"))
-            *run.infos[RG_SIDE_B].name = 0;
+            *run.sides[RG_SIDE_B].info.name = 0;
         else
             run.end_ms = 1000;
         if (rows[i].why)
@@ -342,11 +342,12 @@ static void two_drivers_that_leave_nothing_to_compare_say_so(void **state)
             ending = RG_ENDING_UNSUPPORTED;
             why = "A draws none of them";
         } else if (i == 4) {
-            *run.infos[RG_SIDE_A].name = 0;
+            *run.sides[RG_SIDE_A].info.name = 0;
             ending = RG_ENDING_UNSUPPORTED;
             why = "the device did not open";
         } else {
-            snprintf(run.infos[RG_SIDE_A].device, sizeof(run.infos[0].device), "llvmpipe");
+            snprintf(run.sides[RG_SIDE_A].info.device, sizeof(run.sides[0].info.device),
+                     "llvmpipe");
             ending = RG_ENDING_SKIPPED;
             why = "device llvmpipe (LLVM, 256 bits) and not llvmpipe";
         }
@@ -363,7 +364,7 @@ static void what_the_shard_does_not_have_is_not_drawn(void **state)
 {
     (void)state;
     begin(true, left("1111", NULL), left("0000", NULL));
-    run.has_fixed[RG_SIDE_B] = false;
+    run.sides[RG_SIDE_B].has_fixed = false;
     assert_true(rg_gate_hold_fixed(&run));
     assert_true(gate.is_told && !gate.report.case_count);
     end();

@@ -6,10 +6,8 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/compare/gate/run/agree.h"
-#include "harness/compare/gate/run/fixed.h"
+#include "harness/compare/gate/run/running.h"
 #include "harness/compare/gate/run/gate.h"
-#include "harness/compare/gate/run/timing.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/record/passport/key.h"
@@ -71,24 +69,23 @@ void rg_side_close(struct rg_side *side)
     side->device = NULL;
 }
 
-struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *info)
+void rg_side_look(struct rg_side *side)
 {
-    struct rg_side_seen found = {side->name, !is(side->name, script.bad),
-                                 !is(side->name, script.absent), true, ""};
+    side->is_name = !is(side->name, script.bad);
+    side->is_there = !is(side->name, script.absent);
     if (!seen.sides)
         seen.sides = request.baseline ? side - 1 : side; // with a baseline, A is none
     for (const struct rg_side *before = seen.sides; before < side; before++)
         assert_null(before->device);
-    found.is_open = found.is_name && found.is_there;
     side->was_closed_badly = is(side->name, script.closes_badly);
     side->was_lacking = is(side->name, script.lacks);
-    if (found.is_open) {
+    if (side->is_name && side->is_there) {
+        struct rg_device_info *info = &side->info;
         side->device = &device;
         snprintf(info->name, sizeof(info->name), "%s", side->name);
         snprintf(info->full, sizeof(info->full), "%s", side->name);
         snprintf(info->driver, sizeof(info->driver), "Mesa %s", side->name);
     }
-    return found;
 }
 
 bool rg_gate_has_fixed(const struct rg_baseline *baseline, const struct rg_gate_pair *pair)

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/compare/gate/run/timing.h"
+#include "harness/compare/gate/run/running.h"
 #include "harness/console/clock.h"
 #include "tests/tools/expect.h"
 

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
-#include "harness/compare/gate/run/choose.h"
+#include "harness/compare/gate/run/running.h"
 #include "harness/compare/gate/shards/shards.h"
 #include "harness/console/exit.h"
 #include "tests/harness/gate/cells/read.h"
@@ -110,7 +110,7 @@ static void run(const struct rg_gate_request *request, struct rg_gate *gate)
         fill(&gate->cases[i]);
     assert_true(rg_gate_report(request, gate));
     for (int pair = 0; pair < pairs.count; pair++)
-        if (running.has_fixed[pair * RG_SIDES + RG_SIDE_B])
+        if (running.sides[pair * RG_SIDES + RG_SIDE_B].has_fixed)
             add_fixed(gate, pairs.all[pair].names[RG_SIDE_B]);
     assert_true(rg_report_set_passport(&gate->report, "{\"devices\": []}"));
     gate->note = strdup(request->shard.number == 2 ? "A  cpu\nB  vk\n" : "A  cpu\nB  gl\n");

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "core/base/log.h"
-#include "harness/compare/gate/run/timing.h"
+#include "harness/compare/gate/run/running.h"
 #include "harness/compare/gate/shards/shards.h"
 #include "harness/console/exit.h"
 

@@ -44,7 +44,7 @@ ROWS = [
     Fault(COMMAND, "if (is_there && «left_out != RG_EXIT_PASS»)", "false", "an update drops the rows of a device that fell", tests=("what baselines ask for", "command line, baselines",)),
     Fault(ALIKE, "if («rg_memory_allows(bytes)»)", "true", "pictures are compared whatever they take", tests=("command line, gates",)),
     Fault(COMPARE, "if («one->value != other->value»)", "false", "counters that differ are alike"),
-    Fault(RUN, "c->is_timed = «r->same_key[c->sides[RG_SIDE_B] - r->sides]»;", "true", "times under another key fail the gate"),
+    Fault(RUN, "c->is_timed = «c->sides[RG_SIDE_B]->same_key»;", "true", "times under another key fail the gate"),
     Fault("harness/commands/comparing/gate.c", "        if («rg_baseline_asks(o->devices.names, name)»)\n            memcpy", "true", "devices that nobody asked for run"),
     Fault(CHANGES, "if («strcmp(then->picture, now->picture) != 0»)", "false", "another picture is no change"),
     Fault(CHANGES, "        if («rg_baseline_find(now, row->cell, row->device)»)\n            continue;", "row", "a cell that is gone is no change"),

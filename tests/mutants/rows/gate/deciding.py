@@ -54,7 +54,7 @@ ROWS = [
     Fault("harness/compare/gate/run/timing.c", "r->asked->baseline ? «lot->before» : NULL};", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, baselines",)),
     Fault(JOURNAL, "    «json_array_append_new(launches, launch_json(launch, quads));»", ";", "a launch is not kept", tests=("command line, losses",)),
     Fault(JOURNAL, "if (take_launch(found, &number, quads) && «number == launch»)", "true", "each launch is the first that was kept", tests=("command line, losses",)),
-    Fault("harness/compare/gate/run/choose.c", "+= «chosen->cell != NULL»;", "chosen->cell && c->shard_of[i] == shard->number", "each shard spends the whole error", tests=("choice of cases",)),
+    Fault("harness/compare/gate/run/choose.c", "+= «c.cell != NULL»;", "c.cell && is_here", "each shard spends the whole error", tests=("choice of cases",)),
     Fault(DECIDE, ".looks = {16, 32, «64», 128, 256}", "48", "the third look comes early", tests=("verdicts of two",)),
     Fault(DECIDE, "return «names[verdict]»;", "names[verdict == RG_TWO_IMPROVED ? RG_TWO_REGRESSED : verdict]", "an improvement is called a regression", tests=("verdicts of two",)),
     Fault(DECIDE, "«lag1_autocorrelation(logs, count) > fmax(CORRELATED, NORMAL_95 / sqrt(count))»)", "lag1_autocorrelation(logs, count) > CORRELATED", "few launches are taken for linked by chance", tests=("verdicts of two",)),
