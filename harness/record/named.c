@@ -162,3 +162,15 @@ json_t *rg_number_json(double number)
         return json_integer((json_int_t)number);
     return json_real(number);
 }
+
+const char *rg_json_text_of(const json_t *object, const char *name)
+{
+    const char *text = json_string_value(json_object_get(object, name));
+    return text ? text : "";
+}
+
+double rg_json_number_of(const json_t *object, const char *name)
+{
+    const json_t *number = json_object_get(object, name);
+    return json_is_number(number) ? json_number_value(number) : NAN;
+}

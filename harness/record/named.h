@@ -61,4 +61,8 @@ void rg_outcome_set(json_t *json, enum rg_outcome outcome);
 // marks for all bytes beyond ASCII.
 json_t *rg_json_text(const char *text);
 
+// An object's text; "" if it has none of this name. Its number; NAN likewise.
+const char *rg_json_text_of(const json_t *object, const char *name);
+double rg_json_number_of(const json_t *object, const char *name);
+
 #endif

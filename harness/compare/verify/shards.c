@@ -6,6 +6,7 @@
 #include "core/base/alloc.h"
 #include "core/base/array.h"
 #include "harness/console/exit.h"
+#include "harness/record/named.h"
 #include "harness/record/passport/build_info.h"
 
 // --- units ---
@@ -71,12 +72,6 @@ json_t *rg_units_whole(const struct rg_verify_units *units, json_t *how)
 }
 
 // --- all shards together ---
-
-static const char *text_of(const json_t *object, const char *name)
-{
-    const char *text = json_string_value(json_object_get(object, name));
-    return text ? text : "";
-}
 
 static bool is_same(const struct rg_check *a, const struct rg_check *b)
 {
@@ -161,7 +156,8 @@ json_t *rg_checks_merge_devices(const struct rg_parts *parts)
             bool is_new = true;
             json_array_foreach(all, j, other)
             {
-                is_new = is_new && strcmp(text_of(other, "name"), text_of(device, "name")) != 0;
+                is_new = is_new && strcmp(rg_json_text_of(other, "name"),
+                                          rg_json_text_of(device, "name")) != 0;
             }
             if (is_new)
                 json_array_append(all, device);

@@ -63,6 +63,16 @@ json_t *rg_document_next(const char *path, const char *text, size_t size, size_t
     return document;
 }
 
+json_t *rg_document_first(const char *path, bool *is_alone, const char *mend, char why[RG_WHY_SIZE])
+{
+    size_t size = 0, at = 0;
+    char *text = rg_document_load(path, &size, mend, why);
+    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
+    *is_alone = at >= size;
+    free(text);
+    return document;
+}
+
 bool rg_document_unseal(const char *path, json_t *document, bool is_sealed, char why[RG_WHY_SIZE])
 {
     const enum rg_sealed sealed = rg_unseal(document);
@@ -78,12 +88,10 @@ bool rg_document_unseal(const char *path, json_t *document, bool is_sealed, char
 
 json_t *rg_document_read(const char *path, const char *mend, char why[RG_WHY_SIZE])
 {
-    size_t size, at = 0;
-    char *text = rg_document_load(path, &size, mend, why);
-    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
+    bool is_alone;
+    json_t *document = rg_document_first(path, &is_alone, mend, why);
     bool ok = document && rg_document_unseal(path, document, true, why);
-    free(text);
-    if (ok && at < size) {
+    if (ok && !is_alone) {
         snprintf(why, RG_WHY_SIZE, "%.200s: has more after its end; %s", path, mend);
         ok = false;
     }

@@ -15,6 +15,11 @@ char *rg_document_load(const char *path, size_t *size, const char *mend, char wh
 json_t *rg_document_next(const char *path, const char *text, size_t size, size_t *at,
                          const char *mend, char why[RG_WHY_SIZE]);
 
+// Parses the first document of a file, and tells whether nothing follows it; the caller releases
+// it. NULL if there is none.
+json_t *rg_document_first(const char *path, bool *is_alone, const char *mend,
+                          char why[RG_WHY_SIZE]);
+
 // Removes the checksum from a document. False if it does not match the rest, or if `is_sealed` and
 // it is missing: stored results have a checksum, printed ones do not.
 bool rg_document_unseal(const char *path, json_t *document, bool is_sealed, char why[RG_WHY_SIZE]);

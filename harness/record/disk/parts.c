@@ -115,11 +115,9 @@ static bool take(struct reading *r, const char *path)
 {
     static const char mend[] = "run its shard again";
     char why[RG_WHY_SIZE] = "";
-    size_t size, at = 0;
-    char *text = rg_document_load(path, &size, mend, why);
-    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
-    bool ok = true;
-    if (document && at < size)
+    bool ok = true, is_alone;
+    json_t *document = rg_document_first(path, &is_alone, mend, why);
+    if (document && !is_alone)
         snprintf(why, sizeof(why), "%.200s: has more after its end; %s", path, mend);
     if (document && !*why && is_of_format(document, path) == false)
         ok = false;
@@ -127,7 +125,6 @@ static bool take(struct reading *r, const char *path)
         rg_warning("%s", why);
     else
         ok = keep(r, document, path);
-    free(text);
     json_decref(document);
     return ok;
 }

@@ -12,12 +12,6 @@
 
 // --- parts ---
 
-static const char *text_of(const json_t *object, const char *name)
-{
-    const char *text = json_string_value(json_object_get(object, name));
-    return text ? text : "";
-}
-
 __attribute__((format(printf, 3, 4))) static void set(json_t *parts, const char *name,
                                                       const char *format, ...)
 {
@@ -77,7 +71,7 @@ json_t *rg_key_parts(const json_t *passport, const json_t *device)
     const json_t *machine = json_object_get(passport, "machine");
     const json_t *build = json_object_get(passport, "raingauge");
     const double quota = json_number_value(json_object_get(machine, "quota_cpus"));
-    set_cpu(parts, text_of(machine, "cpu"));
+    set_cpu(parts, rg_json_text_of(machine, "cpu"));
     set_features(parts, json_object_get(machine, "features"));
     set(parts, "cores", "%lld",
         (long long)json_integer_value(json_object_get(machine, "cores_allowed")));
@@ -85,13 +79,14 @@ json_t *rg_key_parts(const json_t *passport, const json_t *device)
         set(parts, "quota", "%.1f CPUs", quota);
     else
         set(parts, "quota", "none");
-    set(parts, "clocks", "%s", text_of(machine, "clocks"));
-    set(parts, "kernel", "%s", text_of(machine, "kernel"));
-    set(parts, "compiler", "%s, %s", text_of(build, "compiler"), text_of(build, "type"));
+    set(parts, "clocks", "%s", rg_json_text_of(machine, "clocks"));
+    set(parts, "kernel", "%s", rg_json_text_of(machine, "kernel"));
+    set(parts, "compiler", "%s, %s", rg_json_text_of(build, "compiler"),
+        rg_json_text_of(build, "type"));
     set_variables(parts, json_object_get(passport, "environment"));
     for (const char *const *name = (const char *const[]){"api", "device", "driver", NULL}; *name;
          name++)
-        set(parts, *name, "%s", text_of(device, *name));
+        set(parts, *name, "%s", rg_json_text_of(device, *name));
     return parts;
 }
 
@@ -124,7 +119,7 @@ void rg_key_difference(const json_t *now, const json_t *then, char text[RG_KEY_T
     *text = 0;
     json_object_foreach((json_t *)now, name, value)
     {
-        const char *is = json_string_value(value), *was = text_of(then, name);
+        const char *is = json_string_value(value), *was = rg_json_text_of(then, name);
         if (strcmp(is, was) && used < RG_KEY_TEXT)
             used += (size_t)snprintf(text + used, RG_KEY_TEXT - used, "%s%s %s and not %s",
                                      used ? "; " : "", name, or_nothing(is), or_nothing(was));

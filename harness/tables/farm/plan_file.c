@@ -233,13 +233,11 @@ bool rg_farm_plan_read(struct rg_farm_plan *plan, const char *path)
 {
     char why[RG_WHY_SIZE] = "";
     struct rg_reader reader = {.file = path, .mend = mend, .why = why, .why_size = sizeof(why)};
-    size_t size, at = 0;
-    char *text = rg_document_load(path, &size, mend, why);
-    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
+    bool is_alone;
+    json_t *document = rg_document_first(path, &is_alone, mend, why);
     bool ok = document && take_plan(&reader, document, plan);
-    if (ok && at < size)
+    if (ok && !is_alone)
         ok = rg_reader_refuse(&reader, "", "has more after its end");
-    free(text);
     json_decref(document);
     if (ok)
         rg_farm_sum(plan);

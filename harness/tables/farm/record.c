@@ -58,12 +58,6 @@ static bool refuse(char why[RG_WHY_SIZE], const char *path, const char *what, co
     return false;
 }
 
-static const char *text_of(const json_t *object, const char *name)
-{
-    const char *text = json_string_value(json_object_get(object, name));
-    return text ? text : "";
-}
-
 // Whether a document is of this plan's commit, and of this plan.
 static bool is_of_plan(const struct rg_farm_plan *plan, const json_t *document, const char *path,
                        char why[RG_WHY_SIZE])
@@ -85,10 +79,10 @@ static bool is_of_plan(const struct rg_farm_plan *plan, const json_t *document, 
                  path);
         return false;
     }
-    if (strcmp(text_of(build, "commit"), plan->commit) != 0)
-        return refuse(why, path, "commit", text_of(build, "commit"), plan->commit);
-    return !strcmp(text_of(of, "plan"), plan->digest) ||
-           refuse(why, path, "plan", text_of(of, "plan"), plan->digest);
+    if (strcmp(rg_json_text_of(build, "commit"), plan->commit) != 0)
+        return refuse(why, path, "commit", rg_json_text_of(build, "commit"), plan->commit);
+    return !strcmp(rg_json_text_of(of, "plan"), plan->digest) ||
+           refuse(why, path, "plan", rg_json_text_of(of, "plan"), plan->digest);
 }
 
 // Whether a result has a cell of the plan.
@@ -135,10 +129,10 @@ static enum rg_farm_found read_document(const struct rg_farm_plan *plan,
         return RG_FARM_FOREIGN;
     if (!rg_result_from_json(document, path, result, why) ||
         (!is_checked && !rg_cells_are_whole(path, document, why)) ||
-        strcmp(text_of(json_object_get(document, "group"), "id"), group->id) != 0 ||
+        strcmp(rg_json_text_of(json_object_get(document, "group"), "id"), group->id) != 0 ||
         !has_group(plan, group, result, path, why)) {
         if (!*why)
-            refuse(why, path, "group", text_of(json_object_get(document, "group"), "id"),
+            refuse(why, path, "group", rg_json_text_of(json_object_get(document, "group"), "id"),
                    group->id);
         return RG_FARM_DAMAGED;
     }
@@ -151,21 +145,19 @@ enum rg_farm_found rg_farm_record_read(const struct rg_farm_plan *plan,
                                        char why[RG_WHY_SIZE])
 {
     enum rg_farm_found found = RG_FARM_DAMAGED;
-    size_t size, at = 0;
+    bool is_alone;
     *why = 0;
     if (access(path, F_OK))
         return RG_FARM_ABSENT;
-    char *text = rg_document_load(path, &size, mend, why);
-    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
+    json_t *document = rg_document_first(path, &is_alone, mend, why);
     if (document)
         found = read_document(plan, group, document, path, is_checked, result, why);
-    if (found == RG_FARM_WHOLE && at < size) {
+    if (found == RG_FARM_WHOLE && !is_alone) {
         snprintf(why, RG_WHY_SIZE, "%.200s: has more after its end; %s", path, mend);
         found = RG_FARM_DAMAGED;
     }
     if (found != RG_FARM_WHOLE)
         rg_result_free(result);
-    free(text);
     json_decref(document);
     return found;
 }

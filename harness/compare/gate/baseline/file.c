@@ -254,11 +254,10 @@ static bool read_document(const char *path, json_t *document, struct rg_baseline
 bool rg_baseline_read(struct rg_baseline *baseline, const char *path)
 {
     char why[RG_WHY_SIZE] = "";
-    size_t size, at = 0;
-    char *text = rg_document_load(path, &size, mend, why);
-    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
+    bool is_alone;
+    json_t *document = rg_document_first(path, &is_alone, mend, why);
     bool ok = document != NULL;
-    if (ok && at < size) {
+    if (ok && !is_alone) {
         snprintf(why, sizeof(why), "%.200s: goes on after its end; %s", path, mend);
         ok = false;
     }
@@ -266,6 +265,5 @@ bool rg_baseline_read(struct rg_baseline *baseline, const char *path)
     if (!ok && *why)
         rg_error("%s", why);
     json_decref(document);
-    free(text);
     return ok;
 }

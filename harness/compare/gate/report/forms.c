@@ -5,7 +5,6 @@
 
 #include "core/base/files/file.h"
 #include "core/base/log.h"
-#include "harness/compare/gate/report/gtest.h"
 
 #define FORM(id, where, name, about, excludes, write) {RG_WHERE_##where, name, write},
 const struct rg_report_form rg_report_forms[] = {RG_REPORT_FORMS(FORM)};

@@ -1,4 +1,4 @@
-// The forms of a report. A form is a row here and a function that writes it. The row gives its
+// The forms of a report. A form is a row here and the function that it names. The row gives its
 // option in the gate's help, its destination, and the file that it must not replace.
 #ifndef RG_HARNESS_COMPARE_GATE_REPORT_FORMS_H
 #define RG_HARNESS_COMPARE_GATE_REPORT_FORMS_H
@@ -32,6 +32,10 @@ enum rg_report_where {
 
 #define RG_REPORT_ENUM(id, ...) RG_AS_##id,
 enum { RG_REPORT_FORMS(RG_REPORT_ENUM) RG_REPORT_FORM_COUNT };
+
+#define RG_REPORT_WRITER(id, where, name, about, excludes, write)                                  \
+    bool write(const struct rg_report *report, FILE *out);
+RG_REPORT_FORMS(RG_REPORT_WRITER)
 
 extern const struct rg_report_form {
     enum rg_report_where where;

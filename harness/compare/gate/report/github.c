@@ -5,10 +5,12 @@
 #include <sys/stat.h>
 
 #include "core/base/log.h"
-#include "harness/compare/gate/report/report.h"
+#include "harness/compare/gate/report/forms.h"
 #include "harness/compare/gate/report/texts.h"
 
 // --- annotations ---
+
+enum { MOST_ANNOTATIONS = 3 };
 
 // A property needs more characters escaped than the text after it.
 static void put_command_text(FILE *out, const char *text, bool is_property)
@@ -28,9 +30,10 @@ static const char *command_of(enum rg_ending ending)
     return ending == RG_ENDING_INCONCLUSIVE || ending == RG_ENDING_FLAKE ? "warning" : NULL;
 }
 
+// Annotates the worst cases.
 bool rg_report_annotations(const struct rg_report *report, FILE *out)
 {
-    for (int i = 0, count = 0; i < report->case_count && count < RG_ANNOTATIONS; i++) {
+    for (int i = 0, count = 0; i < report->case_count && count < MOST_ANNOTATIONS; i++) {
         const struct rg_report_case *told = &report->cases[report->order[i]];
         const char *command = command_of(told->ending);
         if (!command)
@@ -49,7 +52,8 @@ bool rg_report_annotations(const struct rg_report *report, FILE *out)
 
 // --- Markdown ---
 
-enum { LONGEST_DETAILS = 10000, NOTE = 200 };
+// All commands of a step share the summary's file, and GitHub's limit of its size.
+enum { MOST_BYTES = 1024 * 1024, LONGEST_DETAILS = 10000, NOTE = 200 };
 
 static void put_escaped(FILE *out, const char *text)
 {
@@ -169,9 +173,8 @@ static int put_parts(struct page *page, const struct rg_report *report, const in
 static size_t room_of(FILE *out)
 {
     struct stat st;
-    return !fstat(fileno(out), &st) && st.st_size < RG_SUMMARY_LIMIT
-               ? RG_SUMMARY_LIMIT - (size_t)st.st_size
-               : 0;
+    return !fstat(fileno(out), &st) && st.st_size < MOST_BYTES ? MOST_BYTES - (size_t)st.st_size
+                                                               : 0;
 }
 
 bool rg_report_markdown(const struct rg_report *report, FILE *out)

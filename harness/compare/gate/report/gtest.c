@@ -10,6 +10,7 @@
 
 #include "core/base/files/file.h"
 #include "core/base/log.h"
+#include "harness/compare/gate/report/forms.h"
 #include "harness/compare/gate/text/glob.h"
 
 // --- the filter ---

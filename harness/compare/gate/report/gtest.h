@@ -36,7 +36,4 @@ void rg_gtest_name(const char *name, char made[RG_GTEST_NAME]);
 // --gtest_list_tests: lists cases, an array of their names, by suite.
 void rg_gtest_list(FILE *out, const json_t *names);
 
-// Prints what googletest prints after a run of these cases.
-bool rg_gtest_print(const struct rg_report *report, FILE *out);
-
 #endif

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/compare/gate/report/report.h"
+#include "harness/compare/gate/report/forms.h"
 #include "harness/record/named.h"
 
 static bool dump(json_t *json, const char *form, FILE *out)
@@ -102,17 +102,11 @@ bool rg_report_json(const struct rg_report *report, FILE *out)
 
 // --- reading ---
 
-static double number_of(const json_t *object, const char *name)
-{
-    const json_t *number = json_object_get(object, name);
-    return json_is_number(number) ? json_number_value(number) : NAN;
-}
-
 static struct rg_bounded bounded_of(const json_t *object, const char *name)
 {
     const json_t *number = json_object_get(object, name);
-    return (struct rg_bounded){number_of(number, "value"), number_of(number, "low"),
-                               number_of(number, "high")};
+    return (struct rg_bounded){rg_json_number_of(number, "value"), rg_json_number_of(number, "low"),
+                               rg_json_number_of(number, "high")};
 }
 
 static const char *text_of(const json_t *object, const char *name)
@@ -142,16 +136,16 @@ bool rg_report_read(struct rg_report *report, const json_t *json)
                                    .technique = text_of(json, "technique"),
                                    .devices = devices,
                                    .device_count = read_texts(json, "devices", devices, MOST),
-                                   .seconds = number_of(json, "seconds"),
+                                   .seconds = rg_json_number_of(json, "seconds"),
                                    .is_compared = json_is_true(json_object_get(json, "compared")),
                                    .is_over = json_is_true(json_object_get(json, "over")),
                                    .message = text_of(json, "message"),
                                    .details = text_of(json, "details"),
                                    .attachments = attachments,
                                    .ratio = bounded_of(json, "ratio"),
-                                   .smallest_visible = number_of(json, "smallest_visible"),
+                                   .smallest_visible = rg_json_number_of(json, "smallest_visible"),
                                    .time_ms = bounded_of(json, "time_ms"),
-                                   .baseline_ms = number_of(json, "baseline_ms")};
+                                   .baseline_ms = rg_json_number_of(json, "baseline_ms")};
     found.attachment_count = read_texts(json, "attachments", attachments, MOST);
     int number = 0;
     while (ending && number < RG_ENDING_COUNT &&

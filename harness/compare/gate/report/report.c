@@ -87,7 +87,7 @@ static const char *const *keep_lines(struct rg_report *report, const char *const
 
 // --- names ---
 
-static bool has_name(const struct rg_report *report, const char *name)
+bool rg_report_has(const struct rg_report *report, const char *name)
 {
     for (int i = 0; i < report->case_count; i++)
         if (!strcmp(report->cases[i].name, name))
@@ -109,7 +109,7 @@ static const char *keep_name(struct rg_report *report, const char *name)
         length = rg_texts_fit(clean, RG_REPORT_NAME - TAIL);
         length += (size_t)snprintf(made + length, TAIL, "...%016" PRIx64, hash);
     }
-    for (int number = 2; has_name(report, made); number++)
+    for (int number = 2; rg_report_has(report, made); number++)
         snprintf(made + length, TAIL, " (%d)", number);
     return made;
 }

@@ -82,6 +82,7 @@ bool rg_report_add(struct rg_report *report, const struct rg_report_case *found)
 // Adds a case from its JSON form (rg_report_json). False, and one logged line, without memory, or
 // if it is none.
 bool rg_report_read(struct rg_report *report, const json_t *found);
+bool rg_report_has(const struct rg_report *report, const char *name);
 bool rg_report_set_passport(struct rg_report *report, const char *passport);
 bool rg_report_set_drivers(struct rg_report *report, const char *drivers);
 void rg_report_free(struct rg_report *report);
@@ -96,37 +97,15 @@ void rg_report_summary(const struct rg_report *report, char text[RG_REPORT_SUMMA
 
 // --- the forms; false, and one logged line, if one cannot be written ---
 
-// Writes a form to a stream; forms.h lists all of them.
+// Writes a form to a stream; forms.h declares all of them.
 typedef bool (*rg_report_writer)(const struct rg_report *report, FILE *out);
 // Writes a form to a file by renaming a temporary one: the file is complete, or unchanged.
 bool rg_report_write(const struct rg_report *report, rg_report_writer form, const char *path);
 
-// JUnit's XML as GitLab and Jenkins read it, below RG_JUNIT_LIMIT bytes: the longest details are
-// cut first, as far as necessary, and say so. The schema is tests/harness/gate/report/junit.xsd.
-enum { RG_JUNIT_LIMIT = 30 * 1000 * 1000 };
-bool rg_report_junit(const struct rg_report *report, FILE *out);
-
-// Bencher's metric format: the timed cases, with measures "latency" (ns) and "ratio".
-// https://bencher.dev/docs/reference/bencher-metric-format/
-bool rg_report_bmf(const struct rg_report *report, FILE *out);
-// Our own machine form, "gate" in docs/records.schema.json, as text and as a document, which the
-// caller owns; NULL without memory.
-bool rg_report_json(const struct rg_report *report, FILE *out);
-json_t *rg_report_document(const struct rg_report *report);
-
-// Text for people, RG_REPORT_WIDTH columns wide, coloured if `out` is a terminal that shows
-// colours.
-enum { RG_REPORT_WIDTH = 110 };
-bool rg_report_text(const struct rg_report *report, FILE *out);
+// The text form, in colours or without.
 bool rg_report_text_coloured(const struct rg_report *report, FILE *out, bool is_coloured);
-
-// GitHub's workflow commands, which become annotations: at most RG_ANNOTATIONS, worst first.
-enum { RG_ANNOTATIONS = 3 };
-bool rg_report_annotations(const struct rg_report *report, FILE *out);
-// Markdown of the drivers and of every case that did not pass, for the file of
-// $GITHUB_STEP_SUMMARY. All commands of a step share the file and its limit, RG_SUMMARY_LIMIT
-// bytes; cases that do not fit are counted.
-enum { RG_SUMMARY_LIMIT = 1024 * 1024 };
-bool rg_report_markdown(const struct rg_report *report, FILE *out);
+// The document of the JSON form, "gate" in docs/records.schema.json, which the caller owns; NULL
+// without memory.
+json_t *rg_report_document(const struct rg_report *report);
 
 #endif

@@ -2,10 +2,12 @@
 #include <string.h>
 
 #include "harness/console/terminal.h"
-#include "harness/compare/gate/report/report.h"
+#include "harness/compare/gate/report/forms.h"
 #include "harness/compare/gate/report/texts.h"
 
-// --- lines of RG_REPORT_WIDTH characters ---
+// --- lines of WIDTH characters ---
+
+enum { WIDTH = 110 };
 
 // The number of bytes of the text that go on a line of `room` characters: up to a line break, or
 // the last space that fits, or the end of a word that is longer than a line.
@@ -36,7 +38,7 @@ static void put_bytes(FILE *out, const char *text, size_t bytes)
 static void put_wrapped(FILE *out, const char *text, int from)
 {
     static const char bar[] = "  | ";
-    for (int room = RG_REPORT_WIDTH - from;; room = RG_REPORT_WIDTH - (int)strlen(bar)) {
+    for (int room = WIDTH - from;; room = WIDTH - (int)strlen(bar)) {
         const size_t bytes = line_of(text, room);
         put_bytes(out, text, bytes);
         fputc('\n', out);

@@ -89,9 +89,9 @@ json_t *rg_gate_times_read(const char *path)
 {
     static const char mend[] = "name what `raingauge gate --json` printed";
     char why[RG_WHY_SIZE] = "";
-    size_t size, at = 0, i;
-    char *text = rg_document_load(path, &size, mend, why);
-    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
+    size_t i;
+    bool is_alone;
+    json_t *document = rg_document_first(path, &is_alone, mend, why);
     json_t *cases = json_object_get(document, "gated"), *one;
     json_t *times = json_is_array(cases) ? json_object() : NULL;
     json_array_foreach(cases, i, one)
@@ -107,7 +107,6 @@ json_t *rg_gate_times_read(const char *path)
                       : ": is no record of a gate; name what "
                         "`raingauge gate --json` printed");
     json_decref(document);
-    free(text);
     return times;
 }
 

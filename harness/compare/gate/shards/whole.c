@@ -1,5 +1,4 @@
 // The report of a gate from the records of its shards.
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,17 +6,6 @@
 #include "core/base/log.h"
 #include "harness/compare/gate/shards/shards.h"
 #include "harness/console/exit.h"
-
-static const char *text_of(const json_t *object, const char *name)
-{
-    const char *text = json_string_value(json_object_get(object, name));
-    return text ? text : "";
-}
-
-static const json_t *array_of(const json_t *object, const char *name)
-{
-    return json_object_get(object, name);
-}
 
 // --- what shards say once ---
 
@@ -28,8 +16,8 @@ static const char *driver_of(const json_t *passport, const char *name)
     size_t i;
     json_array_foreach(devices, i, device)
     {
-        if (!strcmp(text_of(device, "name"), name))
-            return text_of(device, "driver");
+        if (!strcmp(rg_json_text_of(device, "name"), name))
+            return rg_json_text_of(device, "driver");
     }
     return "";
 }
@@ -42,7 +30,8 @@ static bool have_one_driver(const json_t *then, int before, const json_t *now, i
     size_t i;
     json_array_foreach(devices, i, device)
     {
-        const char *name = text_of(device, "name"), *driver = text_of(device, "driver");
+        const char *name = rg_json_text_of(device, "name"),
+                   *driver = rg_json_text_of(device, "driver");
         const char *was = driver_of(then, name);
         if (*was && strcmp(was, driver) != 0)
             return rg_error(
@@ -58,7 +47,7 @@ static bool have_one_driver_each(const struct rg_parts *parts)
     json_t *passports = json_array();
     bool ok = true;
     for (int i = 0; ok && i < parts->count; i++) {
-        json_t *now = json_loads(text_of(parts->documents[i], "passport_text"), 0, NULL);
+        json_t *now = json_loads(rg_json_text_of(parts->documents[i], "passport_text"), 0, NULL);
         for (int k = 0; ok && k < i; k++)
             ok = have_one_driver(json_array_get(passports, (size_t)k), k + 1, now, i + 1);
         json_array_append_new(passports, now ? now : json_null());
@@ -76,8 +65,8 @@ static bool add_cells(const struct rg_parts *parts, struct rg_report *report)
     const json_t **at = rg_alloc(count, sizeof(const json_t *), "gate");
     bool ok = at;
     for (int i = 0; ok && i < parts->count; i++) {
-        const json_t *places = array_of(parts->documents[i], "places"), *place;
-        const json_t *cases = array_of(parts->documents[i], "gated");
+        const json_t *places = json_object_get(parts->documents[i], "places"), *place;
+        const json_t *cases = json_object_get(parts->documents[i], "gated");
         size_t k;
         json_array_foreach(places, k, place)
         {
@@ -92,29 +81,21 @@ static bool add_cells(const struct rg_parts *parts, struct rg_report *report)
     return ok;
 }
 
-static bool is_told(const struct rg_report *report, const char *name)
-{
-    for (int i = 0; i < report->case_count; i++)
-        if (!strcmp(report->cases[i].name, name))
-            return true;
-    return false;
-}
-
 // Adds the other cases of a device: "" for devices that are required and not there, each once; else
 // its fixed functions.
 static bool add_others(const struct rg_parts *parts, const char *device, struct rg_report *report)
 {
     bool ok = true;
     for (int i = 0; i < parts->count; i++) {
-        const json_t *cases = array_of(parts->documents[i], "gated");
-        for (size_t k = json_array_size(array_of(parts->documents[i], "places"));
+        const json_t *cases = json_object_get(parts->documents[i], "gated");
+        for (size_t k = json_array_size(json_object_get(parts->documents[i], "places"));
              ok && k < json_array_size(cases); k++) {
             const json_t *found = json_array_get(cases, k);
-            const bool is_required = !*text_of(found, "technique");
+            const bool is_required = !*rg_json_text_of(found, "technique");
             const char *own =
                 json_string_value(json_array_get(json_object_get(found, "devices"), 0));
             if (*device ? !is_required && own && !strcmp(own, device)
-                        : is_required && !is_told(report, text_of(found, "name")))
+                        : is_required && !rg_report_has(report, rg_json_text_of(found, "name")))
                 ok = rg_report_read(report, found);
         }
     }
@@ -125,7 +106,7 @@ static bool add_all(const struct rg_parts *parts, struct rg_report *report)
 {
     const json_t *pairs = json_object_get(parts->of, "pairs"), *pair;
     bool ok = add_cells(parts, report) &&
-              rg_gate_hold_required(text_of(parts->of, "require"), report) &&
+              rg_gate_hold_required(rg_json_text_of(parts->of, "require"), report) &&
               add_others(parts, "", report);
     size_t i;
     json_array_foreach(pairs, i, pair)
@@ -137,12 +118,6 @@ static bool add_all(const struct rg_parts *parts, struct rg_report *report)
 }
 
 // --- results, for files of expectations ---
-
-static double number_of(const json_t *object, const char *name)
-{
-    const json_t *number = json_object_get(object, name);
-    return json_is_number(number) ? json_number_value(number) : NAN;
-}
 
 // Where a result stands in a gate without shards: first cells that were left out, then cells in
 // their order, then fixed functions, device by device.
@@ -180,16 +155,16 @@ static size_t read_results(const struct rg_parts *parts, struct placed *all)
     size_t count = 0, k;
     json_t *found;
     for (int i = 0; i < parts->count; i++) {
-        json_array_foreach(array_of(parts->documents[i], "results"), k, found)
+        json_array_foreach(json_object_get(parts->documents[i], "results"), k, found)
         {
             struct rg_known_result result = {
-                .cell = text_of(found, "cell"),
-                .device = text_of(found, "device"),
+                .cell = rg_json_text_of(found, "cell"),
+                .device = rg_json_text_of(found, "device"),
                 .driver = json_string_value(json_object_get(found, "driver")),
-                .pixels = number_of(found, "pixels"),
-                .difference = number_of(found, "difference"),
+                .pixels = rg_json_number_of(found, "pixels"),
+                .difference = rg_json_number_of(found, "difference"),
                 .is_foreign = json_is_true(json_object_get(found, "foreign"))};
-            if (!rg_outcome_find(text_of(found, "outcome"), &result.outcome))
+            if (!rg_outcome_find(rg_json_text_of(found, "outcome"), &result.outcome))
                 continue;
             all[count] = (struct placed){place_of(parts, &result), count, result};
             count++;
@@ -202,7 +177,7 @@ static bool add_results(const struct rg_parts *parts, struct rg_gate *gate)
 {
     size_t room = 0;
     for (int i = 0; i < parts->count; i++)
-        room += json_array_size(array_of(parts->documents[i], "results"));
+        room += json_array_size(json_object_get(parts->documents[i], "results"));
     struct placed *all = rg_alloc(room, sizeof(*all), "gate");
     gate->results = rg_alloc(room, sizeof(*gate->results), "gate");
     const size_t count = all && gate->results ? read_results(parts, all) : 0;
@@ -219,7 +194,7 @@ static bool add_results(const struct rg_parts *parts, struct rg_gate *gate)
 
 const char *rg_gate_merge_expectations(const struct rg_parts *parts)
 {
-    return text_of(parts->of, "expectations");
+    return rg_json_text_of(parts->of, "expectations");
 }
 
 bool rg_gate_merge(const struct rg_parts *parts, struct rg_gate *gate, int *beyond)

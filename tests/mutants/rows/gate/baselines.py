@@ -30,7 +30,7 @@ ROWS = [
     Fault(BASELINE, "«strchr(name, '@')» && rg_baseline_asks", "false", "a baseline starts programs"),
     Fault(FILE, "!read_format(&r, document) || «!rg_document_unseal(path, document, true, why)»)", "(json_object_del(document, \"checksum\"), false)", "a baseline that was edited is taken"),
     Fault(FILE, "return «format == RG_BASELINE_FORMAT» ||", "true", "a baseline of another version is taken"),
-    Fault(FILE, "if (ok && «at < size») {", "false", "what follows a baseline is passed over"),
+    Fault(FILE, "if (ok && «!is_alone») {", "false", "what follows a baseline is passed over"),
     Fault(FILE, "return «rg_baseline_find(baseline, row->cell, row->device) == row» ||", "true", "a cell that stands there twice is taken"),
     Fault(BASELINE, "«strcmp(settings, row->settings) != 0»)", "false", "other work is held against a baseline"),
     Fault("harness/compare/gate/cells/cells.c", "hash = XXH3_64bits_withSeed(line, strlen(line), «hash»);", "0", "the last parameter alone is in a cell's digest"),
