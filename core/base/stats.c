@@ -22,6 +22,11 @@ static int outer_rank(int count, double tail)
     return k;
 }
 
+void rg_sort(double *samples, int count)
+{
+    qsort(samples, (size_t)count, sizeof(*samples), ascending);
+}
+
 struct rg_interval rg_median(double *samples, int count)
 {
     return rg_median_at(samples, count, 0.025);
@@ -29,7 +34,7 @@ struct rg_interval rg_median(double *samples, int count)
 
 struct rg_interval rg_median_at(double *samples, int count, double tail)
 {
-    qsort(samples, (size_t)count, sizeof(*samples), ascending);
+    rg_sort(samples, count);
     return rg_median_sorted(samples, count, tail);
 }
 

@@ -9,6 +9,9 @@ struct rg_interval {
     double median, low, high;
 };
 
+// Sorts samples, the smallest first.
+void rg_sort(double *samples, int count);
+
 // The median of `count` samples (at least 1; sorted in place), and an interval that contains the
 // true median with at least 95 % confidence. The interval is that of the sign test, by order
 // statistics, and is exact for independent samples of any distribution. With fewer than

@@ -100,12 +100,6 @@ double rg_gate_spread(const double *sorted, int count, double median)
     return DEVIATION_OF_MAD * rg_median_at(away, count, 0).median;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 // The median of the means of all pairs, each launch with itself too (Hodges and Lehmann). At most
 // 64 launches, evenly chosen, are enough for it.
 static double shift_of(const double *sorted, int count)
@@ -118,7 +112,7 @@ static double shift_of(const double *sorted, int count)
         for (int j = i; j < taken; j++)
             means[pairs++] =
                 (sorted[(long)i * count / taken] + sorted[(long)j * count / taken]) / 2;
-    qsort(means, (size_t)pairs, sizeof(*means), ascending);
+    rg_sort(means, pairs);
     return (means[(pairs - 1) / 2] + means[pairs / 2]) / 2;
 }
 

@@ -38,12 +38,6 @@ static int outer_rank(int a_count, int b_count, double tail)
     return k;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 struct rg_interval rg_shift(const double *a, int a_count, const double *b, int b_count, double tail)
 {
     double differences[PAIRS];
@@ -51,7 +45,7 @@ struct rg_interval rg_shift(const double *a, int a_count, const double *b, int b
     for (int i = 0; i < a_count; i++)
         for (int j = 0; j < b_count; j++)
             differences[i * b_count + j] = b[j] - a[i];
-    qsort(differences, (size_t)pairs, sizeof(*differences), ascending);
+    rg_sort(differences, pairs);
     const int k = outer_rank(a_count, b_count, tail);
     return (struct rg_interval){
         .median = (differences[(pairs - 1) / 2] + differences[pairs / 2]) / 2,

@@ -35,12 +35,6 @@ void rg_slope_weights(const struct rg_slope_point *points, int count, double *we
 
 // --- resampling ---
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double median_of(const double *sorted, int count)
 {
     return (sorted[(count - 1) / 2] + sorted[count / 2]) / 2;
@@ -80,7 +74,7 @@ static void add_point(const struct rg_slope_point *point, int index, double weig
 {
     double sorted[RG_SLOPE_SAMPLES];
     memcpy(sorted, point->samples, (size_t)point->count * sizeof(*sorted));
-    qsort(sorted, (size_t)point->count, sizeof(*sorted), ascending);
+    rg_sort(sorted, point->count);
     *slope += weight * log(median_of(sorted, point->count));
     for (int round = 0; round < RESAMPLES; round++)
         drawn[round] += weight * log(median_drawn(sorted, point->count, index, round));
@@ -109,7 +103,7 @@ struct rg_interval rg_slope_resampled(const struct rg_slope_point *points, int c
     }
     if (!count || fewest < RG_LEAST_SAMPLES || !isfinite(slope))
         return (struct rg_interval){count && isfinite(slope) ? slope : NAN, NAN, NAN};
-    qsort(drawn, RESAMPLES, sizeof(*drawn), ascending);
+    rg_sort(drawn, RESAMPLES);
     const double drift = slope_of_loads(points, count, weights);
     return (struct rg_interval){slope, drawn[OUTSIDE] - drift,
                                 drawn[RESAMPLES - 1 - OUTSIDE] + drift};

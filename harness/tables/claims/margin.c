@@ -24,12 +24,6 @@ bool rg_margin_orders(double larger, double smaller)
     return larger * (1 - rg_margin_rounding(larger)) > smaller * (1 + rg_margin_rounding(smaller));
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 // The distance of a row's logarithm from the line between its neighbours, scaled as if only that
 // row had an error of one standard deviation. False unless it is between two rows of its group.
 static bool is_off(const struct rg_slope_point *p, const double *printed, int count, int i,
@@ -53,7 +47,7 @@ static double scatter(const struct rg_slope_point *points, const double *printed
         found += is_off(points, printed, count, i, &offs[found]);
     if (!found)
         return 0;
-    qsort(offs, (size_t)found, sizeof(*offs), ascending);
+    rg_sort(offs, found);
     return (offs[(found - 1) / 2] + offs[found / 2]) / 2 / HALF_WITHIN;
 }
 

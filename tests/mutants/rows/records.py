@@ -141,7 +141,7 @@ ROWS = [
     Fault(SLOPE, "drawn[«RESAMPLES - 1 - OUTSIDE»] + drift};", "RESAMPLES - 1 - 2 * OUTSIDE", "the upper end of a slope is 95 %", tests=("slopes",)),
     Fault(SLOPE, "drawn_at(sorted, times, «(count - 1) / 2») +", "count / 2", "the drawn medians of even numbers are too high", tests=("slopes",)),
     Fault(SLOPE, "*slope += weight * log(«median_of(sorted, point->count)»);", "sorted[point->count / 2]", "slopes are of the upper medians", tests=("slopes",)),
-    Fault(SLOPE, "qsort(sorted, (size_t)point->count, sizeof(*sorted), ascending);", "", "slopes depend on the order of samples", tests=("slopes",)),
+    Fault(SLOPE, "    «rg_sort(sorted, point->count);»", "", "slopes depend on the order of samples", tests=("slopes",)),
     Fault(DOCUMENT, "(sealed == RG_SEAL_ABSENT && «!is_sealed»))", "true", "a stored document needs no checksum", tests=("records of shards",)),
     Fault(HOLD, "if («hold->made»)\n        rmdir(hold->folder);", "true", "a user's empty folder goes with a run", tests=("output",)),
     Fault(HOLD, "folder[strlen(folder) - 1] = 0;", "", "a journal's folder has its slash twice", tests=("output",)),
