@@ -440,13 +440,15 @@ static bool can_be_strict(const struct gate_options *o, const struct gate_input 
 
 // --- shards together ---
 
-// Files of expectations are held against what the shards found only if they had the same.
+// Files of expectations are held against what the shards found only if they had the same
+// (rg_gate_digest_known).
 static bool had_known(const struct gate_options *o, const struct rg_known *known,
                       const struct rg_parts *parts)
 {
+    const char *had = rg_json_text_of(parts->of, "expectations");
     char digest[RG_DIGEST_SIZE];
     rg_gate_digest_known(known, digest);
-    return !known->file_count || !strcmp(digest, rg_gate_merge_expectations(parts)) ||
+    return !known->file_count || !strcmp(digest, had) ||
            rg_error("%s: its shards had other expectations; name those that they had, or none",
                     o->from);
 }
@@ -456,9 +458,9 @@ static int report_parts(const struct gate_options *o, const struct rg_known *kno
 {
     const struct rg_gate_request whole = {.shard = {1, 1}};
     struct rg_gate gate = {.case_count = 0};
-    int beyond, exit = rg_shards_exit(parts, "gate", o->from, o->partial);
-    if (exit == RG_EXIT_PASS && rg_gate_merge(parts, &gate, &beyond)) {
-        exit = rg_exit_worse(rg_gate_exit(&whole, &gate), beyond);
+    int exit = rg_shards_exit(parts, "gate", o->from, o->partial);
+    if (exit == RG_EXIT_PASS && rg_gate_merge(parts, &gate)) {
+        exit = rg_exit_worse(rg_gate_exit(&whole, &gate), gate.beyond);
         if (!rg_gate_outputs_print(outputs, known, &gate))
             exit = rg_exit_worse(exit, rg_exit_of_error());
     } else if (exit == RG_EXIT_PASS) {

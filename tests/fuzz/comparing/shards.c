@@ -39,9 +39,8 @@ static void check_report(const struct rg_gate *gate)
 static void merge_gate(const struct rg_parts *parts)
 {
     struct rg_gate gate = {.case_count = 0};
-    int beyond;
     fuzz_listen();
-    const bool taken = rg_gate_merge(parts, &gate, &beyond);
+    const bool taken = rg_gate_merge(parts, &gate);
     if (taken)
         check_report(&gate); // a line tells of each required device that is not there
     else

@@ -250,17 +250,6 @@ static void put_measures(const struct rg_gate_case *c, struct rg_report_case *to
     told->baseline_ms = c->row.a_ms.median;
 }
 
-static void put_pictures(struct rg_gate_case *c, const char *folder, struct rg_report_case *told)
-{
-    c->paths = rg_alloc(RG_GATE_PICTURES, sizeof(*c->paths), "gate");
-    for (int i = 0; c->paths && i < RG_GATE_PICTURES; i++) {
-        rg_gate_picture_path(folder, c->name, i, c->paths[i]);
-        c->pictures[i] = c->paths[i];
-    }
-    told->attachments = c->pictures;
-    told->attachment_count = c->paths ? RG_GATE_PICTURES : 0;
-}
-
 // Whether the failure is not of the case's driver, but of the other side, the truth, or raingauge
 // itself because of its input.
 static bool is_foreign(const struct rg_gate_case *c)
@@ -274,9 +263,11 @@ static bool is_foreign(const struct rg_gate_case *c)
     return c->before ? strcmp(device, own) != 0 : device != own;
 }
 
-void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *request,
-                       struct rg_report_case *told, struct rg_known_result *result)
+bool rg_gate_case_tell(const struct rg_gate_case *c, const struct rg_gate_request *request,
+                       struct rg_report *report, struct rg_known_result *result)
 {
+    char message[RG_AGREEMENT_TEXT + 400], paths[RG_GATE_PICTURES][PATH_MAX];
+    const char *pictures[RG_GATE_PICTURES];
     *result =
         (struct rg_known_result){.cell = c->cell->name,
                                  .device = rg_gate_case_device(c),
@@ -287,20 +278,29 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
                                  .is_foreign = is_foreign(c)};
     const struct rg_judged judged =
         rg_known_judge(request->known, c->expectation, result, own_ending(c), request->today);
-    put_message(c, rg_judged_word(&judged), c->message, sizeof(c->message));
-    c->details = make_details(c);
-    *told = (struct rg_report_case){.name = c->name,
-                                    .technique = c->cell->subject.technique->name,
-                                    .devices = c->devices,
-                                    .device_count = c->device_count,
-                                    .seconds = c->seconds,
-                                    .ending = judged.ending,
-                                    .is_compared = rg_gate_case_was_compared(c),
-                                    .is_over = c->is_over,
-                                    .message = c->message,
-                                    .details = c->details,
-                                    RG_UNMEASURED};
-    put_measures(c, told);
-    if (c->agreement.has_pictures)
-        put_pictures(c, request->pictures, told);
+    put_message(c, rg_judged_word(&judged), message, sizeof(message));
+    char *details = make_details(c);
+    struct rg_report_case told = {.name = c->name,
+                                  .technique = c->cell->subject.technique->name,
+                                  .devices = c->devices,
+                                  .device_count = c->device_count,
+                                  .seconds = c->seconds,
+                                  .ending = judged.ending,
+                                  .is_compared = rg_gate_case_was_compared(c),
+                                  .is_over = c->is_over,
+                                  .message = message,
+                                  .details = details,
+                                  .attachments = pictures,
+                                  .attachment_count =
+                                      c->agreement.has_pictures ? RG_GATE_PICTURES : 0,
+                                  RG_UNMEASURED};
+    for (int i = 0; i < told.attachment_count; i++) {
+        rg_gate_picture_path(request->pictures, c->name, i, paths[i]);
+        pictures[i] = paths[i];
+    }
+    put_measures(c, &told);
+    const bool ok = details ? rg_report_add(report, &told)
+                            : rg_harness_error("gate: no memory for what a case tells");
+    free(details);
+    return ok;
 }

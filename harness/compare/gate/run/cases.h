@@ -60,11 +60,6 @@ struct rg_gate_case {
     struct rg_gate_rule rule;
     struct rg_gate_row row;
     struct rg_timed_cell times;
-    // The report's case points to these.
-    char message[RG_AGREEMENT_TEXT + 400];
-    char *details; // owned by the gate
-    const char *pictures[RG_GATE_PICTURES];
-    char (*paths)[PATH_MAX]; // of the written pictures; owned by the gate
 };
 
 // The name of a cell's case on B: "streaks/rain.vulkan@VK_DRIVER_FILES=new.json". Characters that a
@@ -80,9 +75,9 @@ void rg_gate_case_expect(struct rg_gate_case *of, const struct rg_gate_request *
 // Whether its pictures were compared; any other end proves nothing.
 bool rg_gate_case_was_compared(const struct rg_gate_case *of);
 
-// Fills in the report's case, which points into `of` and the request, and the result that is
-// compared with expectations.
-void rg_gate_case_tell(struct rg_gate_case *of, const struct rg_gate_request *request,
-                       struct rg_report_case *told, struct rg_known_result *result);
+// Adds the case to the report, and fills in the result that is compared with expectations, which
+// points into `of`. False, and one logged line, without memory.
+bool rg_gate_case_tell(const struct rg_gate_case *of, const struct rg_gate_request *request,
+                       struct rg_report *report, struct rg_known_result *result);
 
 #endif

@@ -67,15 +67,12 @@ bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
 {
     bool ok = make_results(asked, gate);
     for (int i = 0; ok && i < gate->case_count; i++) {
-        struct rg_report_case told;
-        struct rg_gate_case *c = &gate->cases[i];
+        const struct rg_gate_case *c = &gate->cases[i];
         struct rg_known_result *result = &gate->results[gate->result_count++];
-        rg_gate_case_tell(c, asked, &told, result);
+        ok = rg_gate_case_tell(c, asked, &gate->report, result);
         if (!c->is_compared && !c->is_skipped &&
             (result->outcome == RG_UNSUPPORTED || result->is_foreign))
             *result = unknown(c->cell->name, rg_gate_case_device(c));
-        ok = (c->details || rg_harness_error("gate: no memory for what a case tells")) &&
-             rg_report_add(&gate->report, &told);
     }
     const bool is_part = asked->shard.count > 1 && !asked->is_apart; // others may have compared it
     ok = ok && (is_part || rg_gate_hold_required(asked->require, &gate->report));
@@ -118,11 +115,8 @@ int rg_gate_exit(const struct rg_gate_request *asked, const struct rg_gate *gate
 void rg_gate_free(struct rg_gate *gate)
 {
     rg_report_free(&gate->report);
-    for (int i = 0; i < gate->case_count; i++) {
+    for (int i = 0; i < gate->case_count; i++)
         free(gate->cases[i].name);
-        free(gate->cases[i].details);
-        free(gate->cases[i].paths);
-    }
     free(gate->cases);
     free(gate->results);
     free(gate->note);

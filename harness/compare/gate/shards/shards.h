@@ -24,10 +24,8 @@ bool rg_gate_part_write(const struct rg_gate_request *request, const struct rg_g
                         const struct rg_gate *gate, int beyond, const char *folder);
 
 // Makes a zeroed gate's report and results of the records of its shards, to which they point, in
-// the order of a gate without shards. `beyond` gets the worst of theirs. False, and one logged
+// the order of a gate without shards. Its `beyond` is the worst of theirs. False, and one logged
 // line, if shards ran other drivers, or without memory.
-bool rg_gate_merge(const struct rg_parts *parts, struct rg_gate *gate, int *beyond);
-// What the shards' expectations were (rg_gate_digest_known).
-const char *rg_gate_merge_expectations(const struct rg_parts *parts);
+bool rg_gate_merge(const struct rg_parts *parts, struct rg_gate *gate);
 
 #endif

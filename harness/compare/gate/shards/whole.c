@@ -192,18 +192,13 @@ static bool add_results(const struct rg_parts *parts, struct rg_gate *gate)
 
 // --- all ---
 
-const char *rg_gate_merge_expectations(const struct rg_parts *parts)
-{
-    return rg_json_text_of(parts->of, "expectations");
-}
-
-bool rg_gate_merge(const struct rg_parts *parts, struct rg_gate *gate, int *beyond)
+bool rg_gate_merge(const struct rg_parts *parts, struct rg_gate *gate)
 {
     char *passport = rg_parts_texts(parts, "passport_text", false);
-    *beyond = RG_EXIT_PASS;
-    for (int i = 0; i < parts->count; i++)
-        *beyond =
-            rg_exit_worse(*beyond, rg_exit_of_record(json_object_get(parts->documents[i], "exit")));
+    for (int i = 0; i < parts->count; i++) {
+        const json_t *exit = json_object_get(parts->documents[i], "exit");
+        gate->beyond = rg_exit_worse(gate->beyond, rg_exit_of_record(exit));
+    }
     gate->note = rg_parts_texts(parts, "note", true);
     gate->chosen = (int)json_array_size(json_object_get(parts->of, "names"));
     if (passport && *passport)

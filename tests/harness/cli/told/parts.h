@@ -10,8 +10,10 @@ static bool is_found; // shards left records
 
 bool rg_parts_read(struct rg_parts *parts, const char *kind, const char *path)
 {
+    static json_t *of;
+    of = of ? of : json_pack("{ss}", "expectations", "k1");
     asked_note("%s records of %s; ", kind, path);
-    *parts = (struct rg_parts){.count = is_found ? 2 : 0};
+    *parts = (struct rg_parts){.count = is_found ? 2 : 0, .of = of};
     return does("parts");
 }
 

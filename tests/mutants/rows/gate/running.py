@@ -58,7 +58,7 @@ ROWS = [
     Fault(CASES, "c->row.b_ms.low, «c->row.b_ms.high»};", "c->row.b_ms.low", "a time's upper end is the lower one", tests=CASE),
     Fault(CASES, "told->baseline_ms = «c->row.a_ms.median»;", "c->row.b_ms.median", "the time before is that of now", tests=CASE),
     Fault(CASES, "if (!c->is_timed || «!d->units»)\n        return;", "false", "a case without a launch has measures", tests=CASE),
-    Fault(CASES, "rg_gate_picture_path(folder, c->name, «i», c->paths[i]);", "0", "all pictures of a case are the first", tests=CASE),
+    Fault(CASES, "rg_gate_picture_path(request->pictures, c->name, «i», paths[i]);", "0", "all pictures of a case are the first", tests=CASE),
     Fault(CASES, "    if («c->agreement.is_ours» || !device)\n", "false", "raingauge's own failure is the driver's", tests=CASE),
     Fault(CASES, "return c->before ? «strcmp(device, own) != 0» : device", "device != own", "a device's own failure is another's where names are copies", tests=CASE),
     Fault(CASES, ".driver = «c->driver»,", "\"\"", "a result has no driver", tests=CASE),
@@ -326,7 +326,7 @@ ROWS = [
     Fault(JOURNAL, "    if («quads.a_ms > 0»)\n        fprintf", "true", "a ratio is told of what has none", tests=KEPT),
     Fault(JOURNAL, "fprintf(file, \"%.9g,%.9g\", quads.log, «quads.a_ms»);", "quads.b_ms", "A's times are B's in the CSV", tests=KEPT),
     Fault(JOURNAL, "fprintf(file, \",%.9g,%d\\n\", quads.b_ms, «quads.is_disturbed»);", "0", "the CSV knows no disturbed launch", tests=KEPT),
-    Fault(JOURNAL, "    if («json_object_size(rows_of(j))»)\n", "true", "a CSV without launches has a head", tests=KEPT),
+    Fault(JOURNAL, "    if («json_object_size(rows)»)\n", "true", "a CSV without launches has a head", tests=KEPT),
     Fault(JOURNAL, "    if (ok && «*csv»)\n", "true", "a gate without launches leaves an empty CSV", tests=KEPT),
     Fault(JOURNAL, "const bool ok = «!is_done» || write_launches(j);", "true", "a gate that is done leaves no launches", tests=KEPT),
     Fault(JOURNAL, "    if («!is_done || !ok»)\n", "!ok", "a gate that is interrupted loses its launches", tests=KEPT),
@@ -382,7 +382,7 @@ ROWS = [
 
     # --- what blind draws showed ---
     Fault("harness/commands/comparing/gate.c", "const bool is_done = «exit < RG_EXIT_SIGNALLED» && exit", "true", "a shard that was interrupted leaves a record", tests=("ends of a gate",)),
-    Fault("harness/commands/comparing/gate.c", "exit = «rg_exit_worse(rg_gate_exit(&whole, &gate), beyond)»;", "rg_gate_exit(&whole, &gate)", "shards together forget what their reports do not tell", tests=("ends of a gate",)),
+    Fault("harness/commands/comparing/gate.c", "exit = rg_exit_worse(rg_gate_exit(&whole, &gate), «gate.beyond»);", "rg_gate_exit(&whole, &gate)", "shards together forget what their reports do not tell", tests=("ends of a gate",)),
     Fault("harness/commands/comparing/gate.c", "if («*folder && !rg_hold_folder(folder, &hold)») {", "*folder && (rg_hold_folder(folder, &hold), false)", "two gates write into one folder", tests=("ends of a gate",)),
     Fault("harness/commands/comparing/shrink.c", "            «exit = rg_exit_of_error();» // a full disk says", ";", "a case that cannot be written passes", tests=("ends of shrink",)),
     Fault("harness/commands/comparing/shrink.c", "    «remove_folder();»\n    return rg_interrupted()", ";", "shrink leaves its temporary files", tests=("ends of shrink",)),
