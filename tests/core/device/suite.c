@@ -38,8 +38,11 @@ static const struct part {
       &lack_tests}},
     {"images",
      {&image_tests, &texel_tests, &filter_tests, &large_tests, &sampled_tests, &around_tests}},
-    {"native", {&sampled_tests, &around_tests, &native_filter_tests, &query_tests, &place_tests}},
-    {"draws", {&draw_tests, &tally_tests, &query_tests, &place_tests}},
+    {"native",
+     {&sampled_tests, &around_tests, &native_filter_tests, &query_tests, &range_tests,
+      &place_tests}},
+    {"draws", {&draw_tests, &tally_tests, &query_tests, &range_tests, &place_tests}},
+    {"ranges", {&range_tests}}, // alone, for faults of their kernel
     {"targets", {&target_tests, &light_tests, &layer_tests}},
 };
 

@@ -40,11 +40,12 @@ def texts_of(root, source, build, compiler, kernels, folder):
 
 
 def first_to_notice(programs, folder, tests):
-    """The first of `tests`, in the folder `programs`, that fails on the texts of `folder`, or None."""
+    """The first of `tests`, programs in the folder `programs` and parts of them, that fails on the texts of `folder`, or None."""
     environment = dict(os.environ, RG_KERNEL_DIR=str(folder))
     for test in tests:
+        program, *parts = test.split()
         done = subprocess.run(
-            [programs / test, "opencl"], env=environment, stdout=subprocess.DEVNULL,
+            [programs / program, "opencl", *parts], env=environment, stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE, text=True, timeout=600, check=False,
         )
         if "clBuildProgram" in done.stderr:

@@ -6,6 +6,7 @@ Row = collections.namedtuple("Row", "about file old new tests")
 CLIP = "../dialect/draw/clip.h"
 COVER = "../dialect/draw/coverage.h"
 PLANES = "../dialect/draw/triangle.h"
+RANGES = "../packing/ranges.h"
 TESTS = ("drawing", "rays")
 
 ROWS = [Row(*row, TESTS) for row in (
@@ -64,4 +65,10 @@ ROWS = [Row(*row, TESTS) for row in (
      "v3 beside = v3_cross(streak, head);", "v3 beside = v3_cross(streak, v3_make(0.0f, 0.0f, head.z));"),
     ("drops that leave do not come in again", "streaks.h", "return now - rg_floor(now);", "return now;"),
     ("wind does not carry drops", "streaks.h", "drops_at(rg, i), p.fallen_x", "drops_at(rg, i), 0.0f"),
+)] + [Row(*row, ("../../device/device_suite ranges",)) for row in (
+    # what queries draw
+    ("queries begin at a primitive's number", RANGES, "first * vertices);", "first);"),
+    ("queries draw as many vertices as primitives", RANGES, "(before_at(rg, end) - first) * vertices", "before_at(rg, end) - first"),
+    ("queries draw what earlier ones drew, too", RANGES, "(before_at(rg, end) - first) * vertices", "before_at(rg, end) * vertices"),
+    ("the last query goes on beyond the draw", RANGES, "rg_imin(begin + p.chunks_a_query, p.chunks)", "begin + p.chunks_a_query"),
 )]
