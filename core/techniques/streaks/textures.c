@@ -20,7 +20,7 @@ static bool write_joined(struct rg_image *image, const struct rg_atlas *atlas,
     return ok;
 }
 
-static bool write_level(struct rg_image *image, const struct rg_atlas *atlas,
+static bool write_layer(struct rg_image *image, const struct rg_atlas *atlas,
                         enum rg_atlas_part part, int layer, int level)
 {
     const bool cells = part != RG_ATLAS_SPLASH && atlas->first_level + level < RG_ATLAS_CELL_LEVELS;
@@ -28,12 +28,30 @@ static bool write_level(struct rg_image *image, const struct rg_atlas *atlas,
                  : rg_image_write(image, layer, level, rg_atlas_texels(atlas, part, layer, level));
 }
 
-// The levels that a native device is given; its driver makes the others. The thesis takes four of
-// each streak from the database, and has the other eight generated (section 4.3.1).
+static bool write_level(struct rg_image *image, const struct rg_atlas *atlas,
+                        enum rg_atlas_part part, int level)
+{
+    bool ok = true;
+    for (int layer = 0; ok && layer < image->desc.layers; layer++)
+        ok = write_layer(image, atlas, part, layer, level);
+    return ok;
+}
+
+// The levels that a native device is given first; its driver makes the others. The thesis takes
+// four of each streak from the database, and has the other eight generated (section 4.3.1).
 static int given_levels(const struct rg_atlas *atlas, enum rg_atlas_part part)
 {
     const int given = RG_ATLAS_DATABASE_LEVELS - atlas->first_level;
     return part == RG_ATLAS_SPLASH || given < 1 ? 1 : given;
+}
+
+// Whether a texel of a level has four above it, whose mean every driver makes. Elsewhere the APIs
+// leave the filter open: a blit from three texels to one takes the middle one, in which a splash is
+// brighter than in the mean.
+static bool halves(const struct rg_image_desc *desc, int level)
+{
+    return rg_level_size(desc->width, level - 1) == 2 * rg_level_size(desc->width, level) &&
+           rg_level_size(desc->height, level - 1) == 2 * rg_level_size(desc->height, level);
 }
 
 static bool write_levels(struct rg_image *image, const struct rg_atlas *atlas,
@@ -43,10 +61,12 @@ static bool write_levels(struct rg_image *image, const struct rg_atlas *atlas,
     const bool makes = rg_image_makes_levels(image);
     const int given = makes ? given_levels(atlas, part) : desc->levels;
     bool ok = true;
-    for (int layer = 0; ok && layer < desc->layers; layer++)
-        for (int level = 0; ok && level < given; level++)
-            ok = write_level(image, atlas, part, layer, level);
-    return ok && (!makes || rg_image_make_levels(image, given));
+    for (int level = 0; ok && level < given; level++)
+        ok = write_level(image, atlas, part, level);
+    ok = ok && (!makes || rg_image_make_levels(image, given));
+    for (int level = given; ok && level < desc->levels; level++)
+        ok = halves(desc, level) || write_level(image, atlas, part, level);
+    return ok;
 }
 
 static struct rg_image *upload(struct rg_device *device, const struct rg_atlas *atlas,

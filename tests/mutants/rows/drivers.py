@@ -41,6 +41,7 @@ ROWS = [
     Fault(GL_SAMPLER, "GL_TEXTURE_MAG_FILTER, «GL_LINEAR»", "GL_NEAREST", "gl:native weighs no texels", tests=OF_SUITE_GL),
     Fault("backends/gl/image.c", "GL_TEXTURE_BASE_LEVEL, «first - 1»", "0", "gl:native makes levels that it was given", tests=OF_SUITE_GL),
     Fault("backends/vulkan/api/texels.c", "1, &blit, «VK_FILTER_LINEAR»", "VK_FILTER_NEAREST", "vulkan:native takes single texels for a level", tests=OF_SUITE_VK),
+    Fault("core/techniques/streaks/textures.c", "ok = «halves(desc, level)» || write_level(", "true", "vulkan:native makes a splash's last level of its middle column", tests=("streaks, levels, vulkan native",)),
     Fault("backends/gl/api/query.c", "glDrawArrays(GL_POINTS, items.first, «items.count»);", "1", "a query of gl:native draws one item", tests=OF_SUITE_GL),
     Fault(GL_SAMPLER, "wrap = «sampling == RG_SAMPLED_TILED» ?", "false", "gl:native repeats no texture", tests=OF_NATIVE),
     Fault(GL, "glFrontFace(«GL_CW»);", "GL_CCW", "gl:native culls front for back", tests=OF_NATIVE),
