@@ -8,26 +8,29 @@
 #define RG_KERNELS_SCENERY_TEXTURE_H
 
 // In all of these `texels` is the square of a pixel's width in texels of level 0.
-#if RG_NATIVE
-
-// The driver filters, between two levels too: a pixel's width lies between those of their texels.
-RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
-                           int last_level)
-{
-    float level = 0.5f * log2(rg_clamp(texels, 1.0f, 1e9f));
-    vec4 t = textureLod(textures_sampler, vec3(u, v, rg_to_float(layer)), level);
-    return rg_rgba(t.x * t.x, t.y * t.y, t.z * t.z, t.w);
-}
-
-#else
 
 // The nearest level: log2 of a pixel's width in texels of level 0, rounded, from the exponent of
-// twice its square.
+// twice its square. Only this level is read. A mix of two would make the whole scene take half as
+// long again, and the eye finds no edge between levels in these textures.
 RG_FN int scenery_texture_level(float texels, int last_level)
 {
     uint bits = rg_float_bits(rg_clamp(texels + texels, 1.0f, 1e9f)) - 0x3f800000u;
     return rg_imin(rg_to_int(bits >> 24), last_level);
 }
+
+#if RG_NATIVE
+
+// The driver filters, in the same level as elsewhere. Between two levels thin dark bars, such as
+// those of shop windows by night, would be sharper than in the nearest.
+RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
+                           int last_level)
+{
+    float level = rg_to_float(scenery_texture_level(texels, last_level));
+    vec4 t = textureLod(textures_sampler, vec3(u, v, rg_to_float(layer)), level);
+    return rg_rgba(t.x * t.x, t.y * t.y, t.z * t.z, t.w);
+}
+
+#else
 
 // Channels r and b in one word, g and a in another, each in 16 bits.
 RG_STRUCT(scenery_texel)
@@ -77,8 +80,6 @@ RG_FN scenery_texel scenery_texture_linear(rg_ctx rg, float u, float v, int size
     return scenery_texel_mix(above, below, down);
 }
 
-// Only the nearest level is read. A mix of two would make the whole scene take half as long again,
-// and the eye finds no edge between levels in these textures.
 RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
                            int last_level)
 {
