@@ -90,11 +90,17 @@ def check_few_samples(runner):
     """a quick cell has more than 6 samples where its frames are short, and 6 under RG_FEW_SAMPLES"""
     problems = []
     sweep = "sweep flow --axis resolution_px=32 --set environment=sky --set environment_px=16 --size 32x32 --device cpu --quick --json --fresh".split()
-    for value, wanted in ((None, range(7, 16)), ("1", (6,))):
-        run = runner.run(sweep, {"RG_FEW_SAMPLES": value})
-        counts = [len(cell["measured"]["samples_ms"]) for cell in json.loads(run.stdout)["cells"]]
-        if run.returncode or len(counts) != 1 or counts[0] not in wanted:
-            problems.append("%s: exit status %d, %s, %s" % (value, run.returncode, counts, run.stderr))
+    # On a busy machine frames may be long in a run, but hardly in five.
+    for value, wanted, tries in ((None, range(7, 16), 5), ("1", (6,), 1)):
+        told = []
+        for _ in range(tries):
+            run = runner.run(sweep, {"RG_FEW_SAMPLES": value})
+            counts = [len(cell["measured"]["samples_ms"]) for cell in json.loads(run.stdout)["cells"]]
+            if not run.returncode and len(counts) == 1 and counts[0] in wanted:
+                break
+            told.append("%s: exit status %d, %s, %s" % (value, run.returncode, counts, run.stderr))
+        else:
+            problems += told
     return problems
 
 
