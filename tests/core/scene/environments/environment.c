@@ -300,6 +300,33 @@ static void test_packed_faces_end_on_the_edges(void **state)
     rg_environment_destroy(environment);
 }
 
+// Stripes of one texel have no mean but between two: a map twice as large as wanted is halved, a
+// smaller one is not, and what was halved is halved on.
+static void test_a_map_twice_as_large_is_halved(void **state)
+{
+    (void)state;
+    enum { PX = 8 };
+    struct rg_environment *environment = rg_environment_create(2 * PX), *halved = NULL;
+    uint32_t texels[6 * PX * PX];
+    for (int i = 0; i < 6 * 2 * PX * 2 * PX; i++)
+        for (int c = 0; c < 3; c++)
+            rg_environment_texel(environment, i / (4 * PX * PX), i % (2 * PX),
+                                 i / (2 * PX) % (2 * PX))[c] = 2 * (i & 1);
+    assert_true(rg_environment_halve_to(environment, PX + 1, &halved));
+    assert_null(halved);
+    for (int px = PX; px >= PX / 2; px /= 2) {
+        assert_true(rg_environment_halve_to(environment, px, &halved));
+        assert_int_equal(halved->size, px);
+        assert_float_equal(rg_environment_texel(halved, 1, 2, 3)[0], 1, 0);
+    }
+    assert_true(rg_environment_pack(environment, PX, texels));
+    for (int i = 0; i < PX * PX; i++) // the borders between faces were not set
+        if (i % PX > 0 && i % PX < PX - 1 && i / PX > 0 && i / PX < PX - 1)
+            assert_below(fabs(red_of(texels[i]) - 1), 1.0 / 32);
+    rg_environment_destroy(halved);
+    rg_environment_destroy(environment);
+}
+
 // Along all 12 edges, texels on both sides are as near to the light as any within a face.
 static void test_light_is_smooth_across_edges(void **state)
 {
@@ -497,6 +524,7 @@ int main(void)
         cmocka_unit_test(test_seams_are_on_a_face),
         cmocka_unit_test(test_borders_come_from_the_neighbour),
         cmocka_unit_test(test_packed_faces_end_on_the_edges),
+        cmocka_unit_test(test_a_map_twice_as_large_is_halved),
         cmocka_unit_test(test_light_is_smooth_across_edges),
         cmocka_unit_test(test_a_disc_around_each_direction),
         cmocka_unit_test(test_a_lat_long_lies_as_it_should),

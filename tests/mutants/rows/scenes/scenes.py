@@ -104,6 +104,7 @@ ROWS = [
     Fault(CUBE, "const double s = «2 * (x + 0.5) / size - 1»;", "2.0 * x / size - 1", "texels of a cube are seen at their corners"),
     Fault(CUBE, "uint32_t packed = (bits - (112u << 23) «+ (noise & ((1u << dropped) - 1))») >> dropped;", "+ 0", "environments are cut off, not rounded"),
     Fault(CUBE, "texel[i] = 0.25f * ((top[i] + top[i + 3]) + («bottom[i]» + bottom[i + 3]));", "top[i]", "halving an environment leaves out a texel"),
+    Fault(CUBE, "while («(*halved ? *halved : environment)->size >= 2 * size_px») {", "(*halved ? *halved : environment)->size > 2 * size_px", "a map twice as large as wanted is not halved"),
     Fault(CUBE, "close_texel(environment, face, size, i);", "", "a border of an environment is open"),
     Fault(KTX, "if («h->faces != 6» || h->array_elements", "false", "a KTX file of one face is taken"),
     Fault(KTX, "if (fseek(file, (long)«header.key_value_bytes», SEEK_CUR)", "0", "a KTX file's notes are read as texels"),
