@@ -264,16 +264,16 @@ static double puddle_mean(int material, int frame)
 }
 
 // The brightest frame is as bright as due, and so is the first one.
-static void expect_splash(double (*mean_of)(int material, int frame), int material,
+static void expect_splash(double (*mean_in)(int material, int frame), int material,
                           double due_highest, double due_first)
 {
     double highest = 0;
     for (int frame = 0; frame < RG_ATLAS_FRAMES; frame++)
-        highest = fmax(highest, mean_of(material, frame));
-    const double first = mean_of(material, 0);
+        highest = fmax(highest, mean_in(material, frame));
+    const double first = mean_in(material, 0);
     if (!(fabs(highest / due_highest - 1) < 0.2 && fabs(first / due_first - 1) < 0.2))
         fail_msg("material %d: %g of the picture, and %g at first", material, highest, first);
-    assert_below(mean_of(material, RG_ATLAS_FRAMES - 1), 0.02 * highest);
+    assert_below(mean_in(material, RG_ATLAS_FRAMES - 1), 0.02 * highest);
 }
 
 // How bright clear water is: tests/core/scene/atlas/water.c holds its light to an oracle's.
