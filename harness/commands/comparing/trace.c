@@ -54,13 +54,8 @@ static bool write_trace(const struct trace_options *o, struct rg_trace *trace,
     const int count = trace->devices;
     for (int i = 0; i < count; i++)
         infos[i] = devices->devices[i]->info;
-    json_t *document = rg_trace_end(trace, infos, count);
-    if (!document)
-        return false;
-    char *text = json_dumps(document, JSON_COMPACT | RG_JSON_FLAGS);
-    json_decref(document);
-    const bool ok = text ? rg_output_write_file(o->output, text)
-                         : rg_harness_error("%s: no memory for its text", o->output);
+    char *text = rg_trace_end(trace, infos, count);
+    const bool ok = text && rg_output_write_file(o->output, text);
     free(text);
     if (ok)
         printf("%s: %d frames, and as many by pass, on %d device%s\n", o->output, o->frames, count,

@@ -20,8 +20,8 @@ void rg_trace_begin(struct rg_trace *trace);
 // track. False, and one logged line, if the device fails; what it did until then stays.
 bool rg_trace_device(struct rg_trace *trace, struct rg_device *device,
                      const struct rg_subject *subject, int frames);
-// The whole document, with the passport of the devices, and frees the trace. The caller frees it;
-// NULL, and one logged line, when memory ran out.
-json_t *rg_trace_end(struct rg_trace *trace, const struct rg_device_info *infos, int count);
+// The text of the document, with the passport of the devices, and frees the trace. The caller frees
+// it; NULL, and one logged line, when memory ran out.
+char *rg_trace_end(struct rg_trace *trace, const struct rg_device_info *infos, int count);
 
 #endif

@@ -67,7 +67,11 @@ def make(runner, files, *more, device="cpu", name="baseline.json"):
 def gate(runner, files, path, *more, env={}):
     """A gate without times, so that it gives the same every time, unless `more` has a budget or a margin."""
     args = list(more) if "--budget" in more or "--margin" in more else ["--pictures"] + list(more)
-    return runner.run(["gate", "--baseline", path, "--cells", files.cells, "--json"] + args, env)
+    for _ in range(4):  # a hypervisor may have taken its time from most launches
+        result = runner.run(["gate", "--baseline", path, "--cells", files.cells, "--json"] + args, env)
+        if not re.search("gave its time to others|of them disturbed", result.stdout):
+            break
+    return result
 
 
 def check_same(runner):

@@ -335,6 +335,7 @@ ROWS = [
     Fault(TRACE, "«2 * frames» && !rg_interrupted()", "frames", "a trace has half of its frames", tests=OF_FRAMES),
     Fault(TRACE, "const bool waits = «i % 2»;", "0", "no frame of a trace waits after its passes", tests=OF_FRAMES),
     Fault(TRACE, "trace->devices++;", ";", "all devices of a trace are one process", tests=OF_FRAMES),
+    Fault(TRACE, "json_dumps(document, «FLAGS»)", "JSON_COMPACT | JSON_REAL_PRECISION(9)", "a pass ends outside its frame once a trace has run for seconds", tests=("timelines",)),
     Fault(TRACE, "if («track != API_CLOCK || device->info.limits.has_clock»)", "true", "a device without a clock has a track for it", tests=OF_FRAMES),
     Fault(TRACE, "frames && «!rg_interrupted()»; i++)", "true", "an interrupted trace goes on", tests=OF_FRAMES),
     Fault(SEQUENCE, "const bool is_kept = «frame >= run->sequence->first»;", "frame > run->sequence->first", "the first frame of a sequence is left out", tests=OF_FRAMES),

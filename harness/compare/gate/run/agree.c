@@ -237,6 +237,11 @@ void rg_gate_advise(const struct rg_gate_row *row, const struct rg_timed_cell *t
         snprintf(agreement->message, RG_AGREEMENT_TEXT, "%s", timed->why);
         return;
     }
+    if (!row->decision.units) {
+        SAY(agreement, "advisory, and no time counts: %d launches, %d of them disturbed",
+            row->launches, row->disturbed);
+        return;
+    }
     for (int i = 0; i < RG_YARDSTICKS; i++) {
         const double slower = rg_launches_median(&now[i]) / rg_launches_median(&then[i]);
         const double ratio = row->decision.ratio / slower;
@@ -248,9 +253,7 @@ void rg_gate_advise(const struct rg_gate_row *row, const struct rg_timed_cell *t
                     "%s takes %.2f times as long: %.2f by it",
                     rg_yardstick_name((enum rg_yardstick)i), slower, ratio);
     }
-    if (!row->decision.units)
-        SAY(agreement, "advisory: no time was taken");
-    else if (most > 0)
+    if (most > 0)
         SAY(agreement,
             "advisory, for its key is another: a frame takes %.2f times as long (%.3g ms, %.3g ms "
             "in the baseline), and %.2f to %.2f times by the yardsticks",

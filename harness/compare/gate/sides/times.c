@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 #include "core/base/log.h"
 #include "core/base/stats.h"
@@ -206,6 +207,17 @@ static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions
     return true;
 }
 
+// Rests after disturbed launches, twice as long after each, up to a second. A hypervisor takes its
+// time in bursts, and launches of some milliseconds would all fall into one.
+static void rest(struct rg_gate_times *t, bool is_disturbed)
+{
+    t->rest_ms = !is_disturbed ? 0 : t->rest_ms ? fmin(2 * t->rest_ms, 1000) : 10;
+    const double left_ms = t->end_ms > 0 ? fmax(t->end_ms - rg_now_ms(), 0) : INFINITY;
+    const double ns = 1e6 * fmin(t->rest_ms, left_ms);
+    if (ns > 0)
+        nanosleep(&(struct timespec){(time_t)(ns / 1e9), (long)fmod(ns, 1e9)}, NULL);
+}
+
 static bool take(struct rg_gate_times *t, struct rg_timed_cell *timed, bool b_first,
                  struct rg_quads *quads)
 {
@@ -229,6 +241,8 @@ static bool take(struct rg_gate_times *t, struct rg_timed_cell *timed, bool b_fi
         rg_timed_cell_fails(timed);
     for (int side = 0; side < RG_SIDES; side++)
         rg_session_close(sessions[side]);
+    if (ok)
+        rest(t, quads->is_disturbed);
     timed->seconds += (rg_now_ms() - start_ms) / 1000;
     return ok && !rg_interrupted();
 }

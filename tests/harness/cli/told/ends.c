@@ -41,11 +41,11 @@ bool rg_trace_device(struct rg_trace *trace, struct rg_device *device,
     return does(device->info.name);
 }
 
-json_t *rg_trace_end(struct rg_trace *trace, const struct rg_device_info *infos, int count)
+char *rg_trace_end(struct rg_trace *trace, const struct rg_device_info *infos, int count)
 {
     asked_note("trace of %d, %s to %s; ", trace->devices, infos[0].name, infos[count - 1].name);
     json_decref(trace->events);
-    return json_pack("{sf}", "of", 1.0 / 3);
+    return strdup("{}");
 }
 
 bool rg_output_write_file(const char *path, const char *text)
@@ -109,7 +109,7 @@ static int begin(void **state)
 #define OPENED "memory 0; open all, require -, 120 s; "
 #define FIRST  "flow seed 1, 8x4, 4 frames on first; "
 #define SECOND "flow seed 1, 8x4, 4 frames on second; "
-#define WRITE  "write t.json: {\"of\":0.333333333}; close 2"
+#define WRITE  "write t.json: {}; close 2"
 #define TOLD   "t.json: 4 frames, and as many by pass, on 2 devices\n"
 
 // A device that fails takes no other with it. After an interruption what was traced is written.

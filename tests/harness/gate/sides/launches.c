@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 #include "core/base/log.h"
 #include "harness/compare/gate/sides/times.h"
@@ -104,6 +105,15 @@ struct rg_taken rg_taken_between(const struct rg_processors *before,
                                  const struct rg_processors *after)
 {
     return (struct rg_taken){.stolen = (after->stolen_ms - before->stolen_ms) / 1000, .others = 1};
+}
+
+// R: a rest.
+int nanosleep(const struct timespec *rest, struct timespec *left)
+{
+    (void)left;
+    note('R');
+    now_ms += 1e3 * (double)rest->tv_sec + 1e-6 * (double)rest->tv_nsec;
+    return 0;
 }
 
 // Y: a yardstick is taken.
@@ -257,6 +267,28 @@ static void a_launch_is_disturbed_by_another_machine(void **state)
     begin(true, 2, 2);
     stolen_ms = 51;
     assert_true(take(false).is_disturbed);
+}
+
+// What a launch rests: 10 ms to a second after disturbed ones, and never beyond the end.
+static void disturbed_launches_rest(void **state)
+{
+    (void)state;
+    static const double rests_ms[] = {10, 20, 40, 80, 160, 320, 640, 1000, 1000};
+    begin(true, 2, 2);
+    stolen_ms = 51;
+    for (size_t i = 0; i < sizeof(rests_ms) / sizeof(rests_ms[0]); i++) {
+        take(false);
+        assert_below(fabs(times.rest_ms - rests_ms[i]), 1e-9);
+        assert_non_null(strchr(events, 'R'));
+    }
+    stolen_ms = 0;
+    take(false);
+    assert_null(strchr(events, 'R'));
+    stolen_ms = 51;
+    times.rest_ms = 640;
+    times.end_ms = now_ms + 500;
+    take(false);
+    assert_below(fabs(now_ms - times.end_ms), 1e-6);
 }
 
 // --- launches ---
@@ -451,6 +483,7 @@ int main(void)
         cmocka_unit_test(a_launch_counts_the_medians_of_its_blocks),
         cmocka_unit_test(a_slot_counts_the_median_of_its_timings),
         cmocka_unit_test(a_launch_is_disturbed_by_another_machine),
+        cmocka_unit_test(disturbed_launches_rest),
         cmocka_unit_test(sides_take_turns_at_being_opened),
         cmocka_unit_test(a_side_alone_is_opened_by_its_first_row),
         cmocka_unit_test(a_side_that_falls_ends_all_rows_of_its_pair),

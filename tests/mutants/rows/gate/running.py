@@ -115,7 +115,7 @@ ROWS = [
     Fault(AGREE, "        if («!isfinite(ratio)»)\n", "false", "an unknown yardstick is told", tests=TWO),
     Fault(AGREE, "least = fmin(least, «ratio»);", "slower", "the least is of a yardstick's own time", tests=TWO),
     Fault(AGREE, "most = «fmax(most, ratio)»;", "ratio", "the most is the last yardstick's", tests=TWO),
-    Fault(AGREE, "    if («!row->decision.units»)\n", "false", "advice without a time tells one", tests=TWO),
+    Fault(AGREE, "    if («!row->decision.units») {", "false", "advice without a time tells one", tests=TWO),
     Fault(AGREE, "«row->b_ms.median», row->a_ms.median, least, most);", "row->a_ms.median", "a time of advice is the baseline's", tests=TWO),
     Fault(AGREE, "row->a_ms.median, least, «most»);", "least", "the most of advice is the least", tests=TWO),
     # --- results ---
@@ -261,6 +261,8 @@ ROWS = [
     Fault(FIXED, "json_pack(\"{sO?sO?sO?so}\", \"cpu\", «json_object_get(parts, \"cpu\")», \"features\",", "json_object_get(parts, \"features\")", "digests of another processor are compared (fixed.c, again)", tests=DRAWN),
     Fault(FIXED, "backend->fixed_draw && «rg_devices_choose_drivers(a, b)»;", "true", "two devices that run one driver have fixed functions", tests=DRAWN),
     # --- launches of a cell ---
+    Fault(TIMES, "!is_disturbed ? 0 : «t->rest_ms ? fmin(2 * t->rest_ms, 1000) : 10»;", "10", "a hypervisor's burst is all that a gate sees", tests=LAUNCH),
+    Fault(TIMES, "1e6 * «fmin(t->rest_ms, left_ms)»;", "t->rest_ms", "a gate rests beyond its budget's end", tests=LAUNCH),
     Fault(TIMES, "launch_ms * (launch < t->first_look ? «t->first_look - launch» : 1);", "t->first_look", "a look is expected after all launches anew", tests=LAUNCH + ("time of a gate",)),
     Fault(TIMES, "if (timed->is_over && «t->launch < t->first_look»)", "true", "a look that has passed is expected", tests=LAUNCH),
     Fault(TIMES, "fmax(«more_ms», now_ms - t->began_ms)));", "0", "a look is expected without the blocks that there was no room for", tests=LAUNCH),
