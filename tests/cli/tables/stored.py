@@ -83,11 +83,11 @@ def check_interrupted(runner):
         env = {"XDG_STATE_HOME": state}
         for place, more in ((tmp + "/out", "-o %s/out" % tmp), (state + "/raingauge", "")):
             first, status, messages = interrupt(runner, TWO_TABLES + more, env)
-            said = "\n".join(messages)
-            stopped = status == 130 and re.match(r"raingauge: (raster-1: interrupted|stuppacher-2: done, and then interrupted)", said)
-            # A busy machine may take more than a second to open raster-1.
-            away = status == -signal.SIGINT and said + "\n" == losses.AWAY
-            if len(messages) != 1 or not (stopped or away):
+            # A busy machine may take more than a second to open raster-1, or to end after the line that says so.
+            away = messages[-1:] == [losses.AWAY.rstrip()]
+            said = messages[:len(messages) - away]
+            stopped = len(said) == 1 and re.match(r"raingauge: (raster-1: interrupted|stuppacher-2: done, and then interrupted)", said[0])
+            if status != (-signal.SIGINT if away else 130) or not (stopped or (away and not said)):
                 problems.append("exit status %d, stderr: %s" % (status, messages))
             if "## raster-1" in first or not first.startswith("## stuppacher-2"):
                 problems.append("printed, interrupted:\n" + first)

@@ -207,15 +207,19 @@ static bool time_launch(struct rg_timed_cell *timed, struct rg_session *sessions
     return true;
 }
 
-// Rests after disturbed launches, twice as long after each, up to a second. A hypervisor takes its
-// time in bursts, and launches of some milliseconds would all fall into one.
+// Rests once several launches after each other were disturbed, twice as long after each, up to a
+// second. A hypervisor takes its time in bursts, and launches of some milliseconds would all fall
+// into one.
 static void rest(struct rg_gate_times *t, bool is_disturbed)
 {
-    t->rest_ms = !is_disturbed ? 0 : t->rest_ms ? fmin(2 * t->rest_ms, 1000) : 10;
+    enum { BEFORE = 8, MOST = 7 };
+    t->disturbed = is_disturbed ? t->disturbed + 1 : 0;
+    if (t->disturbed <= BEFORE)
+        return;
+    const int doubled = t->disturbed - BEFORE - 1;
     const double left_ms = t->end_ms > 0 ? fmax(t->end_ms - rg_now_ms(), 0) : INFINITY;
-    const double ns = 1e6 * fmin(t->rest_ms, left_ms);
-    if (ns > 0)
-        nanosleep(&(struct timespec){(time_t)(ns / 1e9), (long)fmod(ns, 1e9)}, NULL);
+    const double ms = fmin(doubled < MOST ? 10 << doubled : 1000, left_ms);
+    nanosleep(&(struct timespec){(time_t)(ms / 1e3), (long)(1e6 * fmod(ms, 1e3))}, NULL);
 }
 
 static bool take(struct rg_gate_times *t, struct rg_timed_cell *timed, bool b_first,

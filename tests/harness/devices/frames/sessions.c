@@ -231,8 +231,8 @@ static void settings_arrive_as_they_are(void **state)
 {
     (void)state;
     static const char *const rains[] = {
-        "spectrum=off drops_m2_s=20 atlas=small geometry=off seed=7",
-        "kept_share=0.001 atlas=small geometry=off seed=7"};
+        "spectrum=off drops_m2_s=20 atlas=small city=small depth_map_px=128 geometry=off seed=7",
+        "kept_share=0.001 atlas=small city=small depth_map_px=128 geometry=off seed=7"};
     for (int rain = 0; rain < 2; rain++) {
         struct pair pair = open_pair("streaks", rains[rain], FRAMES);
         size_t sizes[2];

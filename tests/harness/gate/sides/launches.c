@@ -20,6 +20,7 @@ enum { MOST_EVENTS = 4096 };
 static double now_ms, frame_ms[RG_SIDES];
 static double grows_ms[RG_SIDES];   // by which a side's frame is longer than its last timing's
 static double stolen_ms;            // that the machine takes while a launch is timed
+static double rested_ms;            // the last rest
 static bool few;                    // the user asks for few timings
 static const char *falls, *refuses; // the side that does not start, or opens no cell
 static int fails_at,
@@ -107,12 +108,11 @@ struct rg_taken rg_taken_between(const struct rg_processors *before,
     return (struct rg_taken){.stolen = (after->stolen_ms - before->stolen_ms) / 1000, .others = 1};
 }
 
-// R: a rest.
 int nanosleep(const struct timespec *rest, struct timespec *left)
 {
     (void)left;
-    note('R');
-    now_ms += 1e3 * (double)rest->tv_sec + 1e-6 * (double)rest->tv_nsec;
+    rested_ms = 1e3 * (double)rest->tv_sec + 1e-6 * (double)rest->tv_nsec;
+    now_ms += rested_ms;
     return 0;
 }
 
@@ -269,26 +269,28 @@ static void a_launch_is_disturbed_by_another_machine(void **state)
     assert_true(take(false).is_disturbed);
 }
 
-// What a launch rests: 10 ms to a second after disturbed ones, and never beyond the end.
+// After eight disturbed launches, each is followed by a rest of 10 ms to a second, which never goes
+// beyond the end.
 static void disturbed_launches_rest(void **state)
 {
     (void)state;
-    static const double rests_ms[] = {10, 20, 40, 80, 160, 320, 640, 1000, 1000};
+    static const double rests_ms[] = {0,  0,  0,  0,   0,   0,   0,    0,   10,
+                                      20, 40, 80, 160, 320, 640, 1000, 1000};
     begin(true, 2, 2);
     stolen_ms = 51;
     for (size_t i = 0; i < sizeof(rests_ms) / sizeof(rests_ms[0]); i++) {
+        rested_ms = 0;
         take(false);
-        assert_below(fabs(times.rest_ms - rests_ms[i]), 1e-9);
-        assert_non_null(strchr(events, 'R'));
+        assert_below(fabs(rested_ms - rests_ms[i]), 1e-9);
     }
-    stolen_ms = 0;
-    take(false);
-    assert_null(strchr(events, 'R'));
-    stolen_ms = 51;
-    times.rest_ms = 640;
     times.end_ms = now_ms + 500;
     take(false);
     assert_below(fabs(now_ms - times.end_ms), 1e-6);
+    stolen_ms = rested_ms = times.end_ms = 0;
+    take(false);
+    stolen_ms = 51;
+    take(false);
+    assert_equals(rested_ms, 0);
 }
 
 // --- launches ---

@@ -261,8 +261,9 @@ ROWS = [
     Fault(FIXED, "json_pack(\"{sO?sO?sO?so}\", \"cpu\", «json_object_get(parts, \"cpu\")», \"features\",", "json_object_get(parts, \"features\")", "digests of another processor are compared (fixed.c, again)", tests=DRAWN),
     Fault(FIXED, "backend->fixed_draw && «rg_devices_choose_drivers(a, b)»;", "true", "two devices that run one driver have fixed functions", tests=DRAWN),
     # --- launches of a cell ---
-    Fault(TIMES, "!is_disturbed ? 0 : «t->rest_ms ? fmin(2 * t->rest_ms, 1000) : 10»;", "10", "a hypervisor's burst is all that a gate sees", tests=LAUNCH),
-    Fault(TIMES, "1e6 * «fmin(t->rest_ms, left_ms)»;", "t->rest_ms", "a gate rests beyond its budget's end", tests=LAUNCH),
+    Fault(TIMES, "fmin(«doubled < MOST ? 10 << doubled : 1000», left_ms);", "10", "a hypervisor's burst is all that a gate sees", tests=LAUNCH),
+    Fault(TIMES, "«is_disturbed ? t->disturbed + 1 : 0»;", "t->disturbed + is_disturbed", "a gate rests after launches that count", tests=LAUNCH),
+    Fault(TIMES, "doubled : 1000, «left_ms»);", "INFINITY", "a gate rests beyond its budget's end", tests=LAUNCH),
     Fault(TIMES, "launch_ms * (launch < t->first_look ? «t->first_look - launch» : 1);", "t->first_look", "a look is expected after all launches anew", tests=LAUNCH + ("time of a gate",)),
     Fault(TIMES, "if (timed->is_over && «t->launch < t->first_look»)", "true", "a look that has passed is expected", tests=LAUNCH),
     Fault(TIMES, "fmax(«more_ms», now_ms - t->began_ms)));", "0", "a look is expected without the blocks that there was no room for", tests=LAUNCH),
