@@ -113,7 +113,7 @@ ROWS = [
     Fault(MERGE, "place = 1 + i + («is_fixed ? count : 0»);", "0", "fixed functions stand between cells", tests=RECORDS),
     Fault(MERGE, "rg_gate_case_name(«is_fixed ? RG_GATE_FIXED : result->cell», result->device);", "result->cell", "a fixed function has no place", tests=RECORDS),
     Fault(MERGE, "return x->place != y->place ? «(x->place > y->place) - (x->place < y->place)»\n", "0", "results stand in the shards' order", tests=RECORDS),
-    Fault(MERGE, ".driver = «json_string_value(json_object_get(found, \"driver\"))»,", "text_of(found, \"driver\")", "a device that told no driver has one without a name", tests=RECORDS),
+    Fault(MERGE, ".driver = «json_string_value(json_object_get(found, \"driver\"))»,", "rg_json_text_of(found, \"driver\")", "a device that told no driver has one without a name", tests=RECORDS),
     Fault(MERGE, ".pixels = «rg_json_number_of(found, \"pixels\")»,", "rg_json_number_of(found, \"difference\")", "a shard's pixels are its difference", tests=RECORDS),
     Fault(MERGE, ".is_foreign = «json_is_true(json_object_get(found, \"foreign\"))»};", "false", "a shard's device is blamed for another's failure", tests=RECORDS),
     Fault(MERGE, "        gate->beyond = «rg_exit_worse(gate->beyond, rg_exit_of_record(exit))»;", "rg_exit_of_record(exit)", "a gate ends as its last shard", tests=RECORDS + ("shards of a gate",)),
