@@ -96,6 +96,11 @@ def bounds(how):
     return ["--memory", "1GiB", "--timeout", "10" if how == "hang" else "100"]
 
 
+def compile_once(runner, command):
+    """Has drivers compile and keep what a command runs: else several would at the same time, and for longer than a hang may take."""
+    runner.run(command.split())
+
+
 def one_of_each_way(turn):
     """A case of each way, each on another API, beginning with another API each turn."""
     apis = ("vulkan", "gl", "opencl")
@@ -155,6 +160,7 @@ def problems_of(runner, command, case):
 
 def check_comparisons(runner):
     """diff keeps the pairs of every other device, in whatever way a device of any API misbehaves"""
+    compile_once(runner, COMMANDS["diff"])
     return side_by_side(lambda case: problems_of(runner, "diff", case), CASES)
 
 
@@ -165,6 +171,7 @@ def check_commands(runner):
     """doctor, table and verify do the same, in one way each, and sweep in all"""
     asked = list(zip(SLOW, [("gl", "glDispatchCompute", "fault", 3), ("vulkan", "vkQueueSubmit", "exit", 0), ("opencl", "clEnqueueNDRangeKernel", "lost", 2)]))
     asked += [("sweep", case) for case in one_of_each_way(0)]
+    compile_once(runner, COMMANDS["sweep"])
     return side_by_side(lambda pair: problems_of(runner, *pair), asked)
 
 
@@ -188,6 +195,7 @@ def problems_alone(runner, case):
 
 def check_alone(runner):
     """render on a device that crashes fails, with one line, and writes nothing"""
+    compile_once(runner, "diff flow --frame 2 --device gl,vulkan,opencl " + SMALL)
     return side_by_side(lambda case: problems_alone(runner, case), one_of_each_way(1))
 
 

@@ -294,7 +294,7 @@ bool rg_gate_case_tell(const struct rg_gate_case *c, const struct rg_gate_reques
                                   .attachment_count =
                                       c->agreement.has_pictures ? RG_GATE_PICTURES : 0,
                                   RG_UNMEASURED};
-    for (int i = 0; i < told.attachment_count; i++) {
+    for (int i = 0; i < RG_GATE_PICTURES && c->agreement.has_pictures; i++) {
         rg_gate_picture_path(request->pictures, c->name, i, paths[i]);
         pictures[i] = paths[i];
     }
