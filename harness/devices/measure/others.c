@@ -24,7 +24,7 @@ static bool is_allowed(const cpu_set_t *allowed, int processor)
     return processor >= 0 && processor < CPU_SETSIZE && CPU_ISSET(processor, allowed);
 }
 
-// Adds a processor's line. Linux counts idle time exactly and prints whole ticks.
+// Adds a processor's line. Linux counts idle and stolen time exactly and prints whole ticks.
 static void add_processor(struct rg_processors *now, const double ticks[FIELDS], double tick_ms)
 {
     now->count++;
@@ -137,7 +137,7 @@ struct rg_taken rg_taken_between(const struct rg_processors *before,
     struct rg_taken taken = {0};
     if (!before->count || before->count != after->count || !(all_ms > 0))
         return taken;
-    taken.stolen = fmin(fmax(stolen_ms / all_ms, 0), 1);
+    taken.stolen = fmin(fmax((stolen_ms - after->grain_ms) / all_ms, 0), 1);
     taken.others = others_ms > 0 ? fmin(others_ms / all_ms, 1) : 0; // NAN: nothing is known
     if (ran_ms + waited_ms > 0)
         taken.others = fmin(taken.others, waited_ms / (ran_ms + waited_ms));

@@ -11,18 +11,18 @@ struct rg_processors {
     double at_ms; // by rg_now_ms
     double idle_ms, stolen_ms;
     double own_ms;   // of this process and of `ours`
-    double grain_ms; // precision of idle_ms
+    double grain_ms; // precision of idle_ms and of stolen_ms
     // Time of the threads of `ours`: on a processor, and ready to run without one. Zeros if there
     // are none, or if Linux keeps no such statistics.
     double ran_ms, waited_ms;
 };
 
-// Shares of the processors' time, 0 to 1.
+// Shares of the processors' time, 0 to 1: at least this much, for time within the precision does
+// not count. A launch of some milliseconds else lost a tenth of its time to a single tick.
 struct rg_taken {
     double stolen; // by other machines
-    double others; // by other programs, at least this much: time within the precision does not
-                   // count. At most the share of their time that our threads waited: a program on a
-                   // core that they leave idle disturbs nothing
+    double others; // by other programs; at most the share of their time that our threads waited: a
+                   // program on a core that they leave idle disturbs nothing
 };
 
 // Reads the processors from `root`/proc/stat: "" for this machine, or a folder with a copy in

@@ -23,6 +23,7 @@ ROWS = [
     Fault(OTHERS, "now->idle_ms += («ticks[IDLE] + ticks[IOWAIT]») * tick_ms;", "ticks[IDLE]", "a processor that waits for a disk is busy"),
     Fault(OTHERS, "? «(double)NAN» : process_ms(clock);", "0.0", "a process of ours that has gone counts as another's"),
     Fault(OTHERS, "stolen_ms «- own_ms» - after->grain_ms;", "", "what raingauge does itself counts as others'"),
+    Fault(OTHERS, "(stolen_ms «- after->grain_ms») / all_ms, 0), 1);", "", "a tick of a hypervisor's disturbs a launch of some milliseconds", tests=OF_OTHERS),
     Fault(OTHERS, "- own_ms «- after->grain_ms»;", "", "what Linux rounds away counts as others'"),
     Fault(OTHERS, "return probe_ms > 0 && «share > RG_MOST_TAKEN» ? share : 0;", "false", "a busy machine is not told"),
     Fault(PROLOGUE, "    return «times <= 0» ||", "true", "a hot machine takes cells", tests=("others",)),

@@ -169,10 +169,13 @@ static void test_taken(void **state)
     after.own_ms = 200;
     after.stolen_ms = 100;
     const struct rg_taken taken = rg_taken_between(&before, &after);
-    assert_ms(taken.stolen, 0.1);
-    assert_ms(taken.others, 0.4); // less the grain
-    after.idle_ms = 795;          // less than the grain counts as none
+    assert_ms(taken.stolen, 0.09); // both less the grain
+    assert_ms(taken.others, 0.4);
+    after.idle_ms = 795; // no more than the grain counts as none
+    after.stolen_ms = 10;
     assert_equals(rg_taken_between(&before, &after).others, 0);
+    assert_equals(rg_taken_between(&before, &after).stolen, 0);
+    after.stolen_ms = 100;
     after.idle_ms = 0;
     after.own_ms = NAN; // a process of ours has ended
     assert_equals(rg_taken_between(&before, &after).others, 0);
