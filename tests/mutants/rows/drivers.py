@@ -130,7 +130,7 @@ ROWS = [
     Fault(SECTIONS, "beyond->count > 0 &&\n            «beyond->count <= faults[i].most»)", "true", "a known fault explains any number of values", tests=OF_BOUNDS),
     Fault(SECTIONS, "«!strcmp(beyond->part, faults[i].part)» &&", "true", "a known fault explains a picture of another size", tests=OF_BOUNDS),
     Fault("shaders/fixed/bounds/decode.c", "code + «(i < 2 ? 0 : MIXED_ERROR * fabs(second[c] - first[c]))»;", "0", "a GPU that mixes BC1's green in fewer bits fails", tests=OF_BOUNDS),
-    Fault(SECTIONS, "«strstr(device, faults[i].device)» &&", "true", "a known fault is of every driver", tests=OF_BOUNDS),
+    Fault(SECTIONS, "«strstr(device, faults[i].device)» &&", "device", "a known fault is of every driver", tests=OF_BOUNDS),
     Fault(CORNERS, "return sum * 0.125 «+ 0.25»;", "+ 0", "vertex formats are too dark in bounds", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault(SHADE, "    case RG_FIXED_FRAGMENT_FLAT:\n        «flat(f, out);»", "colour(f, out);", "flat colours are smooth in bounds", tests=OF_FIXED_GL + OF_FIXED_VK),
     Fault(SCENE, "const int from = «scissor[c]», to", "0", "scissors are ignored in bounds", tests=OF_FIXED_GL + OF_FIXED_VK),
