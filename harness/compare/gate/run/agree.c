@@ -238,8 +238,11 @@ void rg_gate_advise(const struct rg_gate_row *row, const struct rg_timed_cell *t
         return;
     }
     if (!row->decision.units) {
-        SAY(agreement, "advisory, and no time counts: %d launches, %d of them disturbed",
-            row->launches, row->disturbed);
+        if (row->launches)
+            SAY(agreement, "advisory, and no time counts: of %d launches %d were disturbed",
+                row->launches, row->disturbed);
+        else
+            SAY(agreement, "advisory: no time was taken");
         return;
     }
     for (int i = 0; i < RG_YARDSTICKS; i++) {

@@ -54,7 +54,7 @@ struct rg_gate_times {
     int launch;               // number in the course
     bool is_launched, failed; // whether the sides have been launched, and whether one failed to
     double began_ms;          // when they were
-    int disturbed;            // launches of cells, up to the last one without a break
+    int disturbed;            // how many of the last launches in a row were
     double look_ms;           // when the first look is to be expected
 };
 

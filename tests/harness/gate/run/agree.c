@@ -436,7 +436,12 @@ static void advice_tells_the_time_by_each_yardstick(void **state)
     agreement = (struct rg_agreement){.message = ""};
     rg_gate_advise(&row, &timed, then, now, &agreement);
     assert_string_equal(agreement.message,
-                        "advisory, and no time counts: 40 launches, 33 of them disturbed");
+                        "advisory, and no time counts: of 40 launches 33 were disturbed");
+    assert_string_equal(agreement.details, "");
+    row.launches = 0;
+    agreement = (struct rg_agreement){.message = ""};
+    rg_gate_advise(&row, &timed, then, now, &agreement);
+    assert_string_equal(agreement.message, "advisory: no time was taken");
     assert_string_equal(agreement.details, "");
     timed = (struct rg_timed_cell){.outcome = RG_CRASH, .is_ours = true, .why = "it fell"};
     rg_gate_advise(&row, &timed, then, now, &agreement);

@@ -115,6 +115,7 @@ ROWS = [
     Fault(AGREE, "        if («!isfinite(ratio)»)\n", "false", "an unknown yardstick is told", tests=TWO),
     Fault(AGREE, "least = fmin(least, «ratio»);", "slower", "the least is of a yardstick's own time", tests=TWO),
     Fault(AGREE, "most = «fmax(most, ratio)»;", "ratio", "the most is the last yardstick's", tests=TWO),
+    Fault(AGREE, "        if («row->launches»)\n", "true", "advice without a launch tells disturbed ones", tests=TWO),
     Fault(AGREE, "    if («!row->decision.units») {", "false", "advice without a time tells one", tests=TWO),
     Fault(AGREE, "«row->b_ms.median», row->a_ms.median, least, most);", "row->a_ms.median", "a time of advice is the baseline's", tests=TWO),
     Fault(AGREE, "row->a_ms.median, least, «most»);", "least", "the most of advice is the least", tests=TWO),
