@@ -12,12 +12,6 @@
 #include "harness/record/named.h"
 #include "harness/record/passport/passport.h"
 
-static const char *text_of(const json_t *row, const char *key)
-{
-    const char *text = json_string_value(json_object_get(row, key));
-    return text ? text : "";
-}
-
 // --- drawing ---
 
 static enum rg_outcome note_failure(struct rg_device *device, json_t *row)
@@ -149,10 +143,12 @@ json_t *rg_doctor_fixed_passport(const json_t *devices, const struct rg_device_i
         json_t *digests = json_object();
         json_array_foreach(json_object_get(device, "draws"), d, draw)
         {
-            if (!strcmp(text_of(draw, "status"), "ok"))
-                json_object_set(digests, text_of(draw, "feature"), json_object_get(draw, "digest"));
+            if (!strcmp(rg_json_text_of(draw, "status"), "ok"))
+                json_object_set(digests, rg_json_text_of(draw, "feature"),
+                                json_object_get(draw, "digest"));
         }
-        rg_fixed_put(passport, text_of(device, "name"), json_object_size(digests) ? digests : NULL);
+        rg_fixed_put(passport, rg_json_text_of(device, "name"),
+                     json_object_size(digests) ? digests : NULL);
         json_decref(digests);
     }
     return passport;
@@ -166,22 +162,24 @@ static int count_with(const json_t *draws, const char *key, const char *text)
     json_t *draw;
     int found = 0;
     json_array_foreach(draws, i, draw) found +=
-        json_object_get(draw, key) && (!text || !strcmp(text_of(draw, key), text));
+        json_object_get(draw, key) && (!text || !strcmp(rg_json_text_of(draw, key), text));
     return found;
 }
 
 static void print_draw(const json_t *draw)
 {
-    const char *status = text_of(draw, "status");
-    const char *bounds = text_of(draw, "bounds"), *known = text_of(draw, "known");
+    const char *status = rg_json_text_of(draw, "status");
+    const char *bounds = rg_json_text_of(draw, "bounds"), *known = rg_json_text_of(draw, "known");
     if (!strcmp(status, "ok"))
-        printf("  %-26s %s  %s%s\n", text_of(draw, "feature"), text_of(draw, "digest"),
+        printf("  %-26s %s  %s%s\n", rg_json_text_of(draw, "feature"),
+               rg_json_text_of(draw, "digest"),
                *known                    ? "known fault: "
                : !strcmp(bounds, "none") ? "no bounds"
                                          : "within bounds",
                known);
     else
-        printf("  %-26s %s: %s\n", text_of(draw, "feature"), status, text_of(draw, "why"));
+        printf("  %-26s %s: %s\n", rg_json_text_of(draw, "feature"), status,
+               rg_json_text_of(draw, "why"));
 }
 
 void rg_doctor_fixed_print(const json_t *devices)
@@ -205,16 +203,16 @@ void rg_doctor_fixed_print(const json_t *devices)
         if (all)
             printf("%s: %d draws of fixed functions, %d unsupported, %d fail%s; %d of %d closed "
                    "cases hold; in %.0f ms\n",
-                   text_of(device, "name"), all, unsupported, all - ok - unsupported - lacking,
-                   told, count_with(closed, "status", "ok"), (int)json_array_size(closed),
-                   json_real_value(json_object_get(device, "ms")));
+                   rg_json_text_of(device, "name"), all, unsupported,
+                   all - ok - unsupported - lacking, told, count_with(closed, "status", "ok"),
+                   (int)json_array_size(closed), json_real_value(json_object_get(device, "ms")));
         else
-            printf("%s: %s: %s\n", text_of(device, "name"), text_of(device, "status"),
-                   text_of(device, "why"));
+            printf("%s: %s: %s\n", rg_json_text_of(device, "name"),
+                   rg_json_text_of(device, "status"), rg_json_text_of(device, "why"));
         json_array_foreach(draws, d, draw) print_draw(draw);
         json_array_foreach(closed, d, draw)
         {
-            if (strcmp(text_of(draw, "status"), "ok") != 0)
+            if (strcmp(rg_json_text_of(draw, "status"), "ok") != 0)
                 print_draw(draw);
         }
     }
