@@ -7,6 +7,9 @@
 #include "core/image/files/format.h"
 #include "core/image/reader/reply.h"
 
+// Initializers of newer OpenEXR name the first field alone.
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+
 // State of reading one file, for OpenEXRCore's callbacks and the loop over chunks.
 struct exr_job {
     exr_context_t exr;
