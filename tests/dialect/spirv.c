@@ -1,14 +1,12 @@
 #include "tests/dialect/spirv.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
+#include <spirv-tools/libspirv.h> // defines a variable: one file of a program can include it
+#include <spirv/unified1/spirv.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
-#include <cmocka.h>
-#include <spirv-tools/libspirv.h> // defines a variable: one file of a program can include it
-#include <spirv/unified1/spirv.h>
+#include "tests/tools/expect.h"
 
 const struct spirv_stage spirv_stages[SPIRV_STAGES] = {
     {RG_CODE_SPIRV, RG_CODE_GLSL, "compute", false},
@@ -26,7 +24,7 @@ struct rg_kernel_code spirv_code(const struct rg_kernel *kernel, enum rg_code_ki
     enum { MOST_KERNELS = 1000 };
     static struct rg_kernel_code all[MOST_KERNELS][RG_CODE_COUNT];
     const int index = rg_kernel_index(kernel);
-    assert_in_range(index, 0, MOST_KERNELS - 1);
+    assert_between(index, 0, MOST_KERNELS - 1);
     struct rg_kernel_code *code = &all[index][kind];
     if (!code->bytes)
         assert_true(rg_embedded_code(&kernel->code[kind], kernel->name, code));

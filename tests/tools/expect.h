@@ -25,6 +25,11 @@
 // At most so far apart. With a NaN, or two infinities, it fails.
 #define assert_near(a, b, within) rg_near((a), (b), (within), #a, __FILE__, __LINE__)
 
+// From the least to the greatest value, both included.
+#define assert_between(a, least, greatest)                                                         \
+    rg_between((long double)(a), (long double)(least), (long double)(greatest), #a, __FILE__,      \
+               __LINE__)
+
 #define RG_EXPECT(a, order, b)                                                                     \
     rg_expect((long double)(a), order, (long double)(b), #a " " order " " #b, __FILE__, __LINE__)
 
@@ -49,6 +54,15 @@ static inline void rg_near(double a, double b, double within, const char *text, 
     if (fabs(a - b) <= within)
         return;
     print_error("%s: %.17g is not within %g of %.17g\n", text, a, within, b);
+    _fail(file, line);
+}
+
+static inline void rg_between(long double a, long double least, long double greatest,
+                              const char *text, const char *file, int line)
+{
+    if (a >= least && a <= greatest)
+        return;
+    print_error("%s: %.19Lg is not from %.19Lg to %.19Lg\n", text, a, least, greatest);
     _fail(file, line);
 }
 

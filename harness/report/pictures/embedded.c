@@ -19,7 +19,7 @@
 
 enum { MOST_BYTES = 16 << 20 }; // of one picture
 
-static const char png_begins[8] = "\x89PNG\r\n\x1a\n";
+static const unsigned char png_begins[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 // Writes `size` bytes as base64, followed by a zero.
 static void encode(const unsigned char *bytes, size_t size, char *text)

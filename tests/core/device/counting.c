@@ -1,15 +1,12 @@
 // How core/device splits a run into parts, and what it counts, on a device that notes its calls.
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "core/device/limits.h"
 #include "kernels/probe/copy_params.h"
+#include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"
 
 enum { WIDTH = 21, HEIGHT = 5, DEPTH = 3 };
@@ -26,9 +23,9 @@ static bool note_run(struct rg_pass *pass, const struct rg_run *run)
             for (int x = 0; x < run->extent.width; x++) {
                 const struct rg_extent at = {run->origin.width + x, run->origin.height + y,
                                              run->origin.depth + z};
-                assert_in_range(at.width, 100, 100 + WIDTH - 1);
-                assert_in_range(at.height, 200, 200 + HEIGHT - 1);
-                assert_in_range(at.depth, 300, 300 + DEPTH - 1);
+                assert_between(at.width, 100, 100 + WIDTH - 1);
+                assert_between(at.height, 200, 200 + HEIGHT - 1);
+                assert_between(at.depth, 300, 300 + DEPTH - 1);
                 seen[at.depth - 300][at.height - 200][at.width - 100]++;
             }
     return true;

@@ -140,7 +140,7 @@ static void check_chunks(const struct city_faces *f)
     for (int i = 0; i < f->chunk_count; i++) {
         const struct city_chunk *chunk = &f->chunks[i];
         assert_int_equal(chunk->first, next);
-        assert_in_range(chunk->count, 1, CITY_CHUNK_FACES);
+        assert_between(chunk->count, 1, CITY_CHUNK_FACES);
         next += chunk->count;
         for (int k = 0; k < 4 * chunk->count; k++) {
             const float *p = corner(f, chunk->first + k / 4, k % 4);
@@ -262,7 +262,7 @@ static void no_wall_is_seen_from_behind(void **state)
             sky += met == 0 ? 1 : 0;
         }
         assert_int_equal(behind, 0);
-        assert_in_range(sky, rays / 50, rays / 2);
+        assert_between(sky, rays / 50, rays / 2);
         city_destroy(city);
     }
 }
@@ -382,7 +382,7 @@ static void textures_are_painted(void **state)
             assert_int_not_equal(sums[i], sums[k]);
     }
     // About a tenth of the texels of the 96 facades are lit.
-    assert_in_range(lit, 96 * 64 * 64 / 20, 96 * 64 * 64 / 3);
+    assert_between(lit, 96 * 64 * 64 / 20, 96 * 64 * 64 / 3);
     city_painter_destroy(painter);
 }
 

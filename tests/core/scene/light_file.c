@@ -353,7 +353,7 @@ static void lamps_have_real_strengths(void **state)
     for (int i = 0; i < 5; i++) {
         const struct rg_light light = only_light(due[i].kind);
         print_message("kind %d: %.0f cd\n", (int)due[i].kind, cd * luminance(light.colour));
-        assert_in_range(cd * luminance(light.colour), due[i].low_cd, due[i].high_cd);
+        assert_between(cd * luminance(light.colour), due[i].low_cd, due[i].high_cd);
     }
     // Rain 2 m before a sign, whose light is half a metre behind it, and 3.5 m below a lamp.
     const double sign_cd = cd * luminance(only_light(CITY_SIGN).colour);

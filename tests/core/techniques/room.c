@@ -165,7 +165,7 @@ static void files_take_what_they_are_said_to_take(void **state)
             if (file.st_size < said || file.st_size > 20 * said)
                 print_message("%s %s: %lld said, %lld taken\n", s->technique, paths[p],
                               (long long)said, (long long)file.st_size);
-            assert_in_range(file.st_size, said, 20 * said);
+            assert_between(file.st_size, said, 20 * said);
         }
         rg_picture_destroy(&picture);
         rg_instance_close(instance);

@@ -306,7 +306,7 @@ static void test_cut(void **state)
         assert_true(rg_farm_cut(&plan, shards, again, NULL));
         assert_memory_equal(shard_of, again, (size_t)count * sizeof(*again));
         for (int g = 0; g < count; g++) {
-            assert_in_range(shard_of[g], 1, shards);
+            assert_between(shard_of[g], 1, shards);
             taken[shard_of[g] - 1] += plan.groups[g].seconds;
             most = fmax(most, plan.groups[g].seconds);
         }

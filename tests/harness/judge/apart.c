@@ -299,8 +299,8 @@ static void test_same(void **state)
     for (enum noise noise = 0; noise < NOISES; noise++) {
         int counts[4];
         count_verdicts(noise, 1, 0.02, counts);
-        assert_in_range(counts[RG_TWO_REGRESSED] + counts[RG_TWO_IMPROVED], 0, 1);
-        assert_in_range(counts[RG_TWO_PASS], noise == LINKED ? 360 : 380, 400);
+        assert_between(counts[RG_TWO_REGRESSED] + counts[RG_TWO_IMPROVED], 0, 1);
+        assert_between(counts[RG_TWO_PASS], noise == LINKED ? 360 : 380, 400);
     }
 }
 
@@ -312,9 +312,9 @@ static void test_slower(void **state)
     for (enum noise noise = 0; noise < LINKED; noise++) {
         int counts[4];
         count_verdicts(noise, 1.15, 0, counts);
-        assert_in_range(counts[RG_TWO_REGRESSED], 398, 400);
+        assert_between(counts[RG_TWO_REGRESSED], 398, 400);
         count_verdicts(noise, 1 / 1.15, 0, counts);
-        assert_in_range(counts[RG_TWO_IMPROVED], 398, 400);
+        assert_between(counts[RG_TWO_IMPROVED], 398, 400);
     }
 }
 

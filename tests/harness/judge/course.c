@@ -108,8 +108,8 @@ static void test_orders(void **state)
         assert_int_equal(found[row].decision.verdict, RG_TWO_INCONCLUSIVE);
         assert_int_equal(found[row].end, RG_END_LOOKS);
         assert_int_equal(s.taken[row], 256);
-        assert_in_range(s.b_first[row], 96, 160);
-        assert_in_range(s.first_row[row], 40, 88);
+        assert_between(s.b_first[row], 96, 160);
+        assert_between(s.first_row[row], 40, 88);
     }
 }
 

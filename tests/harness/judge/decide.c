@@ -310,9 +310,9 @@ static void test_same(void **state)
         for (int launches = 16; launches <= 256; launches *= 4) {
             int counts[4];
             count_verdicts(noise, 0, launches, counts);
-            assert_in_range(counts[RG_TWO_REGRESSED] + counts[RG_TWO_IMPROVED], 0, 1);
+            assert_between(counts[RG_TWO_REGRESSED] + counts[RG_TWO_IMPROVED], 0, 1);
             if (launches == 256)
-                assert_in_range(counts[RG_TWO_PASS], 396, 400);
+                assert_between(counts[RG_TWO_PASS], 396, 400);
         }
 }
 
@@ -324,9 +324,9 @@ static void test_slower(void **state)
     for (enum noise noise = 0; noise < LINKED; noise++) { // in groups, 256 launches are too few
         int counts[4];
         count_verdicts(noise, 0.05, 256, counts);
-        assert_in_range(counts[RG_TWO_REGRESSED], 398, 400);
+        assert_between(counts[RG_TWO_REGRESSED], 398, 400);
         count_verdicts(noise, 1 / 1.05 - 1, 256, counts);
-        assert_in_range(counts[RG_TWO_IMPROVED], 398, 400);
+        assert_between(counts[RG_TWO_IMPROVED], 398, 400);
     }
 }
 

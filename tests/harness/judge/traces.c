@@ -43,7 +43,7 @@ static void read_case(struct trace *trace, char *line)
     snprintf(trace->name, sizeof(trace->name), "%s", word);
     snprintf(trace->ending, sizeof(trace->ending), "%s", strtok(NULL, " \n"));
     while ((word = strtok(NULL, " \n"))) {
-        assert_in_range(trace->count, 0, MOST_LAUNCHES - 1);
+        assert_between(trace->count, 0, MOST_LAUNCHES - 1);
         trace->logs[trace->count++] = *word == 'x' ? NAN : strtod(word, NULL);
     }
     assert_at_least(trace->count, 16);
@@ -60,12 +60,12 @@ static int read_traces(void **state)
         if (*line == '#')
             continue;
         if (!strncmp(line, "gate ", 5)) {
-            assert_in_range(gate_count, 0, MOST_GATES - 1);
+            assert_between(gate_count, 0, MOST_GATES - 1);
             assert_int_equal(sscanf(line, "gate %63s %15s", gates[gate_count].device, kind), 2);
             gates[gate_count++].is_same = !strcmp(kind, "same");
         } else {
             struct gate *gate = &gates[gate_count - 1];
-            assert_in_range(gate->rows, 0, MOST_ROWS - 1);
+            assert_between(gate->rows, 0, MOST_ROWS - 1);
             read_case(&gate->of[gate->rows++], line);
         }
     }

@@ -200,7 +200,7 @@ static void lines_are_short(void **state)
     (void)state;
     struct rg_result result;
     make(&result);
-    assert_in_range(width_of(print(&result)), 90, RG_PAGE_WIDTH);
+    assert_between(width_of(print(&result)), 90, RG_PAGE_WIDTH);
     rg_result_free(&result);
 }
 
@@ -216,21 +216,21 @@ static void tables_fit_terminals(void **state)
         ms->high = ms->median * 1.25;
     }
     const char *text = print_on(&result, 100);
-    assert_in_range(width_of(text), 80, 100);
+    assert_between(width_of(text), 80, 100);
     expect(text, " 160~  2.0x |");
     text = print_on(&result, 90);
-    assert_in_range(width_of(text), 70, 90);
+    assert_between(width_of(text), 70, 90);
     expect(text, "Without cpu:reference, for want of room; `raingauge table --wide` has all.");
     expect(text, " 160~  2.0x |");
     assert_null(strstr(text, "reference |"));
     for (unsigned short columns = 70; columns <= 80; columns += 10) {
         text = print_on(&result, columns);
-        assert_in_range(width_of(text), columns - 20, columns);
+        assert_between(width_of(text), columns - 20, columns);
         expect(text, "Without cpu:reference and how many times print it is, for ");
         assert_null(strstr(text, "2.0x"));
     }
     text = print_on(&result, 240);
-    assert_in_range(width_of(text), RG_PAGE_WIDTH + 1, 240);
+    assert_between(width_of(text), RG_PAGE_WIDTH + 1, 240);
     expect(text, " 160 [128, 200]  2.0x |");
     rg_result_free(&result);
 }

@@ -86,7 +86,7 @@ static void count_verdicts(const struct rg_claim *claim, const double ms[ROWS], 
     do {                                                                                           \
         int counts[RG_CLAIM_VERDICTS];                                                             \
         count_verdicts(&(claim), ms, noise, counts);                                               \
-        assert_in_range(counts[verdict], (int)((share)*TRIALS), TRIALS);                           \
+        assert_between(counts[verdict], (int)((share)*TRIALS), TRIALS);                            \
     } while (0)
 
 static const double rising[ROWS] = {10, 11, 12.1, 13.3, 14.6}, level[ROWS] = {10, 10, 10, 10, 10};

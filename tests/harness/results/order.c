@@ -86,8 +86,8 @@ static void test_many_samples(void **state)
         rare += p <= 0.025;
         often += p <= 0.5;
     }
-    assert_in_range(rare, 70, 130);
-    assert_in_range(often, 1900, 2100);
+    assert_between(rare, 70, 130);
+    assert_between(often, 1900, 2100);
 }
 
 // The number of ways to choose m of m + n ranks with a given number of pairs in order. The highest

@@ -161,7 +161,7 @@ static void test_settings(void **state)
     for (int i = 0; rg_tables[i]; i++) {
         const struct rg_table *table = rg_tables[i];
         assert_non_null(rg_technique_find(table->technique));
-        assert_in_range(table->row_count, 1, RG_TABLE_ROWS);
+        assert_between(table->row_count, 1, RG_TABLE_ROWS);
         assert_true(table->names || table->key_count > 0);
         check_cells(table, false);
         check_cells(table, true);
@@ -176,7 +176,7 @@ static void check_work(const struct rg_table_work *work)
     const bool is_reading = !strcmp(work->name, "reading"), has_queries = work->elsewhere;
     assert_true(is_ours || is_first || is_reading || has_queries);
     assert_int_equal(is_ours, strlen(work->saves) > 0);
-    assert_in_range(strlen(work->saves), 0, RG_TITLE_SIZE - 1);
+    assert_between(strlen(work->saves), 0, RG_TITLE_SIZE - 1);
     assert_int_equal(has_queries, !strcmp(work->name, "queries"));
     assert_true(!is_reading || work->reading);
     assert_true(!is_ours || !work->reading);

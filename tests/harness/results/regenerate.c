@@ -159,7 +159,7 @@ static void test_table(void **state)
             assert_above(record->truth_error.flip_mean, 0);
             assert_above(record->truth_error.flip_mask_mean, record->truth_error.flip_mean);
             assert_above(record->truth_error.flip_mask_mean, 0.001);
-            assert_in_range(record->truth_error.max_codes, 1, 255);
+            assert_between(record->truth_error.max_codes, 1, 255);
         }
     }
     const struct rg_record *broken = record_at(&rig, 1, 1);

@@ -37,7 +37,7 @@ static struct rg_search search(int count, int first_bad, uint64_t skipped, int *
         const int64_t next = found.next;
         if (next < 0)
             return found;
-        assert_in_range(next, found.good + 1, found.bad - 1);
+        assert_between(next, found.good + 1, found.bad - 1);
         assert_int_equal(verdicts[next], RG_JUDGED_NONE);
         verdicts[next] = skipped >> next & 1 ? RG_JUDGED_SKIP
                          : next >= first_bad ? RG_JUDGED_BAD

@@ -135,6 +135,7 @@ static void show_on_top(const struct streaks *s, const double a[3], const double
 // shows its bounding rectangle, by which packets are selected (figure 4.14).
 static bool show_frustum(const struct streaks *s)
 {
+    static const int end[4][2] = {{4, 5}, {6, 7}, {4, 6}, {5, 7}}; // edges between far corners
     const struct rg_image_desc *desc = &s->base.target->desc;
     double corners[8][3], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     if (!rg_rain_view_corners(&s->space, &s->observer.camera, (double)desc->width / desc->height,
@@ -142,10 +143,8 @@ static bool show_frustum(const struct streaks *s)
         return false;
     for (int k = 0; k < 4; k++)
         show_on_top(s, corners[k], corners[k + 4]);
-    for (int bit = 1; bit < 4; bit *= 2)
-        for (int k = 0; k < 4; k++)
-            if (!(k & bit))
-                show_on_top(s, corners[k + 4], corners[(k | bit) + 4]);
+    for (int k = 0; k < 4; k++)
+        show_on_top(s, corners[end[k][0]], corners[end[k][1]]);
     for (int k = 0; k < 8; k++)
         for (int axis = 0; axis < 2; axis++) {
             const double half = axis ? s->space.half_y_m : s->space.half_x_m;

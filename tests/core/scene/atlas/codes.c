@@ -1,12 +1,10 @@
 #include "tests/core/scene/atlas/codes.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 #include <png.h>
+#include <stddef.h>
 #include <stdio.h>
+
+#include "tests/tools/expect.h"
 
 void write_codes(const char *path, int width, int height, const uint16_t *codes)
 {
@@ -20,7 +18,7 @@ void write_codes(const char *path, int width, int height, const uint16_t *codes)
     png_write_info(png, info);
     for (int r = 0; r < height; r++) {
         unsigned char row[64];
-        assert_in_range(width, 1, 32);
+        assert_between(width, 1, 32);
         for (int c = 0; c < width; c++) {
             row[2 * c] = (unsigned char)(codes[r * width + c] >> 8);
             row[2 * c + 1] = (unsigned char)codes[r * width + c];

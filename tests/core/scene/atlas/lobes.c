@@ -50,7 +50,7 @@ static void test_cells(void **state)
     for (int light = 0; light < RG_ATLAS_LIGHTS; light++)
         for (int phi = 0; phi < RG_ATLAS_PHIS; phi++) {
             const int lobe = rg_lobe_of_cell(light, phi);
-            assert_in_range(lobe, 0, RG_LOBE_COUNT - 1);
+            assert_between(lobe, 0, RG_LOBE_COUNT - 1);
             cells[lobe]++;
             float d[3];
             rg_lobe_direction(20 * light - 90, 10 + 20 * phi, d);

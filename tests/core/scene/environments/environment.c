@@ -212,10 +212,10 @@ static void test_seams_are_on_a_face(void **state)
             continue; // not a direction
         const cube_point c = cube_locate(d, SIZE);
         const float along[6] = {d.x, -d.x, d.y, -d.y, d.z, -d.z};
-        assert_in_range(c.face, 0, 5);
+        assert_between(c.face, 0, 5);
         assert_equals(along[c.face], 1.0f);
-        assert_in_range(cube_texel(c.x, SIZE), 0, SIZE - 1);
-        assert_in_range(cube_texel(c.y, SIZE), 0, SIZE - 1);
+        assert_between(cube_texel(c.x, SIZE), 0, SIZE - 1);
+        assert_between(cube_texel(c.y, SIZE), 0, SIZE - 1);
     }
 }
 
@@ -389,7 +389,7 @@ static void test_a_disc_around_each_direction(void **state)
         rg_environment_fill(sharp, half_light, axis);
         struct rg_environment *seen = rg_environment_blur(sharp, diameter);
         assert_non_null(seen);
-        assert_in_range(seen->size, diameter < 0.2 ? 96 : 24, 96);
+        assert_between(seen->size, diameter < 0.2 ? 96 : 24, 96);
         for (int i = 0; i < 6 * seen->size * seen->size; i++) {
             const int x = i % seen->size, y = i / seen->size % seen->size;
             const int face = i / (seen->size * seen->size);

@@ -30,7 +30,7 @@ void put_text(struct bytes *file, const char *format, ...)
     va_start(args, format);
     const int length = vsnprintf(text, sizeof(text), format, args);
     va_end(args);
-    assert_in_range(length, 0, sizeof(text) - 1);
+    assert_between(length, 0, sizeof(text) - 1);
     put_bytes(file, text, (size_t)length);
 }
 

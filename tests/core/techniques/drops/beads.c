@@ -89,8 +89,8 @@ static void test_a_trail_breaks_into_beads(void **state)
         print_message("%s, %d steps: %d patches, %d cells long at most, %.3g mm high\n",
                       cases[i].trail, cases[i].steps, p.count, p.longest_cells, p.highest_mm);
         assert_int_equal(rig_tally(d, DROPS_COUNT), 0);
-        assert_in_range(p.count, cases[i].least, cases[i].most);
-        assert_in_range(p.longest_cells, 0, cases[i].longest_cells);
+        assert_between(p.count, cases[i].least, cases[i].most);
+        assert_between(p.longest_cells, 0, cases[i].longest_cells);
         assert_below(p.highest_mm, 0.5);
         assert_true(i < 2 || p.count == before);
         before = p.count;
@@ -131,7 +131,7 @@ static void test_no_low_band_stands(void **state)
     (void)state;
     struct drops *d = after_a_drop("beads", 8);
     assert_int_equal(rig_tally(d, DROPS_COUNT), 1);
-    assert_in_range(stand_of(d, (double)DROPS_BEAD_GAP_MM).cells, 690, 714);
+    assert_between(stand_of(d, (double)DROPS_BEAD_GAP_MM).cells, 690, 714);
     rig_close(d);
 }
 

@@ -67,7 +67,7 @@ static void a_coarser_level_keeps_the_volume(const char *move)
     for (int pane = 0; pane < 6; pane++) {
         const int64_t lost = sum_of(fine + pane * 128 * 128, 128 * 128) -
                              4 * sum_of(coarse + pane * 64 * 64, 64 * 64);
-        assert_in_range(lost, 0, 3);
+        assert_between(lost, 0, 3);
     }
     for (int i = 0; i < 6 * 64 * 64; i++) {
         const int pane = i / (64 * 64), x = i % 64, y = i / 64 % 64;

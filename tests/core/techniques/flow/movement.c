@@ -270,7 +270,7 @@ static void test_split_divides_by_angle(void **state)
     const int64_t aslant = water[(MIDDLE + 1) * SIZE + MIDDLE + 1];
     free(water);
     assert_int_equal(down + aslant, 3 * UNIT / 8);
-    assert_in_range(aslant, UNIT / 8 - 1, UNIT / 8 + 1);
+    assert_between(aslant, UNIT / 8 - 1, UNIT / 8 + 1);
     rig_close(&rig);
 }
 

@@ -395,7 +395,7 @@ static double depth_error(const raster_mesh_params *p, const struct faces *box,
                           const struct faces_drawn *drawn, int px, int py)
 {
     const int wall = (int)faces_value(drawn, px, py, 0) - 1;
-    assert_in_range(wall, 0, box->face_count - 1);
+    assert_between(wall, 0, box->face_count - 1);
     const struct oracle_face face =
         oracle_face_at((const float *)&p->to_clip, box->positions, box->indices + 3 * (size_t)wall,
                        drawn->width, drawn->height);

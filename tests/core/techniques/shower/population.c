@@ -137,7 +137,7 @@ struct spread {
 static void add(struct spread *spread, double share)
 {
     const int bin = (int)floor(share * BINS);
-    assert_in_range(bin + 1, 0, BINS + 1);
+    assert_between(bin + 1, 0, BINS + 1);
     spread->bins[bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin]++;
 }
 

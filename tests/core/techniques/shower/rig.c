@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "tests/tools/expect.h"
 #include "tests/tools/instance.h"
 
 static const char *device_name = "cpu";
@@ -63,7 +64,7 @@ void pour_put(struct shower *s, const struct oracle_drop *drops, int count)
 {
     float *words = calloc((size_t)s->params.slots, sizeof(*words));
     assert_non_null(words);
-    assert_in_range(count, 0, s->params.slots);
+    assert_between(count, 0, s->params.slots);
     for (int plane = 0; plane < 4; plane++) {
         for (int i = 0; i < count; i++)
             words[i] = (float)(plane == 0   ? drops[i].x

@@ -115,7 +115,7 @@ static struct landing count_landing(const struct streaks *s, const struct rain *
             continue;
         const double d = 2000 * (double)place[8], drops = share * (double)place[9];
         const int part = (int)ceil((d - r->least_mm) / (largest_mm - r->least_mm) * PARTS);
-        assert_in_range(part, 0, PARTS);
+        assert_between(part, 0, PARTS);
         sum.drops[part] += drops;
         sum.water += water_mm(drops, d);
         sum.squares[part] += drops * drops;

@@ -174,7 +174,7 @@ static void count_materials(const struct streaks *s, int counts[MATERIALS])
     memset(counts, 0, MATERIALS * sizeof(*counts));
     for (int64_t i = 0; i < places.count; i++) {
         const float *place = places.words + i * STREAKS_STATE_WORDS;
-        assert_in_range(place[6], 0, MATERIALS - 1);
+        assert_between(place[6], 0, MATERIALS - 1);
         counts[(int)place[6]] += (int)place[5] != STREAKS_NOTHING;
     }
     free(places.words);

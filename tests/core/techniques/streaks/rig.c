@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "kernels/dialect/image/format.h"
+#include "tests/tools/expect.h"
 
 #define SMALL                                                                                      \
     "atlas=small city=small depth_map_px=256 shadow_map_px=64 rain_width_m=60 rain_depth_m=60 "    \
@@ -18,7 +19,7 @@ struct streaks *rain_open(const char *settings)
 {
     const struct rg_technique *technique = rg_technique_find("streaks");
     char all[1024];
-    assert_in_range(snprintf(all, sizeof(all), SMALL "%s", settings), 0, sizeof(all) - 1);
+    assert_between(snprintf(all, sizeof(all), SMALL "%s", settings), 0, sizeof(all) - 1);
     void *defaults = rg_settings_create(technique);
     void *copy = rg_settings_copy(technique, defaults, all);
     assert_non_null(copy);

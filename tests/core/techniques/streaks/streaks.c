@@ -184,7 +184,7 @@ static void follow(struct life *life, const float *place, int frame, int lasts)
         life->splash_frames = frame ? 1 : -1;
         life->splashes++;
     } else if (life->state == STREAKS_SPLASH && life->splash_frames >= 0) {
-        assert_in_range(life->splash_frames, lasts - 1, lasts + 1);
+        assert_between(life->splash_frames, lasts - 1, lasts + 1);
     }
     life->state = now;
     life->hit = place[3];
@@ -213,7 +213,7 @@ static void test_one_splash_a_hit(void **state)
     for (int64_t i = 0; i < count; i++) {
         splashes += lives[i].splashes;
         falling += lives[i].splashes > 0;
-        assert_in_range(lives[i].splashes, 0, 4); // frames / 90, and the first and last
+        assert_between(lives[i].splashes, 0, 4); // frames / 90, and the first and last
     }
     assert_above(falling, 500);
     assert_at_least(splashes, 2 * falling);

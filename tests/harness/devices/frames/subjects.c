@@ -1,11 +1,7 @@
 // Subjects go from one process to another, which may be another build. Every parameter comes out as
 // it was put in. A build may ignore a parameter that it does not know only at its usual value.
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +10,7 @@
 
 #include "core/base/log.h"
 #include "harness/devices/frames/messages.h"
+#include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
 #include "tests/tools/process/logged.h"
 
@@ -150,7 +147,7 @@ static void each_parameter_says_whether_it_is_as_usual(void **state)
         free(settings);
         tried += !is_usual;
     }
-    assert_in_range(tried, params->count / 2, params->count);
+    assert_between(tried, params->count / 2, params->count);
     free(usual);
 }
 

@@ -29,7 +29,7 @@ static void test_costs(void **state)
     (void)state;
     struct rg_timer_audit result;
     audit(1, 1e-6, &result); // a pass of the load: 1.05 ms
-    assert_in_range(result.passes, 48, 60);
+    assert_between(result.passes, 48, 60);
     assert_near(result.wall_ms, result.passes * (0.002 + 1.048576) + 0.01, 1e-3);
     assert_near(result.sync_us, 10, 1e-3);
     assert_near(result.round_trip_us, 12.001, 1e-3);
@@ -44,9 +44,9 @@ static void test_load(void **state)
     audit(1, 1e-4, &result);
     assert_int_equal(result.passes, 1);
     audit(1, 1e-5, &result); // 10 ms, and 105 ms in the run that compiles
-    assert_in_range(result.passes, 5, 8);
+    assert_between(result.passes, 5, 8);
     audit(1, 1e-9, &result); // 0.003 ms: 8 times as many passes at a time, up to 50 ms
-    assert_in_range((int)result.wall_ms, 50, 70);
+    assert_between((int)result.wall_ms, 50, 70);
     struct fake_device *fake = fake_open(); // takes no time
     assert_true(rg_timer_audit(&fake->pub, &result));
     assert_int_equal(result.passes, 20000);

@@ -1,13 +1,10 @@
 // How often and in which order frames are timed, by a clock that moves only as the script says:
 // every number can be worked out by hand.
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
 #include "tests/harness/devices/measuring/bench.h"
+#include "tests/tools/expect.h"
 
 // --- opening and warming up ---
 
@@ -248,7 +245,7 @@ static void test_order(void **state)
     for (int job = 0; job < 4; job++) {
         assert_int_equal(at[job][0] + at[job][1] + at[job][2] + at[job][3], ROUNDS);
         for (int place = 0; place < 4; place++)
-            assert_in_range(at[job][place], ROUNDS / 8, ROUNDS * 3 / 8);
+            assert_between(at[job][place], ROUNDS / 8, ROUNDS * 3 / 8);
     }
     for (int round = 0; round < ROUNDS; round++)
         for (char letter = 'A'; letter <= 'D'; letter++)
@@ -256,7 +253,7 @@ static void test_order(void **state)
     int stays = 0; // by chance a job keeps its place one time in four
     for (int i = 4; i < 4 * ROUNDS; i++)
         stays += order[i] == order[i - 4];
-    assert_in_range(stays, ROUNDS / 2, ROUNDS * 3 / 2);
+    assert_between(stays, ROUNDS / 2, ROUNDS * 3 / 2);
     measure_four(again, 4 * ROUNDS);
     assert_memory_equal(order, again, sizeof(order));
 }

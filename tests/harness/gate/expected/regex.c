@@ -1,16 +1,13 @@
 // Regular expressions mean what they meant to the C library, and none takes for ever.
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "core/base/log.h"
 #include "harness/compare/gate/expected/expected.h"
+#include "tests/tools/expect.h"
 #include "tests/tools/process/logged.h"
 
 static const char *corpus; // a file
@@ -54,7 +51,7 @@ static void they_mean_what_they_meant(void **state)
             continue;
         text[-1] = 0;
         if (!strcmp(line, "name")) {
-            assert_in_range(name_count, 0, NAMES - 1);
+            assert_between(name_count, 0, NAMES - 1);
             snprintf(names[name_count++], sizeof(names[0]), "%s", text);
             continue;
         }
@@ -70,7 +67,7 @@ static void they_mean_what_they_meant(void **state)
     find_all(names, "^a.b$|b$", found);
     assert_int_equal(found[0] & 3, '1' & 3);
     assert_int_equal(name_count, NAMES);
-    assert_in_range(count, 700, 2000);
+    assert_between(count, 700, 2000);
 }
 
 // A text: `before`, a character `times` times, and `after`.

@@ -147,7 +147,7 @@ static void cells_of_tests(void **state)
         assert_int_equal(cells.count, cases[i].cells);
         assert_int_equal(cells.group_count, cases[i].groups);
         for (int c = 0; c < cells.count; c++)
-            assert_in_range(cells.cells[c].group, 0, cells.group_count - 1);
+            assert_between(cells.cells[c].group, 0, cells.group_count - 1);
         rg_result_free(&result);
     }
 }

@@ -24,8 +24,8 @@ static void test_claims_are_about_tables(void **state)
         bool has = false, has_other = !claim->other;
         assert_non_null(table);
         assert_at_most(abs(claim->last - claim->first), RG_CLAIM_ROWS - 1);
-        assert_in_range(claim->first, 1, table->row_count);
-        assert_in_range(claim->last, 1, table->row_count);
+        assert_between(claim->first, 1, table->row_count);
+        assert_between(claim->last, 1, table->row_count);
         assert_true(claim->test != RG_CLAIM_RATIO || claim->first != claim->last);
         assert_true(!claim->knee || (claim->knee >= claim->first && claim->knee <= claim->last));
         assert_true(!claim->until || (claim->until > claim->knee && claim->until <= claim->last));

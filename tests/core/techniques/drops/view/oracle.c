@@ -1,15 +1,12 @@
 // The lit pane against a ray tracer in double precision, which shares nothing with kernels/.
-#include <setjmp.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "tests/core/techniques/drops/view/rig.h"
+#include "tests/tools/expect.h"
 #include "tests/tools/process/folder.h"
 
 #define RAINY                                                                                      \
@@ -53,7 +50,7 @@ static void compare(struct drops *d, const char *what)
                 fail_msg("%s: pixel %d %d, channel %d: %g, not %g", what, x, y, c,
                          (double)view_pixel(&picture, x, y)[c], due[c]);
     }
-    assert_in_range(left_out, 0, picture.width * picture.height / 500);
+    assert_between(left_out, 0, picture.width * picture.height / 500);
     rg_picture_destroy(&picture);
     view_oracle_free(&oracle);
 }

@@ -28,8 +28,8 @@ static double binned_chance(const struct rig_particles *all, const double *share
     for (int64_t i = 0; i < all->count; i++) {
         const int column = (int)((all->all[i].x_m / rig_space.half_x_m + 1) / 2 * across);
         const int row = (int)((all->all[i].y_m / rig_space.half_y_m + 1) / 2 * down);
-        assert_in_range(column, 0, across - 1);
-        assert_in_range(row, 0, down - 1);
+        assert_between(column, 0, across - 1);
+        assert_between(row, 0, down - 1);
         counts[row * across + column]++;
     }
     double chi_square = 0;
@@ -175,7 +175,7 @@ static void test_particles_are_even(void **state)
     struct streaks_packets *packets = rig_packets(&rig_space, map, &settings);
     struct rig_particles all = rig_read_all(packets, &rig_space, 20);
     for (int64_t i = 0; i < all.count; i++)
-        assert_in_range(all.all[i].oscillation, 0, 9);
+        assert_between(all.all[i].oscillation, 0, 9);
     check_evenness(&all);
     free(all.all);
     streaks_packets_destroy(packets);
@@ -191,7 +191,7 @@ static void test_default_amount(void **state)
         .drops_m2_s = STREAKS_DEFAULT_DROPS_M2_S, .fall_speed_m_s = 8.16, .local_height_m = 20};
     assert_int_equal(streaks_packets_total(&rig_space, map, &settings), 54978100);
     settings.local_height_m = 40;
-    assert_in_range(streaks_packets_total(&rig_space, map, &settings), 109956199, 109956201);
+    assert_between(streaks_packets_total(&rig_space, map, &settings), 109956199, 109956201);
     settings.drops_m2_s = -1;
     assert_int_equal(streaks_packets_total(&rig_space, map, &settings), 0);
     rg_density_destroy(map);

@@ -136,7 +136,7 @@ static double light_under(struct streaks *s, float sky)
 
 static struct streaks *open_drops(const char *settings, int gain)
 {
-    char all[640];
+    char all[1280];
     snprintf(all, sizeof(all),
              "state=on geometry=off splashes=off lights=0 time=night streak_opacity=0 "
              "streak_gain=%d rain_width_m=30 rain_depth_m=30 rain_height_m=150 local_height_m=50 "

@@ -99,7 +99,7 @@ static size_t bytes_of(const struct rg_image *image, int level)
 static struct kept keep(struct rg_image *image, int levels)
 {
     struct kept kept = {.image = image, .levels = levels};
-    assert_in_range(image->desc.layers, 1, 84);
+    assert_between(image->desc.layers, 1, 84);
     for (int layer = 0; layer < image->desc.layers; layer++)
         for (int level = 0; level < levels; level++) {
             kept.texels[layer][level] = malloc(bytes_of(image, level));

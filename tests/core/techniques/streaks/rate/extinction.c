@@ -171,7 +171,7 @@ static char *read_page(void)
     char *page = calloc(1, MOST);
     assert_non_null(file);
     assert_non_null(page);
-    assert_in_range(fread(page, 1, MOST, file), 1, MOST - 1);
+    assert_between(fread(page, 1, MOST, file), 1, MOST - 1);
     for (char *at = page; (at = strchr(at, '\n'));)
         *at = ' ';
     fclose(file);

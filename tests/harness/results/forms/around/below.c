@@ -1,10 +1,6 @@
 // The text below a brief table: claims by their verdicts, and up to five lines of notes.
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -12,6 +8,7 @@
 #include "harness/tables/claims/claim.h"
 #include "harness/tables/sheet/below.h"
 #include "tests/harness/results/forms/rig.h"
+#include "tests/tools/expect.h"
 
 static const struct rg_table rates = {
     .id = "rates",
@@ -56,7 +53,7 @@ static const char *below(const struct rg_result *result)
     rg_brief_below(result, out);
     assert_int_equal(fclose(out), 0);
     for (const char *line = text; *line; line += strcspn(line, "\n") + 1)
-        assert_in_range(strcspn(line, "\n"), 0, RG_PAGE_WIDTH);
+        assert_between(strcspn(line, "\n"), 0, RG_PAGE_WIDTH);
     for (char *at = text; (at = strstr(at, "\n  "));) {
         *at = ' ';
         memmove(at + 1, at + 3, strlen(at + 3) + 1);
