@@ -298,6 +298,24 @@ static struct figures judge_all(const struct point points[RG_ATLAS_CELLS])
 enum { DRAWN_LIGHTS = 3 };
 static const struct point known = {{3, 2, 3, 3, 3, 2}};
 
+static double mean_of(const float *texels)
+{
+    double sum = 0;
+    for (int i = 0; i < width * height; i++)
+        sum += (double)texels[i] / (width * height);
+    return sum;
+}
+
+// In codes of 8 bits, the brightest of which is the largest.
+static void put_codes(const float *from, float *texels)
+{
+    float largest = 0;
+    for (int i = 0; i < width * height; i++)
+        largest = fmaxf(largest, from[i]);
+    for (int i = 0; i < width * height; i++)
+        texels[i] = (float)(round(255 * (double)from[i] / (double)largest) / 255);
+}
+
 // Draws pictures of three oscillations under three lights, at these constants, in codes of 8 bits.
 static void draw(struct point point, int first_light, int lights)
 {
@@ -317,15 +335,9 @@ static void draw(struct point point, int first_light, int lights)
             struct picture *picture = &pictures[3 * l + k];
             const float *from =
                 s.point + (size_t)rg_lobe_of_cell(cells[l] / 9, cells[l] % 9) * width * height;
-            double mean = 0, largest = 0;
             *picture = (struct picture){.oscillation = oscillations[k], .cell = cells[l]};
-            for (int i = 0; i < width * height; i++)
-                largest = fmax(largest, (double)from[i]);
-            for (int i = 0; i < width * height; i++) {
-                picture->texels[i] = (float)(round(255 * (double)from[i] / largest) / 255);
-                mean += (double)from[i] / (width * height);
-            }
-            picture->theirs = 7 * pow(mean * (double)rg_streaks_balance(&s), 0.9);
+            put_codes(from, picture->texels);
+            picture->theirs = 7 * pow(mean_of(from) * (double)rg_streaks_balance(&s), 0.9);
         }
         rg_streaks_free(&s);
     }
@@ -387,14 +399,6 @@ static void test_leaves_a_light_out(void **state)
 }
 
 // --- the database's ---
-
-static double mean_of(const float *texels)
-{
-    double sum = 0;
-    for (int i = 0; i < width * height; i++)
-        sum += (double)texels[i] / (width * height);
-    return sum;
-}
 
 static bool load(const char *folder)
 {
