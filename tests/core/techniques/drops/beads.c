@@ -31,7 +31,7 @@ static struct drops *after_a_drop(const char *trail, int steps)
 
 struct patches {
     int count, longest_cells; // and the length of the longest down the pane
-    double highest_mm;
+    float highest_mm;
 };
 
 // Marks the wet cells around one; returns the row of the lowest.
@@ -58,7 +58,7 @@ static struct patches patches_of(struct drops *d)
     for (int row = 0; row < d->settings.rows; row++)
         for (int column = 0; column < d->settings.columns; column++) {
             const float h = height[drops_cell(d->params, column, row)];
-            p.highest_mm = fmax(p.highest_mm, (double)h);
+            p.highest_mm = fmaxf(p.highest_mm, h);
         }
     for (int row = 0; row < d->settings.rows; row++)
         for (int column = 0; column < d->settings.columns; column++) {
@@ -87,7 +87,8 @@ static void test_a_trail_breaks_into_beads(void **state)
         struct drops *d = after_a_drop(cases[i].trail, cases[i].steps);
         const struct patches p = patches_of(d);
         print_message("%s, %d steps: %d patches, %d cells long at most, %.3g mm high\n",
-                      cases[i].trail, cases[i].steps, p.count, p.longest_cells, p.highest_mm);
+                      cases[i].trail, cases[i].steps, p.count, p.longest_cells,
+                      (double)p.highest_mm);
         assert_int_equal(rig_tally(d, DROPS_COUNT), 0);
         assert_between(p.count, cases[i].least, cases[i].most);
         assert_between(p.longest_cells, 0, cases[i].longest_cells);
