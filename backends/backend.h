@@ -52,6 +52,19 @@ struct rg_limits {
     char no_native[120]; // why neither fixed_draw nor native devices work: "lacks geometryShader"
 };
 
+// What a native device leaves to its driver (docs/native.md): a word of RG_NATIVE for each, and
+// what the driver does. PLACES is only with SETUP.
+#define RG_FEATURES(X)                                                                             \
+    X(SAMPLERS, "samplers", "filters textures, and compares depths")                               \
+    X(LEVELS, "levels", "makes textures' smaller levels")                                          \
+    X(SETUP, "setup", "makes, clips, culls and snaps items, and interpolates depth")               \
+    X(PLACES, "places", "interpolates places on surfaces, and w")                                  \
+    X(BLENDING, "blending", "blends, and rounds to formats")
+#define RG_FEATURE_NUMBER(name, word, does) RG_FEATURE_NUMBER_##name,
+#define RG_FEATURE_BIT(name, word, does)    RG_FEATURE_##name = 1 << RG_FEATURE_NUMBER_##name,
+enum { RG_FEATURES(RG_FEATURE_NUMBER) RG_FEATURE_COUNT };
+enum rg_feature { RG_FEATURES(RG_FEATURE_BIT) RG_FEATURE_ALL = (1 << RG_FEATURE_COUNT) - 1 };
+
 // Sizes: a name with settings, which may include several paths; and the libraries of a driver's
 // code. Most drivers are one file, but a layered one, such as zink, uses another's.
 enum { RG_DEVICE_NAME_SIZE = 512, RG_DRIVER_LIBRARIES = 3 };
@@ -67,8 +80,9 @@ struct rg_device_info {
     // The files with the code that draws, for an open device; for cpu the program. The first is the
     // API's driver; an empty path ends the list.
     struct rg_library libraries[RG_DRIVER_LIBRARIES];
-    bool software; // runs on the CPU
-    bool native;   // filters, corners and depth are the driver's (docs/native.md)
+    bool software;     // runs on the CPU
+    bool native;       // draws by the driver's own pipeline (docs/native.md)
+    unsigned features; // of a native device: bits of enum rg_feature; 0: it draws as an exact one
     // How closely its pictures agree with cpu:reference's. T0: the driver computes as C does. T1:
     // it has a GPU's arithmetic. T2: the device draws in another way.
     enum rg_tier tier;
@@ -85,13 +99,24 @@ struct rg_device {
     struct rg_shared *shared;   // owned by core/device/shared.c
 };
 
-// The ways of a kernel on this device, without blending.
+// The ways of a kernel on this device with these features, without blending.
+static inline unsigned rg_ways_of(const struct rg_device *device, const struct rg_kernel *kernel,
+                                  unsigned features)
+{
+    const bool samples = rg_kernel_samples(kernel);
+    const bool by_samplers = samples && (features & RG_FEATURE_SAMPLERS);
+    if (kernel->draw && (features & RG_FEATURE_SETUP))
+        return RG_CODE_SETUP | (by_samplers || !samples ? RG_CODE_SAMPLERS : 0) |
+               (features & RG_FEATURE_PLACES ? RG_CODE_PLACES : 0);
+    if (by_samplers)
+        return RG_CODE_SAMPLERS;
+    return device->rounds ? RG_CODE_ROUNDS : 0;
+}
+
 static inline unsigned rg_device_ways(const struct rg_device *device,
                                       const struct rg_kernel *kernel)
 {
-    if (device->info.native && (kernel->draw || rg_kernel_samples(kernel)))
-        return RG_CODE_NATIVE;
-    return device->rounds ? RG_CODE_ROUNDS : 0;
+    return rg_ways_of(device, kernel, device->info.features);
 }
 
 struct rg_buf {
@@ -155,6 +180,14 @@ struct rg_draw {
 static inline bool rg_draw_counts(const struct rg_draw *draw)
 {
     return draw->samples && !draw->items_a_query;
+}
+
+// The features of a native device that a run takes; `draw`: NULL for a GRID kernel. A draw whose
+// driver shall not blend is drawn as on exact devices, because only their programs can blend.
+static inline unsigned rg_run_features(const struct rg_device *device, const struct rg_draw *draw)
+{
+    const unsigned features = device->info.features;
+    return draw && draw->blend != RG_BLEND_OFF && !(features & RG_FEATURE_BLENDING) ? 0 : features;
 }
 
 // The primitives of a DRAW pass, packed by core/device/packing.c, for backends with `packed` true.
@@ -272,10 +305,15 @@ struct rg_backend {
     bool (*time)(struct rg_device *device, int64_t *time_ns);
 };
 
-// Whether the device draws packed primitives.
+// Whether the device draws packed primitives: in this draw, or in any.
+static inline bool rg_draw_packs(const struct rg_device *device, const struct rg_draw *draw)
+{
+    return device->backend->packed && !(rg_run_features(device, draw) & RG_FEATURE_SETUP);
+}
 static inline bool rg_device_packs(const struct rg_device *device)
 {
-    return device->backend->packed && !device->info.native;
+    const unsigned never = RG_FEATURE_SETUP | RG_FEATURE_BLENDING;
+    return device->backend->packed && (device->info.features & never) != never;
 }
 
 // All backends, NULL-terminated; the build generates the list from backends/meson.build.

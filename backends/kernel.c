@@ -68,20 +68,24 @@ static unsigned char *read_whole(FILE *file, size_t *size)
 // The form of a kind for programs of these ways; one without a form of its own is the kind itself.
 static enum rg_code_kind kind_of(enum rg_code_kind kind, unsigned ways)
 {
-    enum { BOTH = RG_CODE_ROUNDS | RG_CODE_BLENDS };
+    enum { BOTH = RG_CODE_ROUNDS | RG_CODE_BLENDS, NATIVE = RG_CODE_SETUP | RG_CODE_SAMPLERS };
     static const struct {
         enum rg_code_kind kind;
         unsigned ways; // all of these
         enum rg_code_kind form;
     } forms[] = {
-        {RG_CODE_GLSL, RG_CODE_NATIVE, RG_CODE_NATIVE_GLSL},
-        {RG_CODE_SPIRV, RG_CODE_NATIVE, RG_CODE_NATIVE_SPIRV},
+        {RG_CODE_GLSL, RG_CODE_SAMPLERS, RG_CODE_NATIVE_GLSL},
+        {RG_CODE_SPIRV, RG_CODE_SAMPLERS, RG_CODE_NATIVE_SPIRV},
         {RG_CODE_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_SPIRV},
-        {RG_CODE_VERTEX_GLSL, RG_CODE_NATIVE, RG_CODE_NATIVE_VERTEX_GLSL},
-        {RG_CODE_VERTEX_SPIRV, RG_CODE_NATIVE, RG_CODE_NATIVE_VERTEX_SPIRV},
+        {RG_CODE_VERTEX_GLSL, RG_CODE_SETUP, RG_CODE_NATIVE_VERTEX_GLSL},
+        {RG_CODE_VERTEX_SPIRV, RG_CODE_SETUP, RG_CODE_NATIVE_VERTEX_SPIRV},
         {RG_CODE_VERTEX_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_VERTEX_SPIRV},
-        {RG_CODE_FRAGMENT_GLSL, RG_CODE_NATIVE, RG_CODE_NATIVE_FRAGMENT_GLSL},
-        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_NATIVE, RG_CODE_NATIVE_FRAGMENT_SPIRV},
+        {RG_CODE_FRAGMENT_GLSL, NATIVE, RG_CODE_NATIVE_FRAGMENT_GLSL},
+        {RG_CODE_FRAGMENT_SPIRV, NATIVE, RG_CODE_NATIVE_FRAGMENT_SPIRV},
+        {RG_CODE_FRAGMENT_GLSL, RG_CODE_SETUP, RG_CODE_SETUP_FRAGMENT_GLSL},
+        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_SETUP, RG_CODE_SETUP_FRAGMENT_SPIRV},
+        {RG_CODE_FRAGMENT_GLSL, RG_CODE_SAMPLERS, RG_CODE_SAMPLERS_FRAGMENT_GLSL},
+        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_SAMPLERS, RG_CODE_SAMPLERS_FRAGMENT_SPIRV},
         {RG_CODE_FRAGMENT_SPIRV, BOTH, RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV},
         {RG_CODE_FRAGMENT_SPIRV, RG_CODE_BLENDS, RG_CODE_BLENDED_FRAGMENT_SPIRV},
         {RG_CODE_FRAGMENT_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_FRAGMENT_SPIRV},
@@ -160,6 +164,9 @@ bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, unsi
     const enum rg_code_kind found = kind_of(kind, ways);
     if (folder ? !read_code(folder, kernel, found, code)
                : !rg_embedded_code(&kernel->code[found], kernel->name, code))
+        return false;
+    if ((ways & RG_CODE_SETUP) && !(ways & RG_CODE_PLACES) && kind == RG_CODE_FRAGMENT_GLSL &&
+        !insert(kernel, "#define RG_COMPUTES_PLACES\n", code))
         return false;
     if ((ways & RG_CODE_BLENDS) && kind == RG_CODE_FRAGMENT_GLSL &&
         !insert(kernel, "#define RG_BLENDS\n", code))

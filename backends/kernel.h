@@ -68,6 +68,7 @@ struct rg_embedded_code {
 // - BLENDED: for fragments that blend by themselves. Their GLSL is the normal one with RG_BLENDS
 //   defined.
 // - NATIVE: for native devices (docs/native.md), of GRID kernels that sample and all DRAW programs.
+//   Fragments that sample have two more: only SETUP is the driver's, or only SAMPLERS are.
 #define RG_CODE_KINDS(X)                                                                           \
     X(GLSL, "glsl")                                                                                \
     X(SPIRV, "spv")                                                                                \
@@ -88,7 +89,11 @@ struct rg_embedded_code {
     X(NATIVE_GEOMETRY_GLSL, "native.geom")                                                         \
     X(NATIVE_GEOMETRY_SPIRV, "native.geom.spv")                                                    \
     X(NATIVE_FRAGMENT_GLSL, "native.frag")                                                         \
-    X(NATIVE_FRAGMENT_SPIRV, "native.frag.spv")
+    X(NATIVE_FRAGMENT_SPIRV, "native.frag.spv")                                                    \
+    X(SETUP_FRAGMENT_GLSL, "setup.frag")                                                           \
+    X(SETUP_FRAGMENT_SPIRV, "setup.frag.spv")                                                      \
+    X(SAMPLERS_FRAGMENT_GLSL, "samplers.frag")                                                     \
+    X(SAMPLERS_FRAGMENT_SPIRV, "samplers.frag.spv")
 
 #define RG_CODE_KIND(kind, ending) RG_CODE_##kind,
 enum rg_code_kind { RG_CODE_KINDS(RG_CODE_KIND) RG_CODE_COUNT };
@@ -105,9 +110,16 @@ enum {
 };
 
 // Ways of programs, as bits: they round quotients and roots themselves (backends/asked/rounding.h),
-// and blend by themselves (backends/asked/blending.h). A native device's do neither, and none has
-// another bit beside this one.
-enum { RG_CODE_ROUNDS = 1, RG_CODE_BLENDS = 2, RG_CODE_NATIVE = 4 };
+// and blend by themselves (backends/asked/blending.h). Those of native devices leave the setup of
+// items to the driver, or samplers, and do neither of the first two; with PLACES beside SETUP the
+// driver interpolates places too. A program without SAMPLED slots has SAMPLERS beside SETUP.
+enum {
+    RG_CODE_ROUNDS = 1,
+    RG_CODE_BLENDS = 2,
+    RG_CODE_SETUP = 4,
+    RG_CODE_SAMPLERS = 8,
+    RG_CODE_PLACES = 16
+};
 
 // Slots of fragments besides the program's own, on backends that draw packed primitives.
 enum { RG_DRAWN_SLOTS = 3 };
@@ -145,9 +157,9 @@ bool rg_kernel_samples(const struct rg_kernel *kernel);
 int rg_kernel_index(const struct rg_kernel *kernel);
 
 // The code for a driver: embedded at build time, or, if RG_KERNEL_DIR names a folder, read from
-// NAME.glsl, NAME.spv, NAME.cl and so on there. `ways` has bits of RG_CODE_ROUNDS, RG_CODE_BLENDS
-// and RG_CODE_NATIVE; only fragments blend. False, and one logged line, on failure; then there is
-// nothing to free.
+// NAME.glsl, NAME.spv, NAME.cl and so on there. `ways` has bits of RG_CODE_ROUNDS and
+// the like; only fragments blend. False, and one logged line, on failure; then there is nothing to
+// free.
 bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, unsigned ways,
                     struct rg_kernel_code *code);
 

@@ -1,5 +1,7 @@
 // The fragment stage of a DRAW program on native devices. The driver has interpolated the place
-// among the corners, and tests depth itself, early if the program leaves depth to it.
+// among the corners, and tests depth itself, early if the program leaves depth to it. Without
+// rg_interpolates the fragment computes its place, from a record that it makes anew: the geometry
+// stage sends no planes.
 #define RG_STAGE_FRAGMENT 1
 layout(location = 0) in vec2 rg_at;
 layout(location = 1) flat in int rg_item_drawn;
@@ -32,7 +34,10 @@ void main()
     rg.p = rg_run.params;
     int x = int(gl_FragCoord.x);
     int y = int(gl_FragCoord.y);
-    rg_fragment f = rg_drawn_fragment(rg, rg.p.program, rg_received(), x, y);
+    RG_RECORD record = rg_received();
+    if (!rg_interpolates)
+        record = rg_program_record(rg, rg.p.draw, rg.p.program, rg_item_drawn);
+    rg_fragment f = rg_drawn_fragment(rg, rg.p.program, record, x, y);
     if (f.kept == 0)
         discard;
     if (rg.p.draw.counted != 0 && !rg_counts(rg, x, y, f.depth))

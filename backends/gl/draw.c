@@ -51,9 +51,9 @@ static void set_depth(enum rg_depth_mode depth)
 }
 
 // shaders/draw.vert assumes this viewport, in which packed primitives lie.
-static void set_viewport(bool native, int width, int height)
+static void set_viewport(bool packed, int width, int height)
 {
-    if (native) {
+    if (!packed) {
         glViewport(0, 0, width, height);
         return;
     }
@@ -73,10 +73,11 @@ static void set_cull(enum rg_cull cull)
     glCullFace(cull == RG_CULL_BACK ? GL_BACK : GL_FRONT);
 }
 
-static void set_state(bool native, struct gl_draw_state *now, const struct gl_draw_state *wanted)
+static void set_state(struct gl_draw_state *now, const struct gl_draw_state *wanted)
 {
-    if (now->width != wanted->width || now->height != wanted->height)
-        set_viewport(native, wanted->width, wanted->height);
+    if (now->width != wanted->width || now->height != wanted->height ||
+        now->packed != wanted->packed)
+        set_viewport(wanted->packed, wanted->width, wanted->height);
     if (memcmp(now->scissor, wanted->scissor, sizeof(now->scissor)) != 0)
         glScissor(wanted->scissor[0], wanted->scissor[1], wanted->scissor[2], wanted->scissor[3]);
     if (now->blend != wanted->blend)
@@ -91,13 +92,15 @@ static void set_state(bool native, struct gl_draw_state *now, const struct gl_dr
 static struct gl_draw_state state_of(const struct gl_device *device, const struct rg_draw *draw,
                                      const struct gl_framebuffer *framebuffer)
 {
+    const bool packed = rg_draw_packs(&device->pub, draw);
     struct gl_draw_state state = {
+        .packed = packed,
         .width = framebuffer->key.width,
         .height = framebuffer->key.height,
         .scissor = {draw->x0, draw->y0, draw->x1 - draw->x0, draw->y1 - draw->y0},
         .blend = device->pub.blends ? RG_BLEND_OFF : draw->blend,
         .depth = framebuffer->key.depth ? draw->depth_mode : RG_DEPTH_OFF,
-        .cull = device->pub.info.native ? draw->cull : RG_CULL_NONE, // packing has culled
+        .cull = packed ? RG_CULL_NONE : draw->cull, // packing has culled
     };
     if (!draw->x1) { // the whole target
         state.scissor[2] = state.width;
@@ -142,16 +145,15 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
         return false;
     struct gl_bound *bound = &device->bound;
     const struct gl_draw_state state = state_of(device, draw, framebuffer);
-    set_state(device->pub.info.native, &bound->draw, &state);
+    set_state(&bound->draw, &state);
     gl_bind_framebuffer(bound, framebuffer->id);
     gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
     if (rg_draw_counts(draw))
         gl_slot_buffer(bound, RG_SLOT_SAMPLES, draw->samples);
-    if (!(device->pub.info.native ? draw_items : draw_packed)(device, kernel, run))
+    if (!(state.packed ? draw_packed : draw_items)(device, kernel, run))
         return false;
     // The next run may overwrite what this run reads, and read its counts.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    return gl_check_reported(device,
-                             device->pub.info.native ? "glDrawArrays" : "glDrawArraysIndirect",
+    return gl_check_reported(device, state.packed ? "glDrawArraysIndirect" : "glDrawArrays",
                              "kernel", kernel->name);
 }

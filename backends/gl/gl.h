@@ -81,11 +81,12 @@ struct gl_framebuffers {
 
 // A draw's state besides its bindings.
 struct gl_draw_state {
+    bool packed;       // its primitives are
     int width, height; // of the target
     GLint scissor[4];
     enum rg_blend blend;
     enum rg_depth_mode depth;
-    enum rg_cull cull; // of native devices
+    enum rg_cull cull; // of items that are not packed
 };
 
 // The current bindings, so that equal ones cost no call. 0: nothing.
@@ -136,7 +137,7 @@ struct gl_image {
 struct gl_pass {
     struct rg_pass pub;
     GLuint program;
-    GLuint blending;       // the program that blends by itself; 0: none
+    GLuint blending;       // the program for draws that blend, if it is another; 0: none yet
     unsigned word_slots;   // bits of the slots that are read as textures of words
     size_t params_size;    // parameters of a run, in bytes
     size_t block_size;     // of the uniform block, in bytes

@@ -95,15 +95,20 @@ bool gl_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
     return gl_check(gl, "glGetProgramBinary", "kernel", pass->kernel->name);
 }
 
-// The program that a run takes: one that blends by itself is made for the first draw that blends.
-// 0, and one logged line, on failure.
+// The program that a run takes: one that blends by itself is made for the first draw that blends,
+// as is one for such draws of a native device whose driver shall not blend. 0, and one logged line,
+// on failure.
 static GLuint program_of(struct gl_device *gl, struct gl_pass *mine, const struct rg_run *run)
 {
-    if (!gl->pub.blends || !run->draw || run->draw->blend == RG_BLEND_OFF)
+    const struct rg_kernel *kernel = mine->pub.kernel;
+    const unsigned own = rg_device_ways(&gl->pub, kernel);
+    unsigned ways = rg_ways_of(&gl->pub, kernel, rg_run_features(&gl->pub, run->draw));
+    if (gl->pub.blends && run->draw && run->draw->blend != RG_BLEND_OFF)
+        ways |= RG_CODE_BLENDS;
+    if (ways == own)
         return mine->program;
     if (!mine->blending)
-        mine->blending = gl_program_create(
-            gl, mine->pub.kernel, rg_device_ways(&gl->pub, mine->pub.kernel) | RG_CODE_BLENDS);
+        mine->blending = gl_program_create(gl, kernel, ways);
     return mine->blending;
 }
 

@@ -74,9 +74,9 @@ static bool link(const struct gl_device *device, const struct rg_kernel *kernel,
 
 GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel, unsigned ways)
 {
-    const struct stage *stages = !kernel->draw             ? grid_stages
-                                 : (ways & RG_CODE_NATIVE) ? native_stages
-                                                           : draw_stages;
+    const struct stage *stages = !kernel->draw            ? grid_stages
+                                 : (ways & RG_CODE_SETUP) ? native_stages
+                                                          : draw_stages;
     GLuint program = glCreateProgram();
     bool built = true;
     for (int i = 0; built && i < MAX_STAGES && stages[i].type; i++)

@@ -5,10 +5,10 @@ static bool is_image(enum rg_slot_kind kind)
     return kind == RG_SLOT_IMAGE || kind == RG_SLOT_OUT_IMAGE;
 }
 
-static bool bind_image(struct gl_bound *bound, bool native, const struct rg_slot_info *slot,
+static bool bind_image(struct gl_bound *bound, bool sampled, const struct rg_slot_info *slot,
                        struct rg_image *image)
 {
-    const bool samples = native && slot->sampler != RG_TEXELS;
+    const bool samples = sampled && slot->sampler != RG_TEXELS;
     const GLuint id =
         samples ? gl_image_view(image, slot->sampler) : ((const struct gl_image *)image)->id;
     if (slot->kind == RG_SLOT_IMAGE)
@@ -34,11 +34,11 @@ bool gl_slot_words(struct gl_bound *bound, int slot, struct rg_buf *buf)
 bool gl_slots_bind(struct gl_bound *bound, const struct gl_pass *pass, const struct rg_run *run)
 {
     const struct rg_kernel *kernel = pass->pub.kernel;
-    const bool native = rg_device_ways(pass->pub.device, kernel) & RG_CODE_NATIVE;
+    const bool sampled = rg_run_features(pass->pub.device, run->draw) & RG_FEATURE_SAMPLERS;
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &kernel->slots[i];
         const struct rg_binding *binding = &run->slots[slot->slot];
-        if (is_image(slot->kind) && !bind_image(bound, native, slot, binding->image))
+        if (is_image(slot->kind) && !bind_image(bound, sampled, slot, binding->image))
             return false;
         if (is_image(slot->kind))
             continue;

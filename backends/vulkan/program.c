@@ -11,7 +11,7 @@ static bool create_module(struct vk_device *device, const struct rg_kernel *kern
                           enum rg_code_kind kind, unsigned ways, VkShaderModule *module)
 {
     struct rg_kernel_code code;
-    if (!rg_kernel_code(kernel, kind, rg_device_ways(&device->pub, kernel) | ways, &code))
+    if (!rg_kernel_code(kernel, kind, ways, &code))
         return false;
     const uint32_t spirv_magic = 0x07230203, header_bytes = 20;
     bool ok = code.size >= header_bytes && code.size % 4 == 0 &&
@@ -32,18 +32,23 @@ static bool create_module(struct vk_device *device, const struct rg_kernel *kern
 
 const VkSpecializationInfo *vk_constants(const struct vk_device *device)
 {
-    static const VkSpecializationMapEntry first = {0, 0, sizeof(VkBool32)};
-    static const VkBool32 filters[] = {VK_FALSE, VK_TRUE};
-    static const VkSpecializationInfo infos[] = {{1, &first, sizeof(filters[0]), &filters[0]},
-                                                 {1, &first, sizeof(filters[0]), &filters[1]}};
-    return device->pub.info.native ? &infos[vk_filters_depth(device)] : NULL;
+    enum { COUNT = 2, SIZE = sizeof(VkBool32), ALL = COUNT * SIZE };
+    static const VkSpecializationMapEntry entries[COUNT] = {{0, 0, SIZE}, {1, SIZE, SIZE}};
+    static const VkBool32 values[][COUNT] = {{0, 0}, {0, 1}, {1, 0}, {1, 1}};
+    static const VkSpecializationInfo infos[] = {{COUNT, entries, ALL, values[0]},
+                                                 {COUNT, entries, ALL, values[1]},
+                                                 {COUNT, entries, ALL, values[2]},
+                                                 {COUNT, entries, ALL, values[3]}};
+    const bool interpolates = device->pub.info.features & RG_FEATURE_PLACES;
+    return device->pub.info.native ? &infos[2 * vk_filters_depth(device) + interpolates] : NULL;
 }
 
 static bool create_pipeline(struct vk_device *device, const struct rg_kernel *kernel,
                             struct vk_pass *pass)
 {
     VkShaderModule module;
-    if (!create_module(device, kernel, RG_CODE_SPIRV, 0, &module))
+    if (!create_module(device, kernel, RG_CODE_SPIRV, rg_device_ways(&device->pub, kernel),
+                       &module))
         return false;
     const VkComputePipelineCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
@@ -62,16 +67,31 @@ static bool create_pipeline(struct vk_device *device, const struct rg_kernel *ke
     return ok;
 }
 
+static bool create_shaders(struct vk_device *device, const struct rg_kernel *kernel, unsigned ways,
+                           struct vk_shaders *shaders)
+{
+    return create_module(device, kernel, RG_CODE_VERTEX_SPIRV, ways, &shaders->vertex) &&
+           (!(ways & RG_CODE_SETUP) || create_module(device, kernel, RG_CODE_NATIVE_GEOMETRY_SPIRV,
+                                                     ways, &shaders->geometry)) &&
+           create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV, ways, &shaders->fragment);
+}
+
+// The ways of draws that blend.
+static unsigned ways_of_blending(const struct vk_device *device, const struct rg_kernel *kernel)
+{
+    const struct rg_draw blending = {.blend = RG_BLEND_OVER};
+    const unsigned features = rg_run_features(&device->pub, &blending);
+    return rg_ways_of(&device->pub, kernel, features) | (device->pub.blends ? RG_CODE_BLENDS : 0);
+}
+
 static bool create_drawing(struct vk_device *device, const struct rg_kernel *kernel,
                            struct vk_pass *pass)
 {
     struct vk_drawing *drawing = pass->drawing = rg_alloc(1, sizeof(*drawing), kernel->name);
-    return drawing && create_module(device, kernel, RG_CODE_VERTEX_SPIRV, 0, &drawing->vertex) &&
-           (!device->pub.info.native ||
-            create_module(device, kernel, RG_CODE_NATIVE_GEOMETRY_SPIRV, 0, &drawing->geometry)) &&
-           create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV, 0, &drawing->fragment) &&
-           (!device->pub.blends || create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV,
-                                                 RG_CODE_BLENDS, &drawing->blending));
+    const unsigned own = rg_device_ways(&device->pub, kernel);
+    const unsigned blending = ways_of_blending(device, kernel);
+    return drawing && create_shaders(device, kernel, own, &drawing->shaders[0]) &&
+           (blending == own || create_shaders(device, kernel, blending, &drawing->shaders[1]));
 }
 
 bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
@@ -91,10 +111,11 @@ static void destroy_drawing(struct vk_device *device, struct vk_drawing *drawing
     const int count = sizeof(drawing->pipelines) / sizeof(VkPipeline);
     for (int i = 0; i < count; i++)
         vkDestroyPipeline(device->handle, (&drawing->pipelines[0][0][0][0])[i], NULL);
-    vkDestroyShaderModule(device->handle, drawing->fragment, NULL);
-    vkDestroyShaderModule(device->handle, drawing->blending, NULL);
-    vkDestroyShaderModule(device->handle, drawing->geometry, NULL);
-    vkDestroyShaderModule(device->handle, drawing->vertex, NULL);
+    for (int i = 0; i < 2; i++) {
+        vkDestroyShaderModule(device->handle, drawing->shaders[i].fragment, NULL);
+        vkDestroyShaderModule(device->handle, drawing->shaders[i].geometry, NULL);
+        vkDestroyShaderModule(device->handle, drawing->shaders[i].vertex, NULL);
+    }
     free(drawing);
 }
 

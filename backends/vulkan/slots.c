@@ -25,7 +25,7 @@ static VkShaderStageFlags block_stages(const struct vk_device *device,
 static VkShaderStageFlags slot_stages(const struct vk_device *device,
                                       const struct rg_kernel *kernel, int slot)
 {
-    const bool is_own = device->pub.info.native ? slot < RG_SLOT_PRIMS : slot == RG_SLOT_PRIMS;
+    const bool is_own = device->pub.info.native ? slot <= RG_SLOT_PRIMS : slot == RG_SLOT_PRIMS;
     return kernel->draw && !is_own ? VK_SHADER_STAGE_FRAGMENT_BIT : block_stages(device, kernel);
 }
 
@@ -154,10 +154,10 @@ void vk_slot_image(union vk_descriptor *descriptor, const struct vk_device *devi
     descriptor->image.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
 }
 
-static void fill_image(union vk_descriptor *descriptor, const struct vk_device *device, bool native,
-                       const struct rg_slot_info *slot, const struct vk_image *image)
+static void fill_image(union vk_descriptor *descriptor, const struct vk_device *device,
+                       bool sampled, const struct rg_slot_info *slot, const struct vk_image *image)
 {
-    const enum rg_sampler sampling = native ? slot->sampler : RG_TEXELS;
+    const enum rg_sampler sampling = sampled ? slot->sampler : RG_TEXELS;
     vk_slot_image(descriptor, device, sampling,
                   slot->kind != RG_SLOT_IMAGE   ? image->stored
                   : sampling == RG_SAMPLED_CUBE ? image->cube
@@ -167,7 +167,7 @@ static void fill_image(union vk_descriptor *descriptor, const struct vk_device *
 void vk_slots_fill(const struct vk_device *device, const struct rg_kernel *kernel,
                    const struct rg_run *run, union vk_descriptor descriptors[RG_MAX_SLOTS])
 {
-    const bool native = rg_device_ways(&device->pub, kernel) & RG_CODE_NATIVE;
+    const bool sampled = rg_run_features(&device->pub, run->draw) & RG_FEATURE_SAMPLERS;
     memset(descriptors, 0, RG_MAX_SLOTS * sizeof(*descriptors));
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_binding *bound = &run->slots[kernel->slots[i].slot];
@@ -175,7 +175,7 @@ void vk_slots_fill(const struct vk_device *device, const struct rg_kernel *kerne
         if (bound->buf)
             vk_slot_buffer(descriptor, bound->buf);
         else
-            fill_image(descriptor, device, native, &kernel->slots[i],
+            fill_image(descriptor, device, sampled, &kernel->slots[i],
                        (struct vk_image *)bound->image);
     }
 }

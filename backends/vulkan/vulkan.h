@@ -125,12 +125,15 @@ union vk_descriptor {
     VkDescriptorImageInfo image;
 };
 
+struct vk_shaders {
+    VkShaderModule vertex, fragment;
+    VkShaderModule geometry; // if the driver sets up items; else none
+};
+
 // The additional parts of a DRAW program's pass: its shaders, and a pipeline for each draw state,
 // made on first use.
 struct vk_drawing {
-    VkShaderModule vertex, fragment;
-    VkShaderModule geometry; // on native devices
-    VkShaderModule blending; // fragments that blend by themselves; none if the driver does
+    struct vk_shaders shaders[2]; // of all draws; and of draws that blend, if those are others
     VkPipeline pipelines[VK_COLOURS][RG_BLEND_ADD + 1][RG_DEPTH_WRITE + 1][RG_CULL_FRONT + 1];
 };
 
@@ -296,8 +299,8 @@ void vk_target_forget(struct vk_device *device, struct vk_image *image);
 void vk_targets_close(struct vk_device *device);
 
 // program.c
-// What a shader's constants are on this device: the first is whether its samplers filter depths
-// (kernels/build/flatten.py). Only shaders of native devices have any.
+// What a shader's constants are on this device: whether its samplers filter depths, and whether it
+// interpolates places (kernels/build/flatten.py). Only shaders of native devices have any.
 const VkSpecializationInfo *vk_constants(const struct vk_device *device);
 // Compiles a pass's shaders: false, and one logged line, on failure. Destroying also accepts a
 // partly made pass.

@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "backends/asked/blending.h"
+#include "backends/asked/features.h"
 #include "backends/asked/question.h"
 #include "backends/asked/rounding.h"
 #include "core/base/alloc.h"
@@ -142,25 +143,27 @@ static int find(const struct rg_backend *backend, const char *name, const char *
     return index;
 }
 
-static struct rg_device *create(const struct rg_backend *backend, int index, bool native)
+static struct rg_device *create(const struct rg_backend *backend, int index, bool native,
+                                unsigned features)
 {
     struct rg_device *device = backend->create(index);
     if (device && !rg_limits_are_sound(&device->info)) {
         backend->destroy(device);
         device = NULL;
     }
-    if (device)
-        device->info.native = native;
+    if (!device)
+        return NULL;
+    device->info.native = native;
+    device->info.features = features;
     return device;
 }
 
-// Rounds and blends as the driver does.
 static void tell_native(struct rg_device *device)
 {
     struct rg_device_info *info = &device->info;
     const size_t length = strlen(info->name);
     snprintf(info->name + length, sizeof(info->name) - length, ":native");
-    rg_question_note(device, "native");
+    rg_question_note(device, info->features == RG_FEATURE_ALL ? "native" : "native in part");
     info->tier = RG_T2;
 }
 
@@ -179,11 +182,12 @@ struct rg_device *rg_device_open(const char *name)
     const int index = find(backend, name, plain, infos);
     if (index < 0)
         return NULL;
-    if (native && !rg_limits_allow_native(name, &infos[index]))
+    unsigned features = 0;
+    if (native && !(rg_features_read(&features) && rg_limits_allow_native(name, &infos[index])))
         return NULL;
     rg_doing_begin("opening device", name);
     struct rg_work *work = rg_alloc(1, sizeof(*work), name);
-    struct rg_device *device = work ? create(backend, index, native) : NULL;
+    struct rg_device *device = work ? create(backend, index, native, features) : NULL;
     if (!device) {
         free(work);
         return NULL;
@@ -195,8 +199,10 @@ struct rg_device *rg_device_open(const char *name)
         rg_device_close(device);
         return NULL;
     }
-    if (native)
+    if (native) {
+        rg_features_settle(device);
         tell_native(device);
+    }
     memcpy(device->info.full, device->info.name, RG_DEVICE_NAME_SIZE);
     return device;
 }

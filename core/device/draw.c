@@ -77,7 +77,7 @@ bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)
         !rg_limits_allow_draw(&pass->device->info, pass->kernel, run->draw))
         return false;
     rg_run_count(pass, run);
-    const bool packed = rg_device_packs(pass->device);
+    const bool packed = rg_draw_packs(pass->device, run->draw);
     _Alignas(16) unsigned char call[RG_MAX_PARAMS_SIZE];
     rg_draw_state state;
     fill_state(run->draw, &state);

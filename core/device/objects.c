@@ -249,7 +249,8 @@ bool rg_image_clear(struct rg_image *image, const void *texel)
 bool rg_image_makes_levels(const struct rg_image *image)
 {
     const struct rg_device_info *info = &image->device->info;
-    return info->native && info->limits.formats[image->desc.format].uses & RG_USE_FILTER;
+    return info->features & RG_FEATURE_LEVELS &&
+           info->limits.formats[image->desc.format].uses & RG_USE_FILTER;
 }
 
 bool rg_image_make_levels(struct rg_image *image, int first)

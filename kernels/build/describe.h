@@ -16,9 +16,11 @@
     {#name, slot, RG_SLOT_IMAGE, 0, RG_##F, NULL, RG_CAT(RG_SAMPLER_, RG_KERNEL_KIND)(how)},
 
 // Stages that pack sample nothing, and native devices run none.
-#define RG_SAMPLER_packer(how)   RG_TEXELS
-#define RG_SAMPLER_program(how)  RG_SAMPLED_##how
-#define RG_SAMPLER_lit(how)      RG_SAMPLED_##how
+#define RG_SAMPLER_packer(how) RG_TEXELS
+#define RG_SAMPLER_program(how)                                                                    \
+    _Pragma("GCC error \"a DRAW program with a SAMPLED slot is also in sampling_programs\"")       \
+        RG_TEXELS
+#define RG_SAMPLER_lit(how)      RG_SAMPLER_program(how)
 #define RG_SAMPLER_sampling(how) RG_SAMPLED_##how
 #define RG_SAMPLER_grid(how)                                                                       \
     _Pragma("GCC error \"a GRID kernel with a SAMPLED slot is listed in sampling_kernels\"")       \

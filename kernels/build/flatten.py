@@ -9,8 +9,8 @@ and root a name, behind which a program that defines RG_ROUNDED finds kernels/di
 another the driver's own, and makes every float `precise`, which forbids a driver to contract or
 reorder: the two things that the dialect cannot say in C and OpenCL C alike. A text whose files are
 older than OUTPUT.d, which lists them, is not made; one that has not changed is not written again, so
-that the build does not make anew what depends on it. Texts NAME.native.* are those of native devices
-(RG_NATIVE in kernels/dialect/lang.h). One process makes all texts, with a helper for each
+that the build does not make anew what depends on it. Texts NAME.native.* are those of native devices;
+NAME.setup.* leave to the driver only the setup of items, NAME.samplers.* only samplers (kernels/dialect/lang.h). One process makes all texts, with a helper for each
 processor. A kernel with a name that another language reserves is refused.
 """
 import multiprocessing
@@ -56,11 +56,17 @@ VERSION = """#version 450 core
 """
 
 # Of native devices: whether the driver's samplers filter depths, which OpenGL's do, and Vulkan's where RG_USE_FILTER
-# says so (backends/vulkan/program.c).
+# says so; and whether fragments take places that the driver interpolates (backends/vulkan/program.c).
 NATIVE = """#ifdef VULKAN
 layout(constant_id = 0) const bool rg_filters_depth = true;
+layout(constant_id = 1) const bool rg_interpolates = true;
 #else
 const bool rg_filters_depth = true;
+#ifdef RG_COMPUTES_PLACES
+const bool rg_interpolates = false;
+#else
+const bool rg_interpolates = true;
+#endif
 #endif
 """
 
@@ -91,12 +97,19 @@ def needs_of(depfile):
         return file.read().replace("\\\n", " ").split(":", 1)[1].split()
 
 
-def preprocess(language, is_native, header, shell, depfile, compiler):
+def native_parts(output):
+    """What a text leaves to the driver on native devices: the setup of items, and samplers."""
+    form = os.path.basename(output).split(".")[1]
+    return form in ("native", "setup"), form in ("native", "samplers")
+
+
+def preprocess(language, parts, header, shell, depfile, compiler):
     """The text behind the preprocessor, which also writes the files that it was made of."""
     command = compiler + [
         "-E", "-P", "-undef", "-nostdinc", "-x", "c", "-MD", "-MF", depfile,
         f"-DRG_{language}=1",
-        f"-DRG_NATIVE={int(is_native)}",
+        f"-DRG_NATIVE_SETUP={int(parts[0])}",
+        f"-DRG_NATIVE_SAMPLERS={int(parts[1])}",
         f'-DRG_KERNEL_HEADER="{header}"',
         shell,
     ]
@@ -294,8 +307,8 @@ def flatten(job):
     if is_made(output, depfile):
         return needs_of(depfile), None
     started_ns = time.time_ns()
-    is_native = ".native." in os.path.basename(output)
-    text = preprocess(language, is_native, header, shell, depfile + ".new", compiler)
+    parts = native_parts(output)
+    text = preprocess(language, parts, header, shell, depfile + ".new", compiler)
     needs = needs_of(depfile + ".new")
     refusal = reserved.refusal(language, text)
     if refusal:
@@ -303,7 +316,8 @@ def flatten(job):
     if language == "GLSL":
         try:
             text = add_varyings(add_struct_readers(make_precise(quotients.rewrite(text))))
-            text = VERSION + (NATIVE if is_native else FRAGMENT if shell.endswith(".frag") else "") + text
+            prologue = (NATIVE if any(parts) else "") + (FRAGMENT if shell.endswith("draw.frag") else "")
+            text = VERSION + prologue + text
         except quotients.Refused as refused:
             return needs, f"{header}: {refused}"
     write_if_changed(output, text)

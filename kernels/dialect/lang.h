@@ -18,10 +18,20 @@
 #ifndef RG_OPENCL
 #define RG_OPENCL 0
 #endif
-// 1 in the GLSL of native devices, which leave filters, corners and depth to the driver
-// (docs/native.md).
-#ifndef RG_NATIVE
-#define RG_NATIVE 0
+// 1 in the GLSL of native devices (docs/native.md): the driver's samplers filter, and it sets up
+// items: clips, culls and snaps their corners, and interpolates depth.
+#ifndef RG_NATIVE_SAMPLERS
+#define RG_NATIVE_SAMPLERS 0
+#endif
+#ifndef RG_NATIVE_SETUP
+#define RG_NATIVE_SETUP 0
+#endif
+// What the driver has interpolated at a fragment (dialect/draw/draw.h), or what the fragment
+// computes. The constant rg_interpolates, of such fragments alone, chooses.
+#if RG_NATIVE_SETUP && defined(RG_STAGE_FRAGMENT)
+#define RG_INTERPOLATED(interpolated, computed) (rg_interpolates ? (interpolated) : (computed))
+#else
+#define RG_INTERPOLATED(interpolated, computed) (computed)
 #endif
 
 // RG_STRUCT(name) { int a; float b; }; is a struct of 4-byte scalars that crosses the host

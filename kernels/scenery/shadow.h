@@ -61,7 +61,7 @@ RG_FN int scenery_shadow_texel(float at, int size)
     return rg_to_int(rg_clamp(at, 0.0f, rg_to_float(size - 1)));
 }
 
-#if RG_NATIVE
+#if RG_NATIVE_SAMPLERS
 
 // The driver compares, at a place in texels; between their centres it weighs four answers if its
 // samplers filter depths.
@@ -69,7 +69,7 @@ RG_FN float scenery_shadow_at(rg_ctx rg, scenery_shadow_place place, float x, fl
 {
     float over = 1.0f / rg_to_float(shadows_width(rg, 0));
     vec4 at = vec4(x * over, y * over, rg_to_float(place.layer), place.depth);
-    return textureGrad(shadows_sampler, at, vec2(0.0f), vec2(0.0f));
+    return textureGrad(shadows_compared, at, vec2(0.0f), vec2(0.0f));
 }
 
 RG_FN float scenery_shadow_tap(rg_ctx rg, scenery_shadow_place place, int x, int y)
@@ -100,7 +100,7 @@ RG_FN float scenery_unshadowed(rg_ctx rg, scenery_light l, v3 at)
 // The same interpolated between four texels, 0 to 1.
 RG_FN float scenery_shadow_soft(rg_ctx rg, scenery_shadow_place place)
 {
-#if RG_NATIVE
+#if RG_NATIVE_SAMPLERS
     if (rg_filters_depth)
         return scenery_shadow_at(rg, place, place.x, place.y);
 #endif

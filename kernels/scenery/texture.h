@@ -18,7 +18,7 @@ RG_FN int scenery_texture_level(float texels, int last_level)
     return rg_imin(rg_to_int(bits >> 24), last_level);
 }
 
-#if RG_NATIVE
+#if RG_NATIVE_SAMPLERS
 
 // The driver filters, in the same level as elsewhere. Between two levels thin dark bars, such as
 // those of shop windows by night, would be sharper than in the nearest.

@@ -399,19 +399,14 @@ RG_FN streaks_spot streaks_spot_at(streaks_params p, streaks_billboard r, int px
     float x = rg_to_float(px) + 0.5f;
     float y = rg_to_float(py) + 0.5f;
     streaks_spot spot;
-#if RG_NATIVE && defined(RG_STAGE_FRAGMENT)
-    float inverse_w = rg_max(gl_FragCoord.w, RG_LEAST_W);
-    float w = 1.0f / inverse_w;
-    spot.u = rg_at.x;
-    spot.v = rg_at.y;
-#else
     float dx = x - r.origin_x;
     float dy = y - r.origin_y;
-    float inverse_w = rg_max(r.inverse_w_x * dx + r.inverse_w_y * dy + r.inverse_w_at, RG_LEAST_W);
+    float inverse_w = rg_max(
+        RG_INTERPOLATED(gl_FragCoord.w, r.inverse_w_x * dx + r.inverse_w_y * dy + r.inverse_w_at),
+        RG_LEAST_W);
     float w = 1.0f / inverse_w;
-    spot.u = rg_clamp((r.u_x * dx + r.u_y * dy + r.u_at) * w, 0.0f, 1.0f);
-    spot.v = rg_clamp((r.v_x * dx + r.v_y * dy + r.v_at) * w, 0.0f, 1.0f);
-#endif
+    spot.u = RG_INTERPOLATED(rg_at.x, rg_clamp((r.u_x * dx + r.u_y * dy + r.u_at) * w, 0.0f, 1.0f));
+    spot.v = RG_INTERPOLATED(rg_at.y, rg_clamp((r.v_x * dx + r.v_y * dy + r.v_at) * w, 0.0f, 1.0f));
     v3 ray = streaks_ray(p, x, y);
     spot.at = v3_make(p.eye_x + ray.x * w, p.eye_y + ray.y * w, p.eye_s + ray.z * w);
     float before = inverse_w / rg_max(1.0f - r.nearer * inverse_w, 0.1f);

@@ -6,17 +6,20 @@ struct draw_state {
     struct vk_target target;
     enum rg_blend blend;
     enum rg_depth_mode depth_mode;
-    enum rg_cull cull; // on native devices; else packing has culled
+    bool packed; // its primitives are, and packing has culled
+    enum rg_cull cull;
 };
 
 static struct draw_state draw_state_of(const struct vk_device *device, const struct rg_draw *draw)
 {
     const struct vk_target target = vk_target_of(device, draw);
+    const bool packed = rg_draw_packs(&device->pub, draw);
     return (struct draw_state){
         .target = target,
         .blend = target.colour == RG_FORMAT_NONE ? RG_BLEND_OFF : draw->blend,
         .depth_mode = target.depth ? draw->depth_mode : RG_DEPTH_OFF,
-        .cull = device->pub.info.native ? draw->cull : RG_CULL_NONE,
+        .packed = packed,
+        .cull = packed ? RG_CULL_NONE : draw->cull,
     };
 }
 
@@ -100,16 +103,16 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
                             const struct draw_state *state, VkPipeline *pipeline)
 {
     const char *name = pass->pub.kernel->name;
-    const bool native = device->pub.info.native;
+    const struct vk_shaders *all = pass->drawing->shaders;
+    const struct vk_shaders *shaders = &all[state->blend != RG_BLEND_OFF && all[1].vertex];
     const VkPipelineShaderStageCreateInfo stages[] = {
-        stage(device, VK_SHADER_STAGE_VERTEX_BIT, pass->drawing->vertex),
-        stage(device, VK_SHADER_STAGE_FRAGMENT_BIT,
-              state->target.blends ? pass->drawing->blending : pass->drawing->fragment),
-        stage(device, VK_SHADER_STAGE_GEOMETRY_BIT, pass->drawing->geometry)};
+        stage(device, VK_SHADER_STAGE_VERTEX_BIT, shaders->vertex),
+        stage(device, VK_SHADER_STAGE_FRAGMENT_BIT, shaders->fragment),
+        stage(device, VK_SHADER_STAGE_GEOMETRY_BIT, shaders->geometry)};
     const VkPipelineInputAssemblyStateCreateInfo assembly = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology =
-            native ? VK_PRIMITIVE_TOPOLOGY_POINT_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+            state->packed ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST : VK_PRIMITIVE_TOPOLOGY_POINT_LIST};
     const VkPipelineRasterizationStateCreateInfo fill = fill_state(state->cull);
     const VkPipelineColorBlendAttachmentState attachment =
         blend_state(state->target.blends ? RG_BLEND_OFF : state->blend);
@@ -124,7 +127,7 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
     };
     const VkPipelineDepthStencilStateCreateInfo depth = depth_state(state->depth_mode);
     VkGraphicsPipelineCreateInfo info = plain_pipeline();
-    info.stageCount = native ? 3 : 2;
+    info.stageCount = state->packed ? 2 : 3;
     info.pStages = stages;
     info.pInputAssemblyState = &assembly;
     info.pRasterizationState = &fill;

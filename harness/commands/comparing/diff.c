@@ -18,7 +18,7 @@ struct diff_options {
     char *background, *heatmap_prefix; // files
     double exposure;
     int64_t memory_bytes;
-    bool mutants, json;
+    bool mutants, features, json;
 };
 
 #define AT(field) offsetof(struct diff_options, field)
@@ -35,6 +35,10 @@ static const struct rg_option options[] = {
     {RG_OPTION_FLAG, "mutants", .offset = AT(mutants),
      .about = "for a pair that misses its tier, names the mutants (deliberate faults) of "
               "`raingauge verify` that would pass the tier that the pair reaches"},
+    {RG_OPTION_FLAG, "features", .offset = AT(features),
+     .about =
+         "for a pair with a native device, switches the driver's features to the exact way one "
+         "at a time, and names those by which the pictures differ (docs/native.md)"},
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_GROUP_OF(2, "What to compare: two files"),
@@ -70,6 +74,7 @@ static int diff_devices(const struct diff_options *o, const struct rg_words *arg
         .heatmap_prefix = o->heatmap_prefix,
         .exposure = o->exposure,
         .mutants = o->mutants,
+        .features = o->features,
         .json = o->json,
     });
     free(settings);

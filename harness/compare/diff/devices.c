@@ -11,7 +11,7 @@
 #include "core/base/text/plain.h"
 #include "core/device/device.h"
 #include "core/image/files/io.h"
-#include "harness/compare/blame/blame.h"
+#include "harness/compare/blame/features.h"
 #include "harness/compare/diff/accepts.h"
 #include "harness/compare/diff/pair.h"
 #include "harness/console/exit.h"
@@ -228,6 +228,30 @@ static json_t *blame_pair(struct session *s, const struct shot *a, const struct 
     return NULL;
 }
 
+// Finds the features of a native device by which a pair differs; the other device counts as the
+// truth. False, and one logged line, on failure.
+static bool blame_features(const struct session *s, const struct shot *a, const struct shot *b,
+                           json_t *pair)
+{
+    const struct rg_diff_devices_request *r = s->asked;
+    const struct shot *device = b->info->native ? b : a, *truth = device == a ? b : a;
+    const struct rg_features_request request = {.run = {r->subject, r->frames < 1 ? 1 : r->frames},
+                                                .device = device->device,
+                                                .truth = truth->device,
+                                                .dry = &s->background,
+                                                .frames = r->frames};
+    struct rg_features_told told;
+    if (!device->info->native)
+        return true;
+    if (!rg_features_blame(&request, &told))
+        return false;
+    if (pair)
+        json_object_set_new(pair, "features", rg_features_json(&told));
+    else
+        rg_features_print(&told);
+    return true;
+}
+
 static json_t *pair_json(const struct shot *a, const struct shot *b, const struct rg_comparison *c)
 {
     char names[2][RG_DEVICE_NAME_SIZE];
@@ -308,6 +332,8 @@ static int compare_pair(struct session *s, const struct shot *a, const struct sh
     bool ok = true;
     if (outcome == RG_FAIL)
         tell_failure(s, a, b, &c, pair);
+    if (s->asked->features)
+        ok = blame_features(s, a, b, pair);
     if (s->pairs)
         ok = json_array_append_new(s->pairs, pair) == 0 && ok;
     if (s->asked->heatmap_prefix)

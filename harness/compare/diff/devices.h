@@ -15,8 +15,9 @@ struct rg_diff_devices_request {
     const char *heatmap_prefix; // NULL: none; else PREFIX-A-B-flip.png and -difference.png,
                                 // and PREFIX-A.exr
     double exposure;
-    bool mutants; // for a failing pair: which mutants the tier that holds would accept
-    bool json;    // instead of a table
+    bool mutants;  // for a failing pair: which mutants the tier that holds would accept
+    bool features; // for a native device that differs: which of its features do
+    bool json;     // instead of a table
 };
 
 // Renders on every device, compares every pair and prints the results. Returns an enum rg_exit:

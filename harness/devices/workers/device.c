@@ -81,6 +81,7 @@ static const struct rg_field info_fields[] = {
     RG_FIELD_STRUCTS(struct rg_device_info, libraries, library_fields),
     RG_FIELD_FLAG(struct rg_device_info, software),
     RG_FIELD_FLAG(struct rg_device_info, native),
+    RG_FIELD_INTEGER(struct rg_device_info, features, 0, RG_FEATURE_ALL),
     RG_FIELD_INTEGER(struct rg_device_info, tier, 0, RG_TIER_COUNT - 1),
     RG_FIELD_STRUCT(struct rg_device_info, limits, limits_fields),
     RG_FIELDS_END,

@@ -52,6 +52,7 @@ const struct rg_variable rg_variables[] = {
     {"RG_KERNEL_DIR", false},
     {"RG_LABELS", true},
     {"RG_MODEL_DIR", false},
+    {"RG_NATIVE", true},
     {"RG_ROUNDING", true},
     {"RG_VK_VALIDATION", true},
     {NULL, false},

@@ -60,8 +60,7 @@
 // A program whose fragments are as deep as its corners, interpolated, defines RG_DEPTH_OF_CORNERS.
 // Native devices then leave depth to the driver, which can test it early. In their fragments rg_at
 // is the pixel's place among the corners, also interpolated: (0, 0), (1, 0) and, for the last
-// corner, (0, 1); the third of four has (1, 1). Kernels may use it where
-// RG_NATIVE && defined(RG_STAGE_FRAGMENT).
+// corner, (0, 1); the third of four has (1, 1). Kernels use it in RG_INTERPOLATED (dialect/lang.h).
 //
 // A program whose fragments read most words of a long record defines RG_COLUMNS. `cpu` then reads
 // the record once for a primitive's listed pixels, and spreads its words, instead of gathering

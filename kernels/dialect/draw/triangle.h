@@ -108,35 +108,16 @@ RG_FN float rg_plane_at(rg_plane p, float dx, float dy)
     return p.x * dx + p.y * dy + p.at;
 }
 
-#if RG_NATIVE && defined(RG_STAGE_FRAGMENT)
-
-// The driver has interpolated all of them (shaders/native.frag).
+// Native devices leave depth to the driver.
 RG_FN float rg_planes_depth(rg_planes s, int px, int py)
 {
+#if RG_NATIVE_SETUP && defined(RG_STAGE_FRAGMENT)
     return gl_FragCoord.z;
-}
-
-RG_FN float rg_planes_w(rg_planes s, int px, int py)
-{
-    return 1.0f / rg_max(gl_FragCoord.w, RG_LEAST_W);
-}
-
-RG_FN rg_weights rg_planes_weights(rg_planes s, int px, int py)
-{
-    rg_weights k;
-    k.b = rg_at.x;
-    k.c = rg_at.y;
-    k.a = 1.0f - k.b - k.c;
-    return k;
-}
-
 #else
-
-RG_FN float rg_planes_depth(rg_planes s, int px, int py)
-{
     float dx = rg_to_float(px) + 0.5f - s.origin_x;
     float dy = rg_to_float(py) + 0.5f - s.origin_y;
     return rg_clamp(rg_plane_at(s.depth, dx, dy), s.nearest, s.farthest);
+#endif
 }
 
 // w at a pixel's centre.
@@ -144,7 +125,8 @@ RG_FN float rg_planes_w(rg_planes s, int px, int py)
 {
     float dx = rg_to_float(px) + 0.5f - s.origin_x;
     float dy = rg_to_float(py) + 0.5f - s.origin_y;
-    return 1.0f / rg_max(rg_plane_at(s.inverse_w, dx, dy), RG_LEAST_W);
+    float inverse_w = RG_INTERPOLATED(gl_FragCoord.w, rg_plane_at(s.inverse_w, dx, dy));
+    return 1.0f / rg_max(inverse_w, RG_LEAST_W);
 }
 
 // Perspective-correct weights at a pixel's centre. They are clamped to 0 to 1: they follow from the
@@ -155,12 +137,10 @@ RG_FN rg_weights rg_planes_weights(rg_planes s, int px, int py)
     float dy = rg_to_float(py) + 0.5f - s.origin_y;
     float w = rg_planes_w(s, px, py);
     rg_weights k;
-    k.b = rg_clamp(rg_plane_at(s.b, dx, dy) * w, 0.0f, 1.0f);
-    k.c = rg_clamp(rg_plane_at(s.c, dx, dy) * w, 0.0f, 1.0f - k.b);
+    k.b = RG_INTERPOLATED(rg_at.x, rg_clamp(rg_plane_at(s.b, dx, dy) * w, 0.0f, 1.0f));
+    k.c = RG_INTERPOLATED(rg_at.y, rg_clamp(rg_plane_at(s.c, dx, dy) * w, 0.0f, 1.0f - k.b));
     k.a = 1.0f - k.b - k.c;
     return k;
 }
-
-#endif
 
 #endif

@@ -10,7 +10,7 @@
 // centres on the cube's edges (core/scene/environment/cube.h), so that light is the same on both
 // sides of an edge. A place on a face always lies between texels' centres, so that the bounds
 // checks of filter.h are left out. It pays, because half of all that is drawn is light from here.
-#if RG_NATIVE
+#if RG_NATIVE_SAMPLERS
 
 // The driver has the outermost texels' centres half a texel inside the edges, so the components
 // along a face shrink by that much, and no filter reaches beyond the face.
@@ -21,7 +21,7 @@ RG_FN v3 light_from(rg_ctx rg, v3 d, int level, int size)
     vec3 to =
         vec3(rg_abs(d.x) == major ? d.x : d.x * inside, rg_abs(d.y) == major ? d.y : d.y * inside,
              rg_abs(d.z) == major ? d.z : d.z * inside);
-    vec4 t = textureLod(environment_sampler, to, rg_to_float(level));
+    vec4 t = textureLod(environment_cube, to, rg_to_float(level));
     return v3_make(t.x, t.y, t.z);
 }
 

@@ -23,7 +23,7 @@ RG_FN int rg_filter_texel(float at, int size)
                             rg_filter_texel(v * rg_to_float(height), height), layer, level);       \
     }
 
-#if RG_NATIVE
+#if RG_NATIVE_SAMPLERS
 
 // The driver's samplers, clamped at the edges (enum rg_sampler of backends/kernel.h). A linear
 // filter between levels reads one level alone if the level is whole.

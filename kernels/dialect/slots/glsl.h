@@ -100,20 +100,20 @@ struct rg_ctx {
         uvec4 t = uvec4(texelFetch(name##_sampler, ivec3(x, y, layer), level) * 255.0f + 0.5f);    \
         return t.x | (t.y << 8) | (t.z << 16) | (t.w << 24);                                       \
     }                                                                                              \
-    RG_SIZES(name)
+    RG_SIZES(name, name##_sampler)
 
-#define RG_SIZES(name)                                                                             \
+#define RG_SIZES(name, sampler)                                                                    \
     int name##_width(rg_ctx rg, int level)                                                         \
     {                                                                                              \
-        return rg_imax(textureSize(name##_sampler, 0).x >> level, 1);                              \
+        return rg_imax(textureSize(sampler, 0).x >> level, 1);                                     \
     }                                                                                              \
     int name##_height(rg_ctx rg, int level)                                                        \
     {                                                                                              \
-        return rg_imax(textureSize(name##_sampler, 0).y >> level, 1);                              \
+        return rg_imax(textureSize(sampler, 0).y >> level, 1);                                     \
     }                                                                                              \
     int name##_levels(rg_ctx rg)                                                                   \
     {                                                                                              \
-        return textureQueryLevels(name##_sampler);                                                 \
+        return textureQueryLevels(sampler);                                                        \
     }
 
 #define RG_OUT_IMAGE(slot, format, F, name)                                                        \
@@ -126,16 +126,17 @@ struct rg_ctx {
 
 #define OUT_IMAGE(slot, F, name) RG_OUT_IMAGE(slot, RG_LAYOUT_##F, F, name)
 
-#if RG_NATIVE
-// Cubes and shadows have samplers of their own, which fetch no texels.
+#if RG_NATIVE_SAMPLERS
+// Cubes and shadows have samplers of their own, which fetch no texels. Their names differ, because
+// OpenGL wants a name to have one type in all stages, and some stages sample nothing.
 #define RG_AS_FILTERED(slot, F, name) IMAGE(slot, F, name)
 #define RG_AS_TILED(slot, F, name)    IMAGE(slot, F, name)
 #define RG_AS_CUBE(slot, F, name)                                                                  \
-    layout(binding = slot) uniform samplerCube name##_sampler;                                     \
-    RG_SIZES(name)
+    layout(binding = slot) uniform samplerCube name##_cube;                                        \
+    RG_SIZES(name, name##_cube)
 #define RG_AS_SHADOW(slot, F, name)                                                                \
-    layout(binding = slot) uniform sampler2DArrayShadow name##_sampler;                            \
-    RG_SIZES(name)
+    layout(binding = slot) uniform sampler2DArrayShadow name##_compared;                           \
+    RG_SIZES(name, name##_compared)
 #undef SAMPLED
 #define SAMPLED(slot, F, name, how) RG_AS_##how(slot, F, name)
 #endif

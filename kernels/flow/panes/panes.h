@@ -30,16 +30,12 @@ RG_STRUCT(flow_point)
 RG_FN flow_point flow_point_at(rg_planes s, int px, int py)
 {
     flow_point at;
-#if RG_NATIVE && defined(RG_STAGE_FRAGMENT)
-    at.u = rg_at.y; // pane_item's second corner lies below the first
-    at.v = rg_at.x;
-#else
     float dx = rg_to_float(px) + 0.5f - s.origin_x;
     float dy = rg_to_float(py) + 0.5f - s.origin_y;
     float w = rg_planes_w(s, px, py);
-    at.u = rg_clamp(rg_plane_at(s.b, dx, dy) * w, 0.0f, 1.0f);
-    at.v = rg_clamp(rg_plane_at(s.c, dx, dy) * w, 0.0f, 1.0f);
-#endif
+    // pane_item's second corner lies below the first.
+    at.u = RG_INTERPOLATED(rg_at.y, rg_clamp(rg_plane_at(s.b, dx, dy) * w, 0.0f, 1.0f));
+    at.v = RG_INTERPOLATED(rg_at.x, rg_clamp(rg_plane_at(s.c, dx, dy) * w, 0.0f, 1.0f));
     return at;
 }
 

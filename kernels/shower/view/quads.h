@@ -70,15 +70,11 @@ RG_DRAW_RECORD(shower_quads)
 
 RG_DRAW_FRAGMENT(shower_quads)
 {
-#if RG_NATIVE && defined(RG_STAGE_FRAGMENT)
-    float u = rg_at.y; // from the first corner to the last
-    float v = 1.0f - rg_at.x;
-#else
     float x = rg_to_float(px) + 0.5f;
     float y = rg_to_float(py) + 0.5f;
-    float u = r.u_x * x + r.u_y * y + r.u_at;
-    float v = r.v_x * x + r.v_y * y + r.v_at;
-#endif
+    // u runs from the first corner to the last.
+    float u = RG_INTERPOLATED(rg_at.y, r.u_x * x + r.u_y * y + r.u_at);
+    float v = RG_INTERPOLATED(1.0f - rg_at.x, r.v_x * x + r.v_y * y + r.v_at);
     float alpha = r.alpha * drop_linear(rg, u, v, 0, 0).r;
     return rg_fragment_make(rg_rgba(p.r * alpha, p.g * alpha, p.b * alpha, alpha), r.depth);
 }

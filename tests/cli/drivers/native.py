@@ -6,6 +6,8 @@ import os
 import re
 import tempfile
 
+import forms
+
 APIS = ("gl", "vulkan")
 # Small scenes of techniques whose papers used the stages below.
 FLOW = ["flow", "--set", "resolution_px=96", "--set", "environment_px=64", "--size", "96x96", "--frame", "4"]
@@ -50,6 +52,11 @@ def check_names(runner):
         result = runner.run(["render", "raster", "--device", name, "-o", "/dev/null.png", "--size", "16x16"])
         if result.returncode != status:
             problems.append("%s: exit status %d, %s" % (name, result.returncode, result.stderr))
+    all_words = "give none, or words of samplers+levels+setup+places+blending, or unset it"
+    for value, mend in (("samplers+", all_words), ("all", all_words), ("places+levels", "places are interpolated only with setup; give both")):
+        result = runner.run(["render", "raster", "--device", "gl:native@RG_NATIVE=" + value, "-o", "/dev/null.png", "--size", "16x16"])
+        if result.returncode != 2 or result.stderr != "raingauge: RG_NATIVE=%s: %s\n" % (value, mend):
+            problems.append("%s: exit status %d, %s" % (value, result.returncode, result.stderr))
     if any(":native" in line for line in runner.run(["list", "devices"]).stdout.splitlines()):
         problems.append("native devices are among the default ones")
     return problems
@@ -132,6 +139,68 @@ def check_all_switches(runner):
                        for (switch, api, scene), is_other in changed.items() if is_other == (switch in UNUSED[scene])]
 
 
+def without_features(runner, tries):
+    """Problems of scenes on APIs whose native devices without features draw other bits than cpu."""
+    problems = []
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "picture.exr")
+        for api, scene in tries:
+            due, now = (digest(runner, scene, device, path) for device in ("cpu", api + ":native@RG_NATIVE=none"))
+            problems += [] if now == due and not due.startswith("exit") else ["%s on %s: %s, not %s" % (scene[0], api, now, due)]
+    return problems
+
+
+def check_without_features(runner):
+    """A native device whose driver keeps no feature draws every bit as exact devices do."""
+    return without_features(runner, [("gl", FLOW), ("vulkan", SHOWER), ("vulkan", RASTER)])
+
+
+def check_all_without_features(runner):
+    """The same of all techniques on both APIs."""
+    return without_features(runner, [(api, scene) for scene in (FLOW, STREAKS, SHOWER, DROPS, CARTOON[:3] + CARTOON[5:], RASTER) for api in APIS])
+
+
+def blamed(runner, api, scene, devices):
+    """The verdict, the features blamed, the stage and the pairs that diff counts, of a pair of devices."""
+    result = runner.run(["diff", *scene, "--features", "--json", "--device", devices.replace("API", api)])
+    document = json.loads(result.stdout) if result.stdout else {}
+    told = document["pairs"][0]["features"] if document else {}
+    wrong = result.stderr + "".join(forms.problems("diff", document))
+    return told.get("verdict"), told.get("blamed"), told.get("blame", {}).get("stage"), len(told.get("compared", [])), wrong
+
+
+def check_blamed(runner):
+    """A difference is blamed on the features of the driver that make it: within T2 against cpu, and else to the bit."""
+    if "llvmpipe" not in runner.run(["list", "devices"]).stdout:
+        return []
+    due = {
+        ("gl", "flow", "cpu,API:native@LP_PERF=no_linear"): ("alone", ["samplers"], "flow_sky", 6, ""),
+        ("vulkan", "raster", "API:native,API:native@LP_PERF=no_blend"): ("alone", ["blending"], "raster_streaks", 6, ""),
+    }
+    return ["%s: blamed %s, not %s" % (of, told, says) for of, says in due.items()
+            for told in [blamed(runner, of[0], RASTER if of[1] == "raster" else FLOW, of[2])] if told != says]
+
+
+def check_all_blamed(runner):
+    """Each switch is blamed on the feature that it turns off, or is said to be of what the exact way has too."""
+    if "llvmpipe" not in runner.run(["list", "devices"]).stdout:
+        return []
+    shared = ("LP_PERF=no_tex", "LP_PERF=no_depth")
+    told = blamed(runner, "gl", FLOW, "cpu,API:native")
+    problems = [] if told == ("together", ["samplers", "places"], "flow_sky", 12, "") else ["cpu and gl:native: %s" % (told,)]
+    for switch, (_, scene) in SWITCHES.items():
+        due = ("shared", []) if switch in shared else ("alone", ["blending" if switch.endswith("blend") else "samplers"])
+        for api in APIS:
+            with tempfile.TemporaryDirectory() as folder:
+                behind = os.path.join(folder, "behind.png")
+                runner.run(["render", *FLOW, "--device", "cpu", "-o", behind])
+                given = scene + ["--set", "background=" + behind] if scene is DROPS else scene
+                told = blamed(runner, api, given, "API:native,API:native@" + switch)
+            if told[:2] != due or told[4]:
+                problems.append("%s on %s: %s, not %s" % (switch, api, told, due))
+    return problems
+
+
 def check_verified(runner):
     """Rain and its scene are within T2 in verify's poses: of shower, where it would tell that the quads' texture lies the other way;
     of streaks, where splashes are small enough for the last level of their pictures, and shops shine by night."""
@@ -145,5 +214,5 @@ def check_verified(runner):
     return problems
 
 
-THOROUGH = [check_all_switches, check_verified]
-CHECKS = [check_names, check_agreement, check_queries, check_table, check_switches]
+THOROUGH = [check_all_switches, check_all_without_features, check_all_blamed, check_verified]
+CHECKS = [check_names, check_agreement, check_queries, check_table, check_switches, check_without_features, check_blamed]

@@ -36,7 +36,14 @@ GL_SAMPLER, VK_SAMPLER, VK_STATE = "backends/gl/api/sampler.c", "backends/vulkan
 OF_NATIVE = ("command line, native",)
 OF_SUITE_GL, OF_SUITE_VK = ("device suite, native, gl",), ("device suite, native, vulkan",)
 
+FEATURES, OF_FEATURES = "backends/asked/features.c", "harness/compare/blame/features.c"
+
 ROWS = [
+    Fault(FEATURES, "asked && *asked ? «0» : RG_FEATURE_ALL", "RG_FEATURE_ALL", "features that are not named are the driver's too", tests=OF_NATIVE),
+    Fault(FEATURES, "device->blends = «!(device->info.features & RG_FEATURE_BLENDING)» &&", "false", "a driver that shall not blend blends", tests=OF_NATIVE),
+    Fault(OF_FEATURES, "device->info.features & «~exact», words);", "exact", "the other features are switched", tests=OF_NATIVE),
+    Fault(OF_FEATURES, "told->by_bits = is_first ? «holds» : told->by_bits;", "true", "features are to end differences within the tier", tests=OF_NATIVE),
+    Fault(OF_FEATURES, "none->is_equal             ? «RG_FEATURES_TOGETHER»", "RG_FEATURES_SHARED", "what ends only together is blamed on nobody", tests=OF_NATIVE),
     Fault(GL_SAMPLER, "GL_TEXTURE_COMPARE_FUNC, «GL_LEQUAL»", "GL_GREATER", "gl:native lights what is in shadow", tests=OF_NATIVE),
     Fault(GL_SAMPLER, "GL_TEXTURE_MAG_FILTER, «GL_LINEAR»", "GL_NEAREST", "gl:native weighs no texels", tests=OF_SUITE_GL),
     Fault("backends/gl/image.c", "GL_TEXTURE_BASE_LEVEL, «first - 1»", "0", "gl:native makes levels that it was given", tests=OF_SUITE_GL),
@@ -76,15 +83,15 @@ ROWS = [
     Fault(KERNEL, "return «forms[i].form»;", "forms[i].form == RG_CODE_ROUNDED_FRAGMENT_SPIRV ? RG_CODE_FRAGMENT_SPIRV : forms[i].form", "fragments are the driver's to round", tests=OF_ROUNDING),
     Fault(KERNEL, "found = «kind_of(kind, ways)»;", "kind", "modules are the driver's to round", tests=OF_ROUNDING),
     Fault("backends/gl/program.c", "rg_kernel_code(kernel, kind, «ways»,", "ways & ~RG_CODE_ROUNDS", "gl: programs are the driver's to round", tests=OF_ROUNDING),
-    Fault("backends/vulkan/program.c", "rg_kernel_code(kernel, kind, «rg_device_ways(&device->pub, kernel)» | ways,", "0u", "vulkan: programs are the driver's to round", tests=OF_ROUNDING),
+    Fault("backends/vulkan/program.c", "rg_kernel_code(kernel, kind, «ways»,", "ways & ~RG_CODE_ROUNDS", "vulkan: programs are the driver's to round", tests=OF_ROUNDING),
     Fault(BLENDING, "bool is_exact = «device->info.tier == RG_T0»;", "false", "devices that draw as cpu:reference does are asked how they blend", tests=OF_BLENDING),
     Fault(BLENDING, "*is_exact = ok && «!memcmp(t->due, t->drawn, (size_t)TEXELS * (size_t)rg_format_size(format))»;", "true", "no driver blends otherwise", tests=OF_BLENDING),
     Fault(BLENDING, "device->blends = wanted || «(can && !is_exact)»;", "false", "drivers that blend otherwise go on blending", tests=OF_BLENDING),
     Fault(BLENDING, "if («wanted && !can»)", "false", "programs blend where the driver has no way", tests=OF_BLENDING),
     Fault(GL, ".blend = «device->pub.blends ? RG_BLEND_OFF : draw->blend»,", "draw->blend", "gl: what programs blend is blended once more", tests=OWN_GL),
-    Fault("backends/gl/pass.c", "gl, mine->pub.kernel, «rg_device_ways(&gl->pub, mine->pub.kernel) | RG_CODE_BLENDS»)", "rg_device_ways(&gl->pub, mine->pub.kernel)", "gl: what programs are to blend nobody blends", tests=OWN_GL),
+    Fault("backends/gl/pass.c", "ways |= «RG_CODE_BLENDS»;", "0", "gl: what programs are to blend nobody blends", tests=OWN_GL),
     Fault("backends/vulkan/api/pipeline.c", "blend_state(«state->target.blends ? RG_BLEND_OFF : state->blend»)", "state->blend", "vulkan: what programs blend is blended once more", tests=OWN_VK),
-    Fault("backends/vulkan/program.c", "RG_CODE_FRAGMENT_SPIRV,\n                                                 «RG_CODE_BLENDS», &drawing->blending", "0", "vulkan: what programs are to blend nobody blends", tests=OWN_VK),
+    Fault("backends/vulkan/program.c", "(device->pub.blends ? «RG_CODE_BLENDS» : 0)", "0", "vulkan: what programs are to blend nobody blends", tests=OWN_VK),
     Fault(CL_BUF, "staged ? CL_FALSE : CL_TRUE,\n                                       «offset», size, staged", "0", "opencl: writes begin at 0", tests=OF_CL),
     Fault(CL_PASS, "return (width + group «- 1») / group * group;", "- group", "opencl: the last work group is left out", tests=OF_CL),
     Fault(CL_TIME, "*time_ns = (int64_t)end_ns;", "*time_ns = (int64_t)end_ns / 1000;", "opencl: time is in microseconds", tests=OF_CL),

@@ -78,6 +78,7 @@ static void fill_info(struct rg_device_info *info)
     }
     info->software = true;
     info->native = true;
+    info->features = RG_FEATURE_ALL;
     info->tier = RG_T2;
     fill_limits(&info->limits);
 }
