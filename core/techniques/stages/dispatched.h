@@ -8,12 +8,22 @@
 // The owner calls rg_dispatched_free.
 struct rg_dispatched {
     const struct rg_kernel *kernel;
-    bool was_kept; // false for DRAW programs, whose slots are not recorded
-    _Alignas(16) unsigned char params[RG_MAX_PARAMS_SIZE]; // aligned: kernels read structs
+    bool was_kept; // false for draws of packed primitives or counted samples: nothing is recorded
+    // Aligned: kernels read structs. Of a draw: its rg_draw_state, then the parameters.
+    _Alignas(16) unsigned char params[RG_MAX_PARAMS_SIZE];
     struct rg_extent origin, extent;
+    bool has_colour, has_depth;              // of a draw: its targets, which are slots like others
+    int layer, level;                        // of both
     struct rg_contents before[RG_MAX_SLOTS]; // by slot
     struct rg_contents after[RG_MAX_SLOTS];  // likewise, only of slots that are written
 };
+
+// The numbers of a draw's targets. A draw of items leaves these slots free.
+enum { RG_SLOT_DEPTH = RG_SLOT_PRIMS, RG_SLOT_COLOUR = RG_SLOT_COUNTS };
+
+// The slots of a recorded run: the kernel's, then a draw's targets. Returns their number.
+int rg_dispatched_slots(const struct rg_dispatched *dispatched,
+                        struct rg_slot_info slots[RG_MAX_SLOTS]);
 
 // Zeroed: none. The owner calls rg_dispatches_free.
 struct rg_dispatches {

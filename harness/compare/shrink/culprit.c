@@ -20,8 +20,10 @@ struct pair {
 // Whether two dispatches have the same bytes in each written slot.
 static bool leaves_same(const struct rg_dispatched *a, const struct rg_dispatched *b)
 {
-    for (int i = 0; i < a->kernel->slot_count; i++) {
-        const int slot = a->kernel->slots[i].slot;
+    struct rg_slot_info slots[RG_MAX_SLOTS];
+    const int count = rg_dispatched_slots(a, slots);
+    for (int i = 0; i < count; i++) {
+        const int slot = slots[i].slot;
         const struct rg_contents *p = &a->after[slot], *q = &b->after[slot];
         if (p->size != q->size || (p->size && memcmp(p->bytes, q->bytes, p->size) != 0))
             return false;
@@ -38,6 +40,10 @@ static bool differs(struct pair *p)
     memcpy(p->now.params, p->due->params, sizeof(p->now.params));
     p->now.origin = p->due->origin;
     p->now.extent = p->due->extent;
+    p->now.has_colour = p->due->has_colour;
+    p->now.has_depth = p->due->has_depth;
+    p->now.layer = p->due->layer;
+    p->now.level = p->due->level;
     p->has_failed = p->has_failed || !rg_digests_dispatch(p->due, p->truth);
     if (p->has_failed || rg_digests_dispatch(&p->now, p->device))
         return !p->has_failed && !p->falls && !leaves_same(&p->now, p->due);

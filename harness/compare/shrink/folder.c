@@ -10,21 +10,23 @@
 #include "core/base/alloc.h"
 #include "core/base/text/plain.h"
 #include "harness/record/output.h"
+#include "kernels/dialect/draw/state.h"
 
 // kernel.txt uses Vulkan's numbers, so that run.c need not know raingauge's enums.
 enum { GROUP_ITEMS = 64 }; // as in shaders/grid.glsl
-enum { SAMPLED_IMAGE = 1, STORED_IMAGE = 3, UNIFORM_BLOCK = 6, STORAGE_BUFFER = 7 };
+enum { SAMPLED_IMAGE = 1, STORED_IMAGE = 3, UNIFORM_BLOCK = 6, STORAGE_BUFFER = 7, TARGET = 10 };
 enum { COLOUR_ASPECT = 1, DEPTH_ASPECT = 2 };
 enum { VIEW_OF_CUBE = 3, VIEW_OF_LAYERS = 5 };
 enum { NEAREST, LINEAR };
 enum { REPEATED = 0, CLAMPED = 2 };
 enum { NOT_COMPARED = 0, LESS_OR_EQUAL = 3 };
+enum { FACTOR_ONE = 1, FACTOR_ONE_MINUS_ALPHA = 7, CULLS_FRONT = 1, CULLS_BACK = 2 };
 static const int vulkan_formats[RG_FORMAT_COUNT] = {
     [RG_RGBA8] = 37, [RG_RGBA16F] = 97,   [RG_RGBA32F] = 109, [RG_R32F] = 100,
     [RG_R16F] = 76,  [RG_RG11B10F] = 122, [RG_D32F] = 126,
 };
 
-extern const char rg_text_run[];
+extern const char rg_text_run_grid[], rg_text_run_draw[];
 
 struct folder {
     char path[2048];
@@ -84,7 +86,7 @@ static bool add_parts(struct folder *f, const char *name, const unsigned char *b
 }
 
 // Adds the uniform block of binding 0: the first item and the end, four ints each, then the
-// kernel's parameters, padded as in std140.
+// kernel's parameters, padded as in std140. A draw's state comes before its parameters.
 static bool add_block(struct folder *f, size_t *size)
 {
     const struct rg_dispatched *d = &f->culprit->due;
@@ -96,12 +98,17 @@ static bool add_block(struct folder *f, size_t *size)
                        d->origin.height + d->extent.height,
                        d->origin.depth + d->extent.depth,
                        0};
-    *size = (sizeof(at) + (size_t)d->kernel->params_size + 15) / 16 * 16;
+    const int params_size = d->kernel->draw ? d->kernel->draw->call_size : d->kernel->params_size;
+    *size = (sizeof(at) + (size_t)params_size + 15) / 16 * 16;
     unsigned char *block = rg_alloc(1, *size, "a kernel's parameters");
     if (!block)
         return false;
     memcpy(block, at, sizeof(at));
-    memcpy(block + sizeof(at), d->params, (size_t)d->kernel->params_size);
+    memcpy(block + sizeof(at), d->params, (size_t)params_size);
+    if (d->kernel->draw) { // its state begins with the items
+        memcpy(block + sizeof(at), &at[0], sizeof(int));
+        memcpy(block + sizeof(at) + sizeof(int), &at[4], sizeof(int));
+    }
     const bool ok = add_parts(f, "00-block.before", block, NULL, *size);
     free(block);
     return ok;
@@ -116,7 +123,8 @@ static bool filters_depth(const struct rg_device *device)
 static void write_sampler(FILE *out, const struct rg_device *device,
                           const struct rg_slot_info *slot, enum rg_format format)
 {
-    const enum rg_sampler how = device->info.native && format ? slot->sampler : RG_TEXELS;
+    const enum rg_sampler how =
+        device->info.features & RG_FEATURE_SAMPLERS && format ? slot->sampler : RG_TEXELS;
     const bool compares = how == RG_SAMPLED_SHADOW;
     const bool filters = compares ? filters_depth(device) : how != RG_TEXELS;
     fprintf(out, "view %d filter %d wrap %d compare %d ",
@@ -127,16 +135,24 @@ static void write_sampler(FILE *out, const struct rg_device *device,
             compares ? LESS_OR_EQUAL : NOT_COMPARED);
 }
 
-static void write_slot(FILE *out, const struct rg_device *device, const struct rg_slot_info *slot,
-                       const struct rg_contents *c, const char *before, const char *expected)
+static bool is_target(const struct folder *f, const struct rg_slot_info *slot)
+{
+    return f->culprit->due.kernel->draw &&
+           (slot->slot == RG_SLOT_COLOUR || slot->slot == RG_SLOT_DEPTH);
+}
+
+static void write_slot(FILE *out, const struct folder *f, const struct rg_device *device,
+                       const struct rg_slot_info *slot, const struct rg_contents *c,
+                       const char *before, const char *expected)
 {
     const struct rg_image_desc *image = &c->desc;
     const bool written = rg_slot_is_written(slot->kind), is_image = image->levels > 0;
     fprintf(out, "slot %d type %d format %d aspect %d texel %d size %d x %d layers %d levels %d ",
             slot->slot,
-            !is_image ? STORAGE_BUFFER
-            : written ? STORED_IMAGE
-                      : SAMPLED_IMAGE,
+            !is_image            ? STORAGE_BUFFER
+            : is_target(f, slot) ? TARGET
+            : written            ? STORED_IMAGE
+                                 : SAMPLED_IMAGE,
             is_image ? vulkan_formats[image->format] : 0,
             !is_image                  ? 0
             : image->format == RG_D32F ? DEPTH_ASPECT
@@ -156,12 +172,33 @@ static void write_slot(FILE *out, const struct rg_device *device, const struct r
                                                                           : "written");
 }
 
+// Adds what fragments would count samples by: no draw here counts any, but their slots are bound.
+static bool add_uncounted(struct folder *f, const struct rg_device *device, FILE *manifest)
+{
+    static unsigned char zeros[4];
+    const struct rg_contents none[] = {{{0}, sizeof(zeros), zeros},
+                                       {{RG_D32F, 1, 1, 1, 1}, sizeof(zeros), zeros}};
+    const struct rg_slot_info slots[] = {
+        {.name = "samples", .slot = RG_SLOT_SAMPLES, .kind = RG_SLOT_IN, .element_size = 4},
+        {.name = "behind", .slot = RG_SLOT_BEHIND, .kind = RG_SLOT_IMAGE, .format = RG_D32F}};
+    bool ok = true;
+    for (int i = 0; ok && i < 2; i++) {
+        char name[64];
+        snprintf(name, sizeof(name), "%02d-%s.before", slots[i].slot, slots[i].name);
+        ok = add_parts(f, name, zeros, NULL, sizeof(zeros));
+        write_slot(manifest, f, device, &slots[i], &none[i], name, "-");
+    }
+    return ok;
+}
+
 static bool add_slots(struct folder *f, const struct rg_device *device, FILE *manifest)
 {
     const struct rg_dispatched *d = &f->culprit->due;
-    bool ok = true;
-    for (int i = 0; ok && i < d->kernel->slot_count; i++) {
-        const struct rg_slot_info *slot = &d->kernel->slots[i];
+    struct rg_slot_info slots[RG_MAX_SLOTS];
+    const int count = rg_dispatched_slots(d, slots);
+    bool ok = !d->kernel->draw || add_uncounted(f, device, manifest);
+    for (int i = 0; ok && i < count; i++) {
+        const struct rg_slot_info *slot = &slots[i];
         const struct rg_contents *before = &d->before[slot->slot], *after = &d->after[slot->slot];
         char name[64], expected[64] = "-";
         snprintf(name, sizeof(name), "%02d-%.40s.before", slot->slot, slot->name);
@@ -170,37 +207,72 @@ static bool add_slots(struct folder *f, const struct rg_device *device, FILE *ma
             snprintf(expected, sizeof(expected), "%02d-%.40s.expected", slot->slot, slot->name);
             ok = ok && add_parts(f, expected, after->bytes, before->bytes, after->size);
         }
-        write_slot(manifest, device, slot, before, name, expected);
+        write_slot(manifest, f, device, slot, before, name, expected);
     }
     return ok;
+}
+
+// Says what is drawn, in Vulkan's numbers.
+static void write_draw(const struct rg_dispatched *d, FILE *out)
+{
+    const rg_draw_state *state = (const rg_draw_state *)(const void *)d->params;
+    fprintf(
+        out,
+        "# blend: the target's VkBlendFactor, 0 if none; the source's is 1. depth: 1 it is tested, "
+        "2 and\n# written. cull: VkCullModeFlagBits. A point is drawn for each item.\n"
+        "draw first %d items %d blend %d depth %d cull %d scissor %d %d %d %d target %d x %d "
+        "layer %d level %d\n",
+        d->origin.width, d->extent.width,
+        state->blend == RG_BLEND_OFF    ? 0
+        : state->blend == RG_BLEND_OVER ? FACTOR_ONE_MINUS_ALPHA
+                                        : FACTOR_ONE,
+        d->has_depth ? state->depth_mode : 0,
+        state->cull == RG_CULL_NONE   ? 0
+        : state->cull == RG_CULL_BACK ? CULLS_BACK
+                                      : CULLS_FRONT,
+        state->x0, state->y0, state->x1 - state->x0, state->y1 - state->y0, state->width,
+        state->height, d->layer, d->level);
+}
+
+static void write_run(const struct rg_dispatched *d, FILE *out)
+{
+    if (d->kernel->draw)
+        write_draw(d, out);
+    else
+        fprintf(out, "# groups: of %d items along x.\ngroups %d %d %d\n", GROUP_ITEMS,
+                (d->extent.width + GROUP_ITEMS - 1) / GROUP_ITEMS, d->extent.height,
+                d->extent.depth);
 }
 
 static bool write_manifest(struct folder *f, const struct rg_device *device, FILE *out,
                            size_t block_size)
 {
     const struct rg_dispatched *d = &f->culprit->due;
+    fprintf(out,
+            "# One run of the %s %s, of %lld items of %lld: from (%d, %d, %d) on,\n"
+            "# %d x %d x %d. README says how to run it.\n",
+            d->kernel->draw ? "draw" : "compute shader", d->kernel->name,
+            (long long)f->culprit->items, (long long)f->culprit->of_items, d->origin.width,
+            d->origin.height, d->origin.depth, d->extent.width, d->extent.height, d->extent.depth);
+    write_run(d, out);
     fprintf(
         out,
-        "# One run of the compute shader %s, of %lld items of %lld: from (%d, %d, %d) on,\n"
-        "# %d x %d x %d. README says how to run it.\n"
-        "# groups: of %d items along x. constant: what specialization constant 0 is.\n"
-        "groups %d %d %d constant %d\n"
+        "# constants: what specialization constants 0 and 1 are.\n"
+        "constants %d %d\n"
         "# slot: the binding, of set 0. type: 1 sampled image, 3 stored image, 6 uniform block,\n"
-        "# 7 storage buffer (VkDescriptorType). format: VkFormat; aspect: VkImageAspectFlagBits; "
-        "texel: its\n"
-        "# bytes. An image has all layers of level 0, then of level 1, rows without padding. "
-        "view,\n"
-        "# filter, wrap, compare: as VkImageViewType, VkFilter, VkSamplerAddressMode, and\n"
-        "# VkCompareOp or 0.\n"
+        "# 7 storage buffer (VkDescriptorType), 10 a target of the draw, which is not bound. "
+        "format: "
+        "VkFormat;\n# aspect: VkImageAspectFlagBits; texel: its "
+        "bytes. An image has all layers of level 0, then of level 1,\n# rows without padding. "
+        "view, "
+        "filter, wrap, compare: as VkImageViewType, VkFilter,\n# VkSamplerAddressMode, and "
+        "VkCompareOp or 0.\n"
         "# Last the files: what it holds before, and what is expected after the run. Each has "
         "parts of it:\n"
         "# where the part begins and how many bytes it has, of 4 bytes each, and these bytes. What "
         "no part\n"
         "# has is 0 before the run, and after it as it was before.\n",
-        d->kernel->name, (long long)f->culprit->items, (long long)f->culprit->of_items,
-        d->origin.width, d->origin.height, d->origin.depth, d->extent.width, d->extent.height,
-        d->extent.depth, GROUP_ITEMS, (d->extent.width + GROUP_ITEMS - 1) / GROUP_ITEMS,
-        d->extent.height, d->extent.depth, filters_depth(device));
+        filters_depth(device), (device->info.features & RG_FEATURE_PLACES) != 0);
     fprintf(out,
             "slot 0 type %d format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 "
             "view 0 filter 0 wrap 0 compare 0 bytes %zu 00-block.before - # the first item and the "
@@ -218,11 +290,11 @@ static void write_readme(const struct folder *f, FILE *out, const char *note,
     rg_plain(names[0]);
     rg_plain(names[1]);
     fprintf(out,
-            "The compute shader %s leaves other bits on %s\n(%s, %s, %s)\nthan on %s, which is "
+            "The %s %s leaves other bits on %s\n(%s, %s, %s)\nthan on %s, which is "
             "held for the "
             "truth. raingauge found it as\n\n    %s\n\n",
-            f->culprit->due.kernel->name, names[0], device->device, device->driver, device->api,
-            names[1], note);
+            f->culprit->due.kernel->draw ? "draw" : "compute shader", f->culprit->due.kernel->name,
+            names[0], device->device, device->driver, device->api, names[1], note);
     fprintf(
         out,
         "Nothing of raingauge is needed to run it, but a C compiler and the Vulkan loader "
@@ -232,22 +304,53 @@ static void write_readme(const struct folder *f, FILE *out, const char *note,
         "is\n"
         "expected, 1 it does not, and the first byte that differs is printed, 2 something failed,\n"
         "77 there is no such device.\n\n"
-        "kernel.txt says what is bound where; kernel.comp is the shader's text, of which\n\n"
-        "    glslc -fshader-stage=compute --target-env=vulkan1.2 -O kernel.comp -o kernel.spv\n\n"
-        "makes kernel.spv. kernel.cl is the same kernel in OpenCL C, which has its slots and "
-        "parameters as arguments.\n");
+        "kernel.txt says what is bound where; ");
+    fprintf(out, "%s",
+            f->culprit->due.kernel->draw
+                ? "kernel.vert, kernel.geom and kernel.frag are the stages' texts, of which\n\n"
+                  "    glslc --target-env=vulkan1.2 -O kernel.vert -o kernel.vert.spv\n\n"
+                  "and the same of the others make the code.\n"
+                : "kernel.comp is the shader's text, of which\n\n"
+                  "    glslc -fshader-stage=compute --target-env=vulkan1.2 -O kernel.comp -o "
+                  "kernel.spv\n\n"
+                  "makes kernel.spv. kernel.cl is the same kernel in OpenCL C, which has its slots "
+                  "and parameters as arguments.\n");
 }
 
 // --- writing ---
+
+static bool add_codes(struct folder *f, struct rg_device *device)
+{
+    static const struct {
+        enum rg_code_kind kind;
+        const char *name;
+        bool is_of_draw;
+    } codes[] = {
+        {RG_CODE_SPIRV, "kernel.spv", false},
+        {RG_CODE_GLSL, "kernel.comp", false},
+        {RG_CODE_OPENCL, "kernel.cl", false},
+        {RG_CODE_VERTEX_SPIRV, "kernel.vert.spv", true},
+        {RG_CODE_VERTEX_GLSL, "kernel.vert", true},
+        {RG_CODE_NATIVE_GEOMETRY_SPIRV, "kernel.geom.spv", true},
+        {RG_CODE_NATIVE_GEOMETRY_GLSL, "kernel.geom", true},
+        {RG_CODE_FRAGMENT_SPIRV, "kernel.frag.spv", true},
+        {RG_CODE_FRAGMENT_GLSL, "kernel.frag", true},
+    };
+    const bool draws = f->culprit->due.kernel->draw;
+    bool ok = true;
+    size_t size;
+    for (size_t i = 0; ok && i < sizeof(codes) / sizeof(codes[0]); i++)
+        ok = codes[i].is_of_draw != draws ||
+             add_code(f, device, codes[i].kind, codes[i].name, &size);
+    return ok;
+}
 
 static bool fill(struct folder *f, const char *note, struct rg_device *device,
                  const struct rg_device *truth)
 {
     size_t size, block_size;
     char *texts[2] = {NULL, NULL};
-    if (!add_code(f, device, RG_CODE_SPIRV, "kernel.spv", &size) ||
-        !add_code(f, device, RG_CODE_GLSL, "kernel.comp", &size) ||
-        !add_code(f, device, RG_CODE_OPENCL, "kernel.cl", &size) || !add_block(f, &block_size))
+    if (!add_codes(f, device) || !add_block(f, &block_size))
         return false;
     bool ok = true;
     for (int i = 0; ok && i < 2; i++) {
@@ -262,15 +365,17 @@ static bool fill(struct folder *f, const char *note, struct rg_device *device,
         if (texts[i])
             add(f, i == 0 ? "kernel.txt" : "README", texts[i], 0, texts[i]);
     }
-    add(f, "run.c", rg_text_run, 0, NULL);
+    add(f, "run.c", f->culprit->due.kernel->draw ? rg_text_run_draw : rg_text_run_grid, 0, NULL);
     return ok;
 }
 
 // Whether a file name is one that such a folder may contain.
 static bool is_known(const char *name)
 {
-    static const char *const all[] = {"kernel.spv", "kernel.comp", "kernel.cl",
-                                      "kernel.txt", "README",      "run.c"};
+    static const char *const all[] = {"kernel.spv",      "kernel.comp",     "kernel.cl",
+                                      "kernel.txt",      "README",          "run.c",
+                                      "kernel.vert.spv", "kernel.vert",     "kernel.geom.spv",
+                                      "kernel.geom",     "kernel.frag.spv", "kernel.frag"};
     const char *point = strrchr(name, '.');
     for (size_t i = 0; i < sizeof(all) / sizeof(*all); i++)
         if (!strcmp(name, all[i]))

@@ -1,5 +1,5 @@
-// Runs the compute shader kernel.spv as kernel.txt describes, and compares its results with the
-// expected ones. Exit status: 0 equal, 1 different, 2 something failed, 77 no such device.
+// Runs the shaders here as kernel.txt describes, and compares their results with the expected ones.
+// Exit status: 0 equal, 1 different, 2 something failed, 77 no such device.
 // clang-format off
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,11 +21,17 @@ static struct slot { // a line of kernel.txt
     VkImageView view;
     VkSampler sampler;
 } slots[16];
-static unsigned count, groups[3], constant; // also of kernel.txt
+static unsigned count, groups[3], constants[2]; // also of kernel.txt
+static struct { // of a draw there: the first item, how many, state, place in the targets
+    unsigned first, items, blend, depth, cull, x, y, across, down, width, height, layer, level;
+} draw;
 static VkPhysicalDeviceMemoryProperties memory;
 static VkDevice device;
 static VkQueue queue;
 static VkCommandBuffer commands;
+static VkPipelineLayout layout;
+static VkDescriptorSet set;
+static void record_shader(void);
 
 static void *read_code(const char *path, size_t *size) { // the whole file
     FILE *file = fopen(path, "rb");
@@ -47,7 +53,11 @@ static void read_parts(const char *path, unsigned char *bytes, size_t size) { //
 static void read_manifest(FILE *file) {
     for (char line[512]; file && count < 16 && fgets(line, sizeof(line), file);) {
         struct slot *s = &slots[count];
-        sscanf(line, "groups %u %u %u constant %u", &groups[0], &groups[1], &groups[2], &constant);
+        sscanf(line, "groups %u %u %u", &groups[0], &groups[1], &groups[2]);
+        sscanf(line, "constants %u %u", &constants[0], &constants[1]);
+        sscanf(line, "draw first %u items %u blend %u depth %u cull %u scissor %u %u %u %u target %u x %u layer %u level %u", &draw.first,
+            &draw.items, &draw.blend, &draw.depth, &draw.cull, &draw.x, &draw.y, &draw.across, &draw.down, &draw.width, &draw.height,
+            &draw.layer, &draw.level);
         count += sscanf(line, "slot %u type %u format %u aspect %u texel %u size %u x %u layers %u levels %u "
             "view %u filter %u wrap %u compare %u bytes %u %63s %63s",
             &s->at, &s->type, &s->format, &s->aspect, &s->texel, &s->width, &s->height, &s->layers, &s->levels,
@@ -67,11 +77,13 @@ static void open_device(unsigned index) {
         vkEnumeratePhysicalDevices(instance, &found, all) < 0 || index >= found) FAIL(77, "there is no Vulkan device %u\n", index);
     vkGetPhysicalDeviceMemoryProperties(all[index], &memory);
     vkGetPhysicalDeviceQueueFamilyProperties(all[index], &family_count, families);
-    while (family + 1 < family_count && !(families[family].queueFlags & VK_QUEUE_COMPUTE_BIT)) family++;
+    while (family + 1 < family_count && !(families[family].queueFlags & (draw.items ? VK_QUEUE_GRAPHICS_BIT : VK_QUEUE_COMPUTE_BIT))) family++;
+    VkPhysicalDeviceFeatures features;
+    vkGetPhysicalDeviceFeatures(all[index], &features);
     VkDeviceQueueCreateInfo *one = INFO(DeviceQueueCreateInfo, DEVICE_QUEUE_CREATE_INFO, .queueFamilyIndex = family, .queueCount = 1,
         .pQueuePriorities = &(float){1});
-    TRY(vkCreateDevice(all[index], INFO(DeviceCreateInfo, DEVICE_CREATE_INFO, .queueCreateInfoCount = 1, .pQueueCreateInfos = one),
-        NULL, &device));
+    TRY(vkCreateDevice(all[index], INFO(DeviceCreateInfo, DEVICE_CREATE_INFO, .queueCreateInfoCount = 1, .pQueueCreateInfos = one,
+        .pEnabledFeatures = &features), NULL, &device));
     vkGetDeviceQueue(device, family, 0, &queue);
     NEW(CommandPool, COMMAND_POOL, &pool, .queueFamilyIndex = family);
     TRY(vkAllocateCommandBuffers(device, INFO(CommandBufferAllocateInfo, COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = pool,
@@ -89,7 +101,8 @@ static VkDeviceMemory allocate(VkMemoryRequirements needs, VkMemoryPropertyFlags
 }
 
 static void make_slot(struct slot *s) {
-    const int stored = s->type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    const int stored = s->type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, target = s->type == VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
+    const unsigned usage = target ? (s->aspect == VK_IMAGE_ASPECT_DEPTH_BIT ? 0x23 : 0x13) : stored ? 0xb : 0x7; // copies, and one use
     VkMemoryRequirements needs;
     NEW(Buffer, BUFFER, &s->buffer, .size = s->size, .usage = 0x33); // copies both ways, a uniform block, storage
     vkGetBufferMemoryRequirements(device, s->buffer, &needs);
@@ -99,11 +112,12 @@ static void make_slot(struct slot *s) {
     read_parts(s->before, memset(s->bytes, 0, s->size), s->size);
     if (!s->format) return;
     NEW(Image, IMAGE, &s->image, .flags = s->view_type == VK_IMAGE_VIEW_TYPE_CUBE ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
-        .imageType = VK_IMAGE_TYPE_2D, .format = s->format, .extent = {s->width, s->height, 1}, .mipLevels = s->levels, .arrayLayers = s->layers, .samples = 1, .usage = stored ? 0xb : 0x7); // copies; stored or sampled
+        .imageType = VK_IMAGE_TYPE_2D, .format = s->format, .extent = {s->width, s->height, 1}, .mipLevels = s->levels, .arrayLayers = s->layers, .samples = 1, .usage = usage);
     vkGetImageMemoryRequirements(device, s->image, &needs);
     TRY(vkBindImageMemory(device, s->image, allocate(needs, 0), 0));
     NEW(ImageView, IMAGE_VIEW, &s->view, .image = s->image, .viewType = s->view_type, .format = s->format,
-        .subresourceRange = {s->aspect, 0, stored ? 1 : s->levels, 0, s->layers});
+        .subresourceRange = {s->aspect, target ? draw.level : 0, target || stored ? 1 : s->levels, target ? draw.layer : 0,
+            target ? 1 : s->layers});
     NEW(Sampler, SAMPLER, &s->sampler, .magFilter = s->filter, .minFilter = s->filter, .mipmapMode = s->filter,
         .addressModeU = s->wrap, .addressModeV = s->wrap, .addressModeW = s->wrap, .compareEnable = s->compare != 0,
         .compareOp = s->compare, .maxLod = VK_LOD_CLAMP_NONE);
@@ -129,32 +143,34 @@ static void copy(const struct slot *s, int back) { // between an image and its b
     }
 }
 
-static void record_shader(void) {
+static void make_set(VkShaderStageFlags stages) { // all slots but a draw's targets
     VkDescriptorSetLayoutBinding bindings[16];
     VkDescriptorPoolSize sizes[] = {{1, 16}, {3, 16}, {6, 16}, {7, 16}}; // of each type
-    VkDescriptorSetLayout set_layout; VkPipelineLayout layout; VkDescriptorPool pool; VkDescriptorSet set;
-    VkShaderModule module; VkPipeline pipeline;
-    size_t code_size;
-    const void *code = read_code("kernel.spv", &code_size);
-    for (unsigned i = 0; i < count; i++)
-        bindings[i] = (VkDescriptorSetLayoutBinding){slots[i].at, slots[i].type, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
-    NEW(DescriptorSetLayout, DESCRIPTOR_SET_LAYOUT, &set_layout, .bindingCount = count, .pBindings = bindings);
+    VkDescriptorSetLayout set_layout; VkDescriptorPool pool;
+    unsigned bound = 0;
+    for EACH_SLOT
+        if (s->type != VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT)
+            bindings[bound++] = (VkDescriptorSetLayoutBinding){s->at, s->type, 1, stages, NULL};
+    NEW(DescriptorSetLayout, DESCRIPTOR_SET_LAYOUT, &set_layout, .bindingCount = bound, .pBindings = bindings);
     NEW(PipelineLayout, PIPELINE_LAYOUT, &layout, .setLayoutCount = 1, .pSetLayouts = &set_layout);
     NEW(DescriptorPool, DESCRIPTOR_POOL, &pool, .maxSets = 1, .poolSizeCount = 4, .pPoolSizes = sizes);
-    NEW(ShaderModule, SHADER_MODULE, &module, .codeSize = code_size, .pCode = code);
     TRY(vkAllocateDescriptorSets(device, INFO(DescriptorSetAllocateInfo, DESCRIPTOR_SET_ALLOCATE_INFO, .descriptorPool = pool,
         .descriptorSetCount = 1, .pSetLayouts = &set_layout), &set));
     for EACH_SLOT
-        vkUpdateDescriptorSets(device, 1, INFO(WriteDescriptorSet, WRITE_DESCRIPTOR_SET, .dstSet = set, .dstBinding = s->at,
-            .descriptorCount = 1, .descriptorType = s->type, .pBufferInfo = &(VkDescriptorBufferInfo){s->buffer, 0, VK_WHOLE_SIZE},
-            .pImageInfo = &(VkDescriptorImageInfo){s->sampler, s->view, VK_IMAGE_LAYOUT_GENERAL}), 0, NULL);
-    VkSpecializationInfo special = {1, &(VkSpecializationMapEntry){0, 0, sizeof(constant)}, sizeof(constant), &constant};
-    TRY(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, INFO(ComputePipelineCreateInfo, COMPUTE_PIPELINE_CREATE_INFO,
-        .layout = layout, .stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, NULL, 0, VK_SHADER_STAGE_COMPUTE_BIT, module,
-        "main", &special}), NULL, &pipeline));
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);
-    vkCmdDispatch(commands, groups[0], groups[1], groups[2]);
+        if (s->type != VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT)
+            vkUpdateDescriptorSets(device, 1, INFO(WriteDescriptorSet, WRITE_DESCRIPTOR_SET, .dstSet = set, .dstBinding = s->at,
+                .descriptorCount = 1, .descriptorType = s->type, .pBufferInfo = &(VkDescriptorBufferInfo){s->buffer, 0, VK_WHOLE_SIZE},
+                .pImageInfo = &(VkDescriptorImageInfo){s->sampler, s->view, VK_IMAGE_LAYOUT_GENERAL}), 0, NULL);
+}
+
+static VkPipelineShaderStageCreateInfo make_stage(VkShaderStageFlagBits stage, const char *path) {
+    static const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(constants[0])}, {1, sizeof(constants[0]), sizeof(constants[0])}};
+    static const VkSpecializationInfo special = {2, entries, sizeof(constants), constants};
+    VkShaderModule module;
+    size_t code_size;
+    const void *code = read_code(path, &code_size);
+    NEW(ShaderModule, SHADER_MODULE, &module, .codeSize = code_size, .pCode = code);
+    return (VkPipelineShaderStageCreateInfo){VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, NULL, 0, stage, module, "main", &special};
 }
 
 static int differs(const struct slot *s) {

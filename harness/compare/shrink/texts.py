@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
-"""Puts texts into the program: texts.py OUTPUT.c NAME FILE NAME FILE... makes `const char rg_text_NAME[]` of each."""
+"""Puts texts into the program: texts.py OUTPUT.c NAME FILE... [-- NAME FILE...]... makes `const char rg_text_NAME[]` of each, its files
+one after the other."""
 import sys
 
 
 def main():
     lines = []
-    for name, path in zip(sys.argv[2::2], sys.argv[3::2]):
-        with open(path, "rb") as file:
-            text = file.read() + b"\0"
+    for name, *paths in (part.split("\n") for part in "\n".join(sys.argv[2:]).split("\n--\n")):
+        text = b""
+        for path in paths:
+            with open(path, "rb") as file:
+                text += file.read()
+        text += b"\0"
         lines.append(f"extern const char rg_text_{name}[];\nconst char rg_text_{name}[] = {{")
         lines += ["    " + " ".join(f"{byte}," for byte in text[i:i + 20]) for i in range(0, len(text), 20)]
         lines.append("};")

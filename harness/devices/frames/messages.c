@@ -326,6 +326,10 @@ static const struct rg_field dispatched_fields[] = {
     RG_FIELD_BYTES(struct rg_dispatched, params),
     RG_FIELD_STRUCT(struct rg_dispatched, origin, extent_fields),
     RG_FIELD_STRUCT(struct rg_dispatched, extent, extent_fields),
+    RG_FIELD_FLAG(struct rg_dispatched, has_colour),
+    RG_FIELD_FLAG(struct rg_dispatched, has_depth),
+    RG_FIELD_INTEGER(struct rg_dispatched, layer, 0, INT32_MAX),
+    RG_FIELD_INTEGER(struct rg_dispatched, level, 0, RG_MAX_LEVELS - 1),
     RG_FIELDS_END,
 };
 
@@ -334,16 +338,20 @@ static void put_before(struct rg_message *message, const void *entry)
     const struct rg_dispatched *d = entry;
     rg_put_text(message, d->kernel->name);
     rg_put_fields(message, dispatched_fields, d);
-    for (int i = 0; d->was_kept && i < d->kernel->slot_count; i++)
-        rg_put_fields(message, contents_fields, &d->before[d->kernel->slots[i].slot]);
+    struct rg_slot_info slots[RG_MAX_SLOTS];
+    const int count = d->was_kept ? rg_dispatched_slots(d, slots) : 0;
+    for (int i = 0; i < count; i++)
+        rg_put_fields(message, contents_fields, &d->before[slots[i].slot]);
 }
 
 static void put_after(struct rg_message *message, const void *entry)
 {
     const struct rg_dispatched *d = entry;
-    for (int i = 0; d->was_kept && i < d->kernel->slot_count; i++)
-        if (rg_slot_is_written(d->kernel->slots[i].kind))
-            rg_put_fields(message, contents_fields, &d->after[d->kernel->slots[i].slot]);
+    struct rg_slot_info slots[RG_MAX_SLOTS];
+    const int count = d->was_kept ? rg_dispatched_slots(d, slots) : 0;
+    for (int i = 0; i < count; i++)
+        if (rg_slot_is_written(slots[i].kind))
+            rg_put_fields(message, contents_fields, &d->after[slots[i].slot]);
 }
 
 static bool take_contents(struct rg_message *message, struct rg_contents *contents)
@@ -360,8 +368,10 @@ static bool take_before(struct rg_message *message, void *entry)
     d->kernel = message->failed ? NULL : rg_kernel_find(name);
     bool ok =
         (d->kernel || rg_message_fail(message)) && rg_take_fields(message, dispatched_fields, d);
-    for (int i = 0; ok && d->was_kept && i < d->kernel->slot_count; i++)
-        ok = take_contents(message, &d->before[d->kernel->slots[i].slot]);
+    struct rg_slot_info slots[RG_MAX_SLOTS];
+    const int count = ok && d->was_kept ? rg_dispatched_slots(d, slots) : 0;
+    for (int i = 0; ok && i < count; i++)
+        ok = take_contents(message, &d->before[slots[i].slot]);
     return ok;
 }
 
@@ -369,9 +379,11 @@ static bool take_after(struct rg_message *message, void *entry)
 {
     struct rg_dispatched *d = entry;
     bool ok = !message->failed;
-    for (int i = 0; ok && d->was_kept && i < d->kernel->slot_count; i++)
-        if (rg_slot_is_written(d->kernel->slots[i].kind))
-            ok = take_contents(message, &d->after[d->kernel->slots[i].slot]);
+    struct rg_slot_info slots[RG_MAX_SLOTS];
+    const int count = ok && d->was_kept ? rg_dispatched_slots(d, slots) : 0;
+    for (int i = 0; ok && i < count; i++)
+        if (rg_slot_is_written(slots[i].kind))
+            ok = take_contents(message, &d->after[slots[i].slot]);
     return ok;
 }
 

@@ -341,6 +341,31 @@ static void a_dispatch_passes_with_the_contents_of_its_slots(void **state)
     assert_null(taken.before[1].bytes);
 }
 
+static void a_draw_passes_with_its_targets(void **state)
+{
+    (void)state;
+    static struct rg_dispatched row, taken;
+    unsigned char colour[8], depth[12], drawn[8];
+    row.kernel = rg_kernel_find("layer_meet");
+    row.was_kept = row.has_colour = row.has_depth = true;
+    row.layer = 2;
+    row.level = 3;
+    row.before[RG_SLOT_COLOUR] = buffer_of(colour, sizeof(colour), 7);
+    row.before[RG_SLOT_DEPTH] = buffer_of(depth, sizeof(depth), 8);
+    row.after[RG_SLOT_COLOUR] = buffer_of(drawn, sizeof(drawn), 9);
+    pass(rg_asked_dispatched_fields, &row, &taken, sizeof(taken));
+    assert_true(taken.has_colour && taken.has_depth && taken.layer == 2 && taken.level == 3);
+    expect_bytes(&taken.before[RG_SLOT_COLOUR], sizeof(colour), 7);
+    expect_bytes(&taken.before[RG_SLOT_DEPTH], sizeof(depth), 8);
+    struct rg_message reply = {0}; // depth is not written
+    rg_put_fields(&reply, rg_told_dispatched_fields, &row);
+    assert_true(rg_take_fields(&reply, rg_told_dispatched_fields, &taken));
+    expect_bytes(&taken.after[RG_SLOT_COLOUR], sizeof(drawn), 9);
+    assert_null(taken.after[RG_SLOT_DEPTH].bytes);
+    rg_message_free(&reply);
+    rg_dispatched_free(&taken);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -353,6 +378,7 @@ int main(void)
         cmocka_unit_test(digests_pass_row_by_row),
         cmocka_unit_test(a_run_is_asked_for_with_its_row),
         cmocka_unit_test(a_dispatch_passes_with_the_contents_of_its_slots),
+        cmocka_unit_test(a_draw_passes_with_its_targets),
     };
     return cmocka_run_group_tests_name("structs in messages", tests, NULL, NULL);
 }

@@ -264,7 +264,8 @@ static void the_manifest_says_what_is_bound(void **state)
     static const char *const due[] = {
         "# One run of the compute shader rain_step, of 140 items of 3600: from (64, 3, 1) on,\n"
         "# 70 x 2 x 1. README says how to run it.\n",
-        "\ngroups 2 2 1 constant 0\n",
+        "\ngroups 2 2 1\n",
+        "\nconstants 0 0\n",
         "\nslot 0 type 6 format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 "
         "view 0 filter 0 wrap 0 compare 0 bytes 48 "
         "00-block.before - # the first item and the end, 4 ints each, then the parameters\n",
@@ -329,7 +330,7 @@ static void files_hold_code_and_what_it_is(void **state)
                    "(a card, a driver 1.2, an API 3)\n"
                    "than on trusted, which is held for the truth. raingauge found it as\n\n"
                    "    a note\n\n"},
-        {"run.c", "// Runs the compute shader kernel.spv as kernel.txt describes"}};
+        {"run.c", "// Runs the shaders here as kernel.txt describes"}};
     write_folder();
     for (int i = 0; i < 5; i++) {
         size_t size;
