@@ -78,10 +78,9 @@ static bool write_found(const struct rg_case *found, const struct rg_blame *blam
     if (ok)
         printf("the case is in %s\n", plain);
     if (ok && culprit.found)
-        printf("%s alone, %lld of its %lld items, is in %s.kernel: cc run.c -lvulkan -o run && "
-               "./run\n",
-               culprit.due.kernel->name, (long long)culprit.items, (long long)culprit.of_items,
-               plain);
+        printf("%s alone, %lld of its %lld items, is in %s.kernel: %s\n", culprit.due.kernel->name,
+               (long long)culprit.items, (long long)culprit.of_items, plain,
+               rg_kernel_folder_command(&culprit, device));
     else if (ok)
         printf("no kernel alone: %s\n", culprit.why_not);
     rg_culprit_free(&culprit);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "backends/asked/features.h"
 #include "core/base/text/add.h"
 #include "harness/compare/doctor/doctor.h"
 #include "harness/record/passport/key.h"
@@ -194,13 +195,13 @@ static void print_key(const json_t *passport, const struct rg_device_info *info)
     json_decref(device);
 }
 
-// Names the stages that a native device leaves to its driver: all programs, and what samples.
-static void print_native(void)
+// Names what a native device leaves to its driver: all programs, and what samples; or features.
+static void print_native(const struct rg_device_info *info)
 {
     const struct rg_kernel *const *all;
     const int count = rg_kernel_all(&all);
     int programs = 0;
-    char samples[1024] = "", text[1200];
+    char samples[1024] = "", text[1200], words[RG_FEATURES_TEXT];
     for (int i = 0; i < count; i++) {
         programs += all[i]->draw != NULL;
         if (rg_kernel_samples(all[i]))
@@ -208,7 +209,8 @@ static void print_native(void)
     }
     snprintf(text, sizeof(text), "draws the items of %d programs by its driver; samples in %s",
              programs, samples);
-    print_field("native", text);
+    rg_features_write(info->features, words);
+    print_field("native", info->features == RG_FEATURE_ALL ? text : words);
 }
 
 static void print_device(const struct rg_examination *e, const json_t *passport)
@@ -221,7 +223,7 @@ static void print_device(const struct rg_examination *e, const json_t *passport)
         print_field("device", e->info.device);
         print_field("driver", e->info.driver);
         if (e->info.native)
-            print_native();
+            print_native(&e->info);
         print_limits(&e->info.limits);
         print_key(passport, &e->info);
     }

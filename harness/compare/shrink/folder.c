@@ -26,11 +26,12 @@ static const int vulkan_formats[RG_FORMAT_COUNT] = {
     [RG_R16F] = 76,  [RG_RG11B10F] = 122, [RG_D32F] = 126,
 };
 
-extern const char rg_text_run_grid[], rg_text_run_draw[];
+extern const char rg_text_run_grid[], rg_text_run_draw[], rg_text_run_gl[];
 
 struct folder {
     char path[2048];
     const struct rg_culprit *culprit;
+    bool draws, by_gl; // a draw on a device of OpenGL is run by OpenGL, all else by Vulkan
     int count;
     struct rg_output_file files[RG_MAX_OUTPUT_FILES];
     char names[RG_MAX_OUTPUT_FILES][64];
@@ -137,8 +138,7 @@ static void write_sampler(FILE *out, const struct rg_device *device,
 
 static bool is_target(const struct folder *f, const struct rg_slot_info *slot)
 {
-    return f->culprit->due.kernel->draw &&
-           (slot->slot == RG_SLOT_COLOUR || slot->slot == RG_SLOT_DEPTH);
+    return f->draws && (slot->slot == RG_SLOT_COLOUR || slot->slot == RG_SLOT_DEPTH);
 }
 
 static void write_slot(FILE *out, const struct folder *f, const struct rg_device *device,
@@ -281,6 +281,28 @@ static bool write_manifest(struct folder *f, const struct rg_device *device, FIL
     return add_slots(f, device, out);
 }
 
+static const char *command_of(bool draws, bool by_gl)
+{
+    return draws && by_gl ? "cc run.c -lEGL -lGL -o run && ./run"
+                          : "cc run.c -lvulkan -o run && ./run";
+}
+
+// Says what the files of code are.
+static const char *texts_of(const struct folder *f)
+{
+    if (f->by_gl)
+        return "kernel.vert, kernel.geom and kernel.frag are the stages.\n";
+    if (f->draws)
+        return "kernel.vert, kernel.geom and kernel.frag are the stages' texts, of which\n\n"
+               "    glslc --target-env=vulkan1.2 -O kernel.vert -o kernel.vert.spv\n\n"
+               "and the same of the others make the code.\n";
+    return "kernel.comp is the shader's text, of which\n\n"
+           "    glslc -fshader-stage=compute --target-env=vulkan1.2 -O kernel.comp -o "
+           "kernel.spv\n\n"
+           "makes kernel.spv. kernel.cl is the same kernel in OpenCL C, which has its slots and "
+           "parameters as arguments.\n";
+}
+
 static void write_readme(const struct folder *f, FILE *out, const char *note,
                          const struct rg_device_info *device, const struct rg_device_info *truth)
 {
@@ -293,28 +315,19 @@ static void write_readme(const struct folder *f, FILE *out, const char *note,
             "The %s %s leaves other bits on %s\n(%s, %s, %s)\nthan on %s, which is "
             "held for the "
             "truth. raingauge found it as\n\n    %s\n\n",
-            f->culprit->due.kernel->draw ? "draw" : "compute shader", f->culprit->due.kernel->name,
-            names[0], device->device, device->driver, device->api, names[1], note);
+            f->draws ? "draw" : "compute shader", f->culprit->due.kernel->name, names[0],
+            device->device, device->driver, device->api, names[1], note);
     fprintf(
         out,
-        "Nothing of raingauge is needed to run it, but a C compiler and the Vulkan loader "
-        "with its headers:\n\n"
-        "    cc run.c -lvulkan -o run && ./run [--device N]\n\n"
-        "Devices count from 0, as `vulkaninfo --summary` lists them. Exit status: 0 it leaves what "
-        "is\n"
-        "expected, 1 it does not, and the first byte that differs is printed, 2 something failed,\n"
+        "Nothing of raingauge is needed to run it, but a C compiler and %s with its headers:\n\n"
+        "    %s [--device N]\n\n"
+        "Devices count from 0, as %s lists them. Exit status: 0 it leaves what is\n"
+        "expected, 1 it does not, and the first byte that differs is printed, 2 something "
+        "failed,\n"
         "77 there is no such device.\n\n"
-        "kernel.txt says what is bound where; ");
-    fprintf(out, "%s",
-            f->culprit->due.kernel->draw
-                ? "kernel.vert, kernel.geom and kernel.frag are the stages' texts, of which\n\n"
-                  "    glslc --target-env=vulkan1.2 -O kernel.vert -o kernel.vert.spv\n\n"
-                  "and the same of the others make the code.\n"
-                : "kernel.comp is the shader's text, of which\n\n"
-                  "    glslc -fshader-stage=compute --target-env=vulkan1.2 -O kernel.comp -o "
-                  "kernel.spv\n\n"
-                  "makes kernel.spv. kernel.cl is the same kernel in OpenCL C, which has its slots "
-                  "and parameters as arguments.\n");
+        "kernel.txt says what is bound where, in Vulkan's numbers; %s",
+        f->by_gl ? "libglvnd" : "the Vulkan loader", command_of(f->draws, f->by_gl),
+        f->by_gl ? "eglQueryDevicesEXT" : "`vulkaninfo --summary`", texts_of(f));
 }
 
 // --- writing ---
@@ -324,23 +337,22 @@ static bool add_codes(struct folder *f, struct rg_device *device)
     static const struct {
         enum rg_code_kind kind;
         const char *name;
-        bool is_of_draw;
+        bool is_of_draw, is_of_vulkan;
     } codes[] = {
-        {RG_CODE_SPIRV, "kernel.spv", false},
-        {RG_CODE_GLSL, "kernel.comp", false},
-        {RG_CODE_OPENCL, "kernel.cl", false},
-        {RG_CODE_VERTEX_SPIRV, "kernel.vert.spv", true},
-        {RG_CODE_VERTEX_GLSL, "kernel.vert", true},
-        {RG_CODE_NATIVE_GEOMETRY_SPIRV, "kernel.geom.spv", true},
-        {RG_CODE_NATIVE_GEOMETRY_GLSL, "kernel.geom", true},
-        {RG_CODE_FRAGMENT_SPIRV, "kernel.frag.spv", true},
-        {RG_CODE_FRAGMENT_GLSL, "kernel.frag", true},
+        {RG_CODE_SPIRV, "kernel.spv", false, false},
+        {RG_CODE_GLSL, "kernel.comp", false, false},
+        {RG_CODE_OPENCL, "kernel.cl", false, false},
+        {RG_CODE_VERTEX_SPIRV, "kernel.vert.spv", true, true},
+        {RG_CODE_VERTEX_GLSL, "kernel.vert", true, false},
+        {RG_CODE_NATIVE_GEOMETRY_SPIRV, "kernel.geom.spv", true, true},
+        {RG_CODE_NATIVE_GEOMETRY_GLSL, "kernel.geom", true, false},
+        {RG_CODE_FRAGMENT_SPIRV, "kernel.frag.spv", true, true},
+        {RG_CODE_FRAGMENT_GLSL, "kernel.frag", true, false},
     };
-    const bool draws = f->culprit->due.kernel->draw;
     bool ok = true;
     size_t size;
     for (size_t i = 0; ok && i < sizeof(codes) / sizeof(codes[0]); i++)
-        ok = codes[i].is_of_draw != draws ||
+        ok = codes[i].is_of_draw != f->draws || (codes[i].is_of_vulkan && f->by_gl) ||
              add_code(f, device, codes[i].kind, codes[i].name, &size);
     return ok;
 }
@@ -365,7 +377,11 @@ static bool fill(struct folder *f, const char *note, struct rg_device *device,
         if (texts[i])
             add(f, i == 0 ? "kernel.txt" : "README", texts[i], 0, texts[i]);
     }
-    add(f, "run.c", f->culprit->due.kernel->draw ? rg_text_run_draw : rg_text_run_grid, 0, NULL);
+    add(f, "run.c",
+        f->by_gl   ? rg_text_run_gl
+        : f->draws ? rg_text_run_draw
+                   : rg_text_run_grid,
+        0, NULL);
     return ok;
 }
 
@@ -415,10 +431,26 @@ static struct folder *open_folder(const char *path, const struct rg_culprit *cul
     return rg_error_null("%.80s...: its name is too long", path);
 }
 
+static bool is_of_gl(const struct rg_device *device)
+{
+    return !strcmp(device->backend->name, "gl");
+}
+
+const char *rg_kernel_folder_command(const struct rg_culprit *culprit,
+                                     const struct rg_device *device)
+{
+    const bool draws = culprit->due.kernel->draw;
+    return command_of(draws, draws && is_of_gl(device));
+}
+
 bool rg_kernel_folder_write(const char *path, const struct rg_culprit *culprit, const char *note,
                             struct rg_device *device, const struct rg_device *truth)
 {
     struct folder *f = open_folder(path, culprit);
+    if (f) {
+        f->draws = culprit->due.kernel->draw;
+        f->by_gl = f->draws && is_of_gl(device);
+    }
     const bool ok =
         f && fill(f, note, device, truth) && rg_output_write_set(f->path, f->files, f->count);
     if (ok)

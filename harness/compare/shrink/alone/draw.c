@@ -8,9 +8,9 @@ static VkRenderPass make_pass(void) { // keeps what the targets hold
     VkRenderPass pass;
     for (int i = 0; i < 2; i++) targets[i] = (VkAttachmentReference){VK_ATTACHMENT_UNUSED, VK_IMAGE_LAYOUT_GENERAL};
     for EACH_SLOT
-        if (s->type == VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT) {
+        if (s->type == TARGET) {
             targets[s->aspect == VK_IMAGE_ASPECT_DEPTH_BIT].attachment = target_count;
-            views[target_count] = s->view;
+            views[target_count] = OF(s).view;
             held[target_count++] = (VkAttachmentDescription){.format = s->format, .samples = 1, .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
                 .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE, .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
                 .initialLayout = VK_IMAGE_LAYOUT_GENERAL, .finalLayout = VK_IMAGE_LAYOUT_GENERAL};
