@@ -391,15 +391,15 @@ static int compare_all(struct session *s)
     return exit;
 }
 
-// Memory for each device's picture and the one without rain; on the disk, two heat maps a pair and
-// a picture a device.
+// Memory for each device's picture, the one without rain, and three that blame features; on the
+// disk, two heat maps a pair and a picture a device.
 static bool has_room(const struct session *s, const struct rg_devices *devices)
 {
     const struct rg_diff_devices_request *r = s->asked;
     const int64_t pixels = (int64_t)r->subject.width * r->subject.height;
-    const int count = devices->count;
+    const int count = devices->count, of_features = r->features ? 3 : 0;
     char path[HEATMAP_PREFIX];
-    if (!rg_pictures_fit(r->subject.width, r->subject.height, count + 1))
+    if (!rg_pictures_fit(r->subject.width, r->subject.height, count + 1 + of_features))
         return false;
     if (!r->heatmap_prefix)
         return true;

@@ -43,7 +43,6 @@ ROWS = [
     Fault(FEATURES, "device->blends = «!(device->info.features & RG_FEATURE_BLENDING)» &&", "false", "a driver that shall not blend blends", tests=OF_NATIVE),
     Fault(OF_FEATURES, "device->info.features & «~exact», words);", "exact", "the other features are switched", tests=OF_NATIVE),
     Fault(OF_FEATURES, "told->by_bits = is_first ? «holds» : told->by_bits;", "true", "features are to end differences within the tier", tests=OF_NATIVE),
-    Fault(OF_FEATURES, "none->is_equal             ? «RG_FEATURES_TOGETHER»", "RG_FEATURES_SHARED", "what ends only together is blamed on nobody", tests=OF_NATIVE),
     Fault(GL_SAMPLER, "GL_TEXTURE_COMPARE_FUNC, «GL_LEQUAL»", "GL_GREATER", "gl:native lights what is in shadow", tests=OF_NATIVE),
     Fault(GL_SAMPLER, "GL_TEXTURE_MAG_FILTER, «GL_LINEAR»", "GL_NEAREST", "gl:native weighs no texels", tests=OF_SUITE_GL),
     Fault("backends/gl/image.c", "GL_TEXTURE_BASE_LEVEL, «first - 1»", "0", "gl:native makes levels that it was given", tests=OF_SUITE_GL),
