@@ -7,7 +7,7 @@ static VkRenderPass make_pass(void) { // keeps what the targets hold
     VkAttachmentDescription held[2];
     VkRenderPass pass;
     for (int i = 0; i < 2; i++) targets[i] = (VkAttachmentReference){VK_ATTACHMENT_UNUSED, VK_IMAGE_LAYOUT_GENERAL};
-    for EACH_SLOT
+    EACH_SLOT
         if (s->type == TARGET) {
             targets[s->aspect == VK_IMAGE_ASPECT_DEPTH_BIT].attachment = target_count;
             views[target_count] = OF(s).view;

@@ -122,7 +122,7 @@ static void run(void) {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glCreateFramebuffers(1, &framebuffer);
-    for EACH_SLOT {
+    EACH_SLOT {
         s->bytes = calloc(1, s->size);
         if (!s->bytes) FAIL(2, "there is no memory\n");
         read_parts(s->before, s->bytes, s->size);
@@ -141,6 +141,6 @@ static void run(void) {
     glDrawArrays(GL_POINTS, (int)draw.first, (int)draw.items);
     check("glDrawArrays");
     glFinish();
-    for EACH_SLOT if (s->format && *s->expected != '-') copy(s, 1);
+    EACH_SLOT if (s->format && *s->expected != '-') copy(s, 1);
     check("glGetTextureImage");
 }

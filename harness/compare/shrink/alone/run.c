@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define FAIL(status, ...) exit((fprintf(stderr, __VA_ARGS__), status))
-#define EACH_SLOT (struct slot *s = slots; s < slots + count; s++)
+#define EACH_SLOT for (struct slot *s = slots; s < slots + count; s++)
 enum { SAMPLED_IMAGE = 1, STORED_IMAGE = 3, UNIFORM_BLOCK = 6, STORAGE_BUFFER = 7, TARGET = 10 }; // types of slots
 
 static struct slot { // a line of kernel.txt
@@ -73,7 +73,7 @@ int main(int argc, char **argv) {
     read_manifest(fopen("kernel.txt", "r"));
     open_device(argc == 3 ? (unsigned)atoi(argv[2]) : 0);
     run();
-    for EACH_SLOT differing |= *s->expected != '-' && differs(s);
+    EACH_SLOT differing |= *s->expected != '-' && differs(s);
     puts(differing ? "it differs" : "it is the same");
     return differing;
 }

@@ -102,7 +102,7 @@ static void make_set(VkShaderStageFlags stages) { // all slots but a draw's targ
     VkDescriptorPoolSize sizes[] = {{1, 16}, {3, 16}, {6, 16}, {7, 16}}; // of each type
     VkDescriptorSetLayout set_layout; VkDescriptorPool pool;
     unsigned bound = 0;
-    for EACH_SLOT
+    EACH_SLOT
         if (s->type != TARGET)
             bindings[bound++] = (VkDescriptorSetLayoutBinding){s->at, s->type, 1, stages, NULL};
     NEW(DescriptorSetLayout, DESCRIPTOR_SET_LAYOUT, &set_layout, .bindingCount = bound, .pBindings = bindings);
@@ -110,7 +110,7 @@ static void make_set(VkShaderStageFlags stages) { // all slots but a draw's targ
     NEW(DescriptorPool, DESCRIPTOR_POOL, &pool, .maxSets = 1, .poolSizeCount = 4, .pPoolSizes = sizes);
     TRY(vkAllocateDescriptorSets(device, INFO(DescriptorSetAllocateInfo, DESCRIPTOR_SET_ALLOCATE_INFO, .descriptorPool = pool,
         .descriptorSetCount = 1, .pSetLayouts = &set_layout), &set));
-    for EACH_SLOT
+    EACH_SLOT
         if (s->type != TARGET)
             vkUpdateDescriptorSets(device, 1, INFO(WriteDescriptorSet, WRITE_DESCRIPTOR_SET, .dstSet = set, .dstBinding = s->at,
                 .descriptorCount = 1, .descriptorType = s->type, .pBufferInfo = &(VkDescriptorBufferInfo){OF(s).buffer, 0, VK_WHOLE_SIZE},
@@ -128,12 +128,12 @@ static VkPipelineShaderStageCreateInfo make_stage(VkShaderStageFlagBits stage, c
 }
 
 static void run(void) {
-    for EACH_SLOT make_slot(s);
-    for EACH_SLOT if (OF(s).image) wait_for_all(s), copy(s, 0);
+    EACH_SLOT make_slot(s);
+    EACH_SLOT if (OF(s).image) wait_for_all(s), copy(s, 0);
     wait_for_all(NULL);
     record_shader();
     wait_for_all(NULL);
-    for EACH_SLOT if (OF(s).image && *s->expected != '-') copy(s, 1);
+    EACH_SLOT if (OF(s).image && *s->expected != '-') copy(s, 1);
     wait_for_all(NULL);
     TRY(vkEndCommandBuffer(commands));
     TRY(vkQueueSubmit(queue, 1, INFO(SubmitInfo, SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands), NULL));
