@@ -1,4 +1,3 @@
-// clang-format off
 static VkAttachmentReference targets[2]; // colour, then depth
 static VkImageView views[2];
 static unsigned target_count;
@@ -10,7 +9,8 @@ static VkRenderPass make_pass(void) { // keeps what the targets hold
     EACH_SLOT
         if (s->type == TARGET) {
             targets[s->aspect == VK_IMAGE_ASPECT_DEPTH_BIT].attachment = target_count;
-            views[target_count] = OF(s).view;
+            NEW(ImageView, IMAGE_VIEW, &views[target_count], .image = OF(s).image, .viewType = VK_IMAGE_VIEW_TYPE_2D, .format = s->format,
+                .subresourceRange = {s->aspect, draw.level, 1, draw.layer, 1});
             held[target_count++] = (VkAttachmentDescription){.format = s->format, .samples = 1, .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
                 .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE, .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
                 .initialLayout = VK_IMAGE_LAYOUT_GENERAL, .finalLayout = VK_IMAGE_LAYOUT_GENERAL};
@@ -46,7 +46,7 @@ static VkPipeline make_pipeline(VkRenderPass pass) {
     return pipeline;
 }
 
-static void record_shader(void) {
+static void record_shaders(void) {
     make_set(VK_SHADER_STAGE_ALL_GRAPHICS);
     const VkRenderPass pass = make_pass();
     const VkPipeline pipeline = make_pipeline(pass);
@@ -57,6 +57,7 @@ static void record_shader(void) {
         .renderArea = {{0, 0}, {draw.width, draw.height}}), VK_SUBPASS_CONTENTS_INLINE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &set, 0, NULL);
-    vkCmdDraw(commands, draw.items, 1, draw.first, 0);
+    vkCmdDraw(commands, items, 1, draw.first, 0);
     vkCmdEndRenderPass(commands);
 }
+

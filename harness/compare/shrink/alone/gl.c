@@ -1,10 +1,10 @@
-// clang-format off
 #define GL_GLEXT_PROTOTYPES
 #define EGL_EGLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GL/glcorearb.h>
 
+enum { SAMPLED_IMAGE = 1, UNIFORM_BLOCK = 6, TARGET = 10 }; // types of slots
 static GLuint objects[16], program; // textures, or buffers
 #define OF(s) objects[(s) - slots]
 
@@ -92,7 +92,8 @@ static void make_image(struct slot *s) {
     glCreateTextures(cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D_ARRAY, 1, &OF(s));
     if (cube) glTextureStorage2D(OF(s), (int)s->levels, format_of(s)->internal, (int)s->width, (int)s->height);
     else glTextureStorage3D(OF(s), (int)s->levels, format_of(s)->internal, (int)s->width, (int)s->height, (int)s->layers);
-    glTextureParameteri(OF(s), GL_TEXTURE_MIN_FILTER, !s->filter ? GL_NEAREST_MIPMAP_NEAREST : s->compare ? GL_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(OF(s), GL_TEXTURE_MIN_FILTER,
+        !s->filter ? GL_NEAREST_MIPMAP_NEAREST : s->compare ? GL_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
     glTextureParameteri(OF(s), GL_TEXTURE_MAG_FILTER, s->filter ? GL_LINEAR : GL_NEAREST);
     glTextureParameteri(OF(s), GL_TEXTURE_WRAP_S, wrap);
     glTextureParameteri(OF(s), GL_TEXTURE_WRAP_T, wrap);
@@ -138,9 +139,10 @@ static void run(void) {
     glCreateVertexArrays(1, &vertices);
     glBindVertexArray(vertices);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glDrawArrays(GL_POINTS, (int)draw.first, (int)draw.items);
+    glDrawArrays(GL_POINTS, (int)draw.first, (int)items);
     check("glDrawArrays");
     glFinish();
     EACH_SLOT if (s->format && *s->expected != '-') copy(s, 1);
     check("glGetTextureImage");
 }
+

@@ -1,5 +1,6 @@
-// clang-format off
-static void record_shader(void) {
+static unsigned groups[3]; static void read_run(const char *line) { sscanf(line, "groups %u %u %u", &groups[0], &groups[1], &groups[2]); }
+
+static void record_shaders(void) {
     VkPipeline pipeline;
     make_set(VK_SHADER_STAGE_COMPUTE_BIT);
     TRY(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, INFO(ComputePipelineCreateInfo, COMPUTE_PIPELINE_CREATE_INFO,
@@ -8,3 +9,4 @@ static void record_shader(void) {
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);
     vkCmdDispatch(commands, groups[0], groups[1], groups[2]);
 }
+

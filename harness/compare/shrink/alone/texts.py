@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Puts texts into the program: texts.py OUTPUT.c NAME FILE... [-- NAME FILE...]... makes `const char rg_text_NAME[]` of each, its files
+"""Puts texts into the program: texts.py OUTPUT.c [-- NAME FILE...]... makes `const char rg_text_NAME[]` of each, its files
 one after the other."""
 import sys
 
 
 def main():
     lines = []
-    for name, *paths in (part.split("\n") for part in "\n".join(sys.argv[2:]).split("\n--\n")):
+    for name, *paths in (part.split("\n") for part in "\n".join(sys.argv[1:]).split("\n--\n")[1:]):
         text = b""
         for path in paths:
             with open(path, "rb") as file:

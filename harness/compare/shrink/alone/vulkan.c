@@ -1,43 +1,25 @@
-// clang-format off
 #include <vulkan/vulkan.h>
-
 #define TRY(call) ((call) == VK_SUCCESS ? (void)0 : FAIL(2, "failed: %s\n", #call))
 #define INFO(Type, TYPE, ...) (&(Vk##Type){.sType = VK_STRUCTURE_TYPE_##TYPE, __VA_ARGS__})
 #define NEW(Type, TYPE, to, ...) TRY(vkCreate##Type(device, INFO(Type##CreateInfo, TYPE##_CREATE_INFO, __VA_ARGS__), NULL, to))
-
-static struct object {
-    VkBuffer buffer; // which also holds an image's texels
-    VkImage image;
-    VkImageView view;
-    VkSampler sampler;
-} objects[16];
+#define TARGET VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT // of a draw: bound to no descriptor
 #define OF(s) objects[(s) - slots]
-static VkPhysicalDeviceMemoryProperties memory;
-static VkDevice device;
-static VkQueue queue;
-static VkCommandBuffer commands;
-static VkPipelineLayout layout;
-static VkDescriptorSet set;
-static void record_shader(void);
+static struct { VkBuffer buffer; VkImage image; VkImageView view; VkSampler sampler; } objects[16]; // buffers hold images' texels, too
+static VkPhysicalDeviceMemoryProperties memory; static VkDevice device; static VkQueue queue; static VkCommandBuffer commands;
+static VkPipelineLayout layout; static VkDescriptorSet set;
 
 static void open_device(unsigned index) {
-    VkInstance instance;
-    VkPhysicalDevice all[16];
-    VkQueueFamilyProperties families[16];
-    VkCommandPool pool;
-    uint32_t found = 16, family = 0, family_count = 16;
+    VkInstance instance; VkPhysicalDevice all[16]; VkQueueFamilyProperties families[16]; VkCommandPool pool;
+    uint32_t found = 16, family = 0, family_count = 16, draws = items > 0, wanted = draws ? VK_QUEUE_GRAPHICS_BIT : VK_QUEUE_COMPUTE_BIT;
     VkApplicationInfo *app = INFO(ApplicationInfo, APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_2);
     if (vkCreateInstance(INFO(InstanceCreateInfo, INSTANCE_CREATE_INFO, .pApplicationInfo = app), NULL, &instance) ||
         vkEnumeratePhysicalDevices(instance, &found, all) < 0 || index >= found) FAIL(77, "there is no Vulkan device %u\n", index);
     vkGetPhysicalDeviceMemoryProperties(all[index], &memory);
     vkGetPhysicalDeviceQueueFamilyProperties(all[index], &family_count, families);
-    while (family + 1 < family_count && !(families[family].queueFlags & (draw.items ? VK_QUEUE_GRAPHICS_BIT : VK_QUEUE_COMPUTE_BIT))) family++;
-    VkPhysicalDeviceFeatures features;
-    vkGetPhysicalDeviceFeatures(all[index], &features);
-    VkDeviceQueueCreateInfo *one = INFO(DeviceQueueCreateInfo, DEVICE_QUEUE_CREATE_INFO, .queueFamilyIndex = family, .queueCount = 1,
-        .pQueuePriorities = &(float){1});
-    TRY(vkCreateDevice(all[index], INFO(DeviceCreateInfo, DEVICE_CREATE_INFO, .queueCreateInfoCount = 1, .pQueueCreateInfos = one,
-        .pEnabledFeatures = &features), NULL, &device));
+    while (family + 1 < family_count && !(families[family].queueFlags & wanted)) family++;
+    TRY(vkCreateDevice(all[index], INFO(DeviceCreateInfo, DEVICE_CREATE_INFO, .queueCreateInfoCount = 1, .pQueueCreateInfos =
+        INFO(DeviceQueueCreateInfo, DEVICE_QUEUE_CREATE_INFO, .queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &(float){1}),
+        .pEnabledFeatures = &(VkPhysicalDeviceFeatures){.geometryShader = draws, .fragmentStoresAndAtomics = draws}), NULL, &device));
     vkGetDeviceQueue(device, family, 0, &queue);
     NEW(CommandPool, COMMAND_POOL, &pool, .queueFamilyIndex = family);
     TRY(vkAllocateCommandBuffers(device, INFO(CommandBufferAllocateInfo, COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = pool,
@@ -46,17 +28,32 @@ static void open_device(unsigned index) {
 }
 
 static VkDeviceMemory allocate(VkMemoryRequirements needs, VkMemoryPropertyFlags wanted) {
-    VkDeviceMemory held;
-    uint32_t i = 0;
+    VkDeviceMemory held; uint32_t i = 0;
     while (!(needs.memoryTypeBits >> i & 1) || wanted & ~memory.memoryTypes[i].propertyFlags) i++;
     TRY(vkAllocateMemory(device, INFO(MemoryAllocateInfo, MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = i),
         NULL, &held));
     return held;
 }
 
+static void wait_for_all(const struct slot *fresh) { // writes are visible to later commands and the host; a fresh image gets its layout
+    vkCmdPipelineBarrier(commands, 0x10000, 0x14000, 0, 1, // all commands; and the host
+        INFO(MemoryBarrier, MEMORY_BARRIER, .srcAccessMask = 0x10000, .dstAccessMask = 0x18000), 0, NULL, fresh != NULL,
+        INFO(ImageMemoryBarrier, IMAGE_MEMORY_BARRIER, .dstAccessMask = 0x18000, .newLayout = VK_IMAGE_LAYOUT_GENERAL, .image =
+             fresh ? OF(fresh).image : VK_NULL_HANDLE, .subresourceRange = {fresh ? fresh->aspect : 0, 0, ~0u, 0, ~0u}));
+}
+
+static void copy(const struct slot *s, int back) { // between an image and its buffer, level by level
+    VkBufferImageCopy part = {.imageSubresource = {s->aspect, 0, 0, s->layers}};
+    for (unsigned level = 0, w = s->width, h = s->height; level < s->levels; level++, w = w / 2 + (w < 2), h = h / 2 + (h < 2)) {
+        part.imageSubresource.mipLevel = level, part.imageExtent = (VkExtent3D){w, h, 1};
+        if (back) vkCmdCopyImageToBuffer(commands, OF(s).image, VK_IMAGE_LAYOUT_GENERAL, OF(s).buffer, 1, &part);
+        else vkCmdCopyBufferToImage(commands, OF(s).buffer, OF(s).image, VK_IMAGE_LAYOUT_GENERAL, 1, &part);
+        part.bufferOffset += (VkDeviceSize)w * h * s->layers * s->texel;
+    }
+}
+
 static void make_slot(struct slot *s) {
-    const int stored = s->type == STORED_IMAGE, target = s->type == TARGET;
-    const unsigned usage = target ? (s->aspect == VK_IMAGE_ASPECT_DEPTH_BIT ? 0x23 : 0x13) : stored ? 0xb : 0x7; // copies, and one use
+    const int stored = s->type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, drawn = s->aspect == VK_IMAGE_ASPECT_DEPTH_BIT ? 0x23 : 0x13;
     VkMemoryRequirements needs;
     NEW(Buffer, BUFFER, &OF(s).buffer, .size = s->size, .usage = 0x33); // copies both ways, a uniform block, storage
     vkGetBufferMemoryRequirements(device, OF(s).buffer, &needs);
@@ -66,76 +63,39 @@ static void make_slot(struct slot *s) {
     read_parts(s->before, memset(s->bytes, 0, s->size), s->size);
     if (!s->format) return;
     NEW(Image, IMAGE, &OF(s).image, .flags = s->view_type == VK_IMAGE_VIEW_TYPE_CUBE ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
-        .imageType = VK_IMAGE_TYPE_2D, .format = s->format, .extent = {s->width, s->height, 1}, .mipLevels = s->levels, .arrayLayers = s->layers, .samples = 1, .usage = usage);
+        .imageType = VK_IMAGE_TYPE_2D, .format = s->format, .extent = {s->width, s->height, 1}, .mipLevels = s->levels,
+        .arrayLayers = s->layers, .samples = 1, .usage = s->type == TARGET ? drawn : stored ? 0xb : 0x7); // copies, and one use
     vkGetImageMemoryRequirements(device, OF(s).image, &needs);
     TRY(vkBindImageMemory(device, OF(s).image, allocate(needs, 0), 0));
     NEW(ImageView, IMAGE_VIEW, &OF(s).view, .image = OF(s).image, .viewType = s->view_type, .format = s->format,
-        .subresourceRange = {s->aspect, target ? draw.level : 0, target || stored ? 1 : s->levels, target ? draw.layer : 0,
-            target ? 1 : s->layers});
+        .subresourceRange = {s->aspect, 0, stored ? 1 : s->levels, 0, s->layers});
     NEW(Sampler, SAMPLER, &OF(s).sampler, .magFilter = s->filter, .minFilter = s->filter, .mipmapMode = s->filter,
         .addressModeU = s->wrap, .addressModeV = s->wrap, .addressModeW = s->wrap, .compareEnable = s->compare != 0,
         .compareOp = s->compare, .maxLod = VK_LOD_CLAMP_NONE);
+    wait_for_all(s), copy(s, 0);
 }
 
-// Makes earlier writes visible to later commands and the host; a fresh image gets the general layout, which all uses allow.
-static void wait_for_all(const struct slot *fresh) {
-    VkImageSubresourceRange range = {fresh ? fresh->aspect : 0, 0, fresh ? fresh->levels : 0, 0, fresh ? fresh->layers : 0};
-    vkCmdPipelineBarrier(commands, 0x10000, 0x14000, 0, 1, // all commands; and the host
-        INFO(MemoryBarrier, MEMORY_BARRIER, .srcAccessMask = 0x10000, .dstAccessMask = 0x18000), 0, NULL, fresh != NULL,
-        INFO(ImageMemoryBarrier, IMAGE_MEMORY_BARRIER, .dstAccessMask = 0x18000, .newLayout = VK_IMAGE_LAYOUT_GENERAL,
-             .image = fresh ? OF(fresh).image : VK_NULL_HANDLE, .subresourceRange = range));
-}
-
-static void copy(const struct slot *s, int back) { // between an image and its buffer, level by level
-    VkBufferImageCopy part = {.imageSubresource = {s->aspect, 0, 0, s->layers}};
-    for (unsigned level = 0, w = s->width, h = s->height; level < s->levels; level++, w = w / 2 + (w < 2), h = h / 2 + (h < 2)) {
-        part.imageSubresource.mipLevel = level;
-        part.imageExtent = (VkExtent3D){w, h, 1};
-        if (back) vkCmdCopyImageToBuffer(commands, OF(s).image, VK_IMAGE_LAYOUT_GENERAL, OF(s).buffer, 1, &part);
-        else vkCmdCopyBufferToImage(commands, OF(s).buffer, OF(s).image, VK_IMAGE_LAYOUT_GENERAL, 1, &part);
-        part.bufferOffset += (VkDeviceSize)w * h * s->layers * s->texel;
-    }
-}
-
-static void make_set(VkShaderStageFlags stages) { // all slots but a draw's targets
-    VkDescriptorSetLayoutBinding bindings[16];
+static void make_set(VkShaderStageFlags stages) {
     VkDescriptorPoolSize sizes[] = {{1, 16}, {3, 16}, {6, 16}, {7, 16}}; // of each type
-    VkDescriptorSetLayout set_layout; VkDescriptorPool pool;
-    unsigned bound = 0;
-    EACH_SLOT
-        if (s->type != TARGET)
-            bindings[bound++] = (VkDescriptorSetLayoutBinding){s->at, s->type, 1, stages, NULL};
+    VkDescriptorSetLayoutBinding bindings[16]; VkDescriptorSetLayout set_layout; VkDescriptorPool pool; unsigned bound = 0;
+    EACH_SLOT if (s->type != TARGET) bindings[bound++] = (VkDescriptorSetLayoutBinding){s->at, s->type, 1, stages, NULL};
     NEW(DescriptorSetLayout, DESCRIPTOR_SET_LAYOUT, &set_layout, .bindingCount = bound, .pBindings = bindings);
     NEW(PipelineLayout, PIPELINE_LAYOUT, &layout, .setLayoutCount = 1, .pSetLayouts = &set_layout);
     NEW(DescriptorPool, DESCRIPTOR_POOL, &pool, .maxSets = 1, .poolSizeCount = 4, .pPoolSizes = sizes);
     TRY(vkAllocateDescriptorSets(device, INFO(DescriptorSetAllocateInfo, DESCRIPTOR_SET_ALLOCATE_INFO, .descriptorPool = pool,
         .descriptorSetCount = 1, .pSetLayouts = &set_layout), &set));
-    EACH_SLOT
-        if (s->type != TARGET)
-            vkUpdateDescriptorSets(device, 1, INFO(WriteDescriptorSet, WRITE_DESCRIPTOR_SET, .dstSet = set, .dstBinding = s->at,
-                .descriptorCount = 1, .descriptorType = s->type, .pBufferInfo = &(VkDescriptorBufferInfo){OF(s).buffer, 0, VK_WHOLE_SIZE},
-                .pImageInfo = &(VkDescriptorImageInfo){OF(s).sampler, OF(s).view, VK_IMAGE_LAYOUT_GENERAL}), 0, NULL);
+    EACH_SLOT if (s->type != TARGET)
+        vkUpdateDescriptorSets(device, 1, INFO(WriteDescriptorSet, WRITE_DESCRIPTOR_SET, .dstSet = set, .dstBinding = s->at,
+            .descriptorCount = 1, .descriptorType = s->type, .pBufferInfo = &(VkDescriptorBufferInfo){OF(s).buffer, 0, VK_WHOLE_SIZE},
+            .pImageInfo = &(VkDescriptorImageInfo){OF(s).sampler, OF(s).view, VK_IMAGE_LAYOUT_GENERAL}), 0, NULL);
 }
 
 static VkPipelineShaderStageCreateInfo make_stage(VkShaderStageFlagBits stage, const char *path) {
-    static const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(constants[0])}, {1, sizeof(constants[0]), sizeof(constants[0])}};
+    static const VkSpecializationMapEntry entries[] = {{0, 0, 4}, {1, 4, 4}};
     static const VkSpecializationInfo special = {2, entries, sizeof(constants), constants};
-    VkShaderModule module;
-    size_t code_size;
-    const void *code = read_code(path, &code_size);
-    NEW(ShaderModule, SHADER_MODULE, &module, .codeSize = code_size, .pCode = code);
+    VkShaderModule module; size_t size;
+    const void *code = read_code(path, &size);
+    NEW(ShaderModule, SHADER_MODULE, &module, .codeSize = size, .pCode = code);
     return (VkPipelineShaderStageCreateInfo){VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, NULL, 0, stage, module, "main", &special};
 }
 
-static void run(void) {
-    EACH_SLOT make_slot(s);
-    EACH_SLOT if (OF(s).image) wait_for_all(s), copy(s, 0);
-    wait_for_all(NULL);
-    record_shader();
-    wait_for_all(NULL);
-    EACH_SLOT if (OF(s).image && *s->expected != '-') copy(s, 1);
-    wait_for_all(NULL);
-    TRY(vkEndCommandBuffer(commands));
-    TRY(vkQueueSubmit(queue, 1, INFO(SubmitInfo, SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands), NULL));
-    TRY(vkQueueWaitIdle(queue));
-}
