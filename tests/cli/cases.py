@@ -268,6 +268,7 @@ COMMANDS = [
     Case(DIFF + "-o {tmp}/none/heat", 2, r"none/heat-flip\.png: its folder is not there"),
     Case("diff nonsense", 2, r"technique 'nonsense': unknown; the nearest is '.*', and `raingauge list techniques`"),
     Case("diff flow --device cpu", 2, r"--device cpu: a comparison takes two devices"),
+    Case("diff flow --features --device cpu,cpu:reference", 2, r"--device cpu,cpu:reference: --features takes a native device, such as gl:native"),
     Case("diff flow --device cpu,nonsense", 2, UNKNOWN_DEVICE),
     Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
 

@@ -408,6 +408,19 @@ static bool has_room(const struct session *s, const struct rg_devices *devices)
            rg_picture_can_be_written(path, count * pixels);
 }
 
+// Whether the opened devices can be compared as asked. False, and one logged line, if not.
+static bool suffice(const struct rg_diff_devices_request *r, const struct rg_devices *devices)
+{
+    bool any_native = false;
+    for (int i = 0; i < devices->count; i++)
+        any_native = any_native || devices->devices[i]->info.native;
+    if (devices->count < 2)
+        return rg_error("--device %s: a comparison takes two devices", r->devices->names);
+    return !r->features || any_native ||
+           rg_error("--device %s: --features takes a native device, such as gl:native",
+                    r->devices->names);
+}
+
 int rg_diff_devices(const struct rg_diff_devices_request *request)
 {
     struct session *s = rg_alloc(1, sizeof(*s), "diff");
@@ -420,8 +433,8 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
     }
     struct rg_devices devices;
     int exit = rg_devices_open_asked(request->devices, &devices);
-    if (exit == RG_EXIT_PASS && devices.count < 2 && rg_devices_exit(&devices) == RG_EXIT_PASS) {
-        rg_error("--device %s: a comparison takes two devices", request->devices->names);
+    if (exit == RG_EXIT_PASS && rg_devices_exit(&devices) == RG_EXIT_PASS &&
+        !suffice(request, &devices)) {
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS && !(spare_files(s, &devices) && has_room(s, &devices))) {
         exit = rg_exit_of_error();
