@@ -240,6 +240,7 @@ struct rg_backend {
     bool rough;          // the API's language allows inexact quotients and roots (rounding.h)
     bool packed;         // draws primitives packed by core/device/packing.c, rather than items;
                          // native devices draw items
+    bool takes_glsl;     // its drivers compile GLSL; those of other APIs take other code
 
     // Fills `infos` with up to `max` devices, best first, and returns their number; 0: no driver is
     // installed; else an enum rg_list_end. Without devices `why` (of `why_size` bytes,

@@ -149,6 +149,7 @@ const struct rg_backend rg_backend_gl = {
     .name = "gl",
     .package = GL_PACKAGE,
     .rough = true,
+    .takes_glsl = true,
     .packed = true,
     .list = gl_list,
     .create = gl_create,

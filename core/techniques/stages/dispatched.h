@@ -15,7 +15,7 @@ struct rg_dispatched {
     bool has_colour, has_depth;              // of a draw: its targets, which are slots like others
     int layer, level;                        // of both
     struct rg_contents before[RG_MAX_SLOTS]; // by slot
-    struct rg_contents after[RG_MAX_SLOTS];  // likewise, only of slots that are written
+    struct rg_contents after[RG_MAX_SLOTS];  // likewise, only of written slots; the last field
 };
 
 // The numbers of a draw's targets. A draw of items leaves these slots free.

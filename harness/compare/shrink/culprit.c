@@ -34,16 +34,7 @@ static bool leaves_same(const struct rg_dispatched *a, const struct rg_dispatche
 // Runs the dispatch on both devices. Whether their results differ, or the device fails as sought.
 static bool differs(struct pair *p)
 {
-    memcpy(p->now.before, p->due->before, sizeof(p->now.before));
-    p->now.kernel = p->due->kernel;
-    p->now.was_kept = true;
-    memcpy(p->now.params, p->due->params, sizeof(p->now.params));
-    p->now.origin = p->due->origin;
-    p->now.extent = p->due->extent;
-    p->now.has_colour = p->due->has_colour;
-    p->now.has_depth = p->due->has_depth;
-    p->now.layer = p->due->layer;
-    p->now.level = p->due->level;
+    memcpy(&p->now, p->due, offsetof(struct rg_dispatched, after));
     p->has_failed = p->has_failed || !rg_digests_dispatch(p->due, p->truth);
     if (p->has_failed || rg_digests_dispatch(&p->now, p->device))
         return !p->has_failed && !p->falls && !leaves_same(&p->now, p->due);

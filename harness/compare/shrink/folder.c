@@ -431,16 +431,17 @@ static struct folder *open_folder(const char *path, const struct rg_culprit *cul
     return rg_error_null("%.80s...: its name is too long", path);
 }
 
-static bool is_of_gl(const struct rg_device *device)
+// Whether a device's drivers take the stages as texts. A worker's backend is known by its name.
+static bool takes_glsl(const struct rg_device *device)
 {
-    return !strcmp(device->backend->name, "gl");
+    return rg_backend_of(device->backend->name)->takes_glsl;
 }
 
 const char *rg_kernel_folder_command(const struct rg_culprit *culprit,
                                      const struct rg_device *device)
 {
     const bool draws = culprit->due.kernel->draw;
-    return command_of(draws, draws && is_of_gl(device));
+    return command_of(draws, draws && takes_glsl(device));
 }
 
 bool rg_kernel_folder_write(const char *path, const struct rg_culprit *culprit, const char *note,
@@ -449,7 +450,7 @@ bool rg_kernel_folder_write(const char *path, const struct rg_culprit *culprit, 
     struct folder *f = open_folder(path, culprit);
     if (f) {
         f->draws = culprit->due.kernel->draw;
-        f->by_gl = f->draws && is_of_gl(device);
+        f->by_gl = f->draws && takes_glsl(device);
     }
     const bool ok =
         f && fill(f, note, device, truth) && rg_output_write_set(f->path, f->files, f->count);
