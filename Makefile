@@ -148,7 +148,7 @@ AT_ONCE = --num-processes $$(($$(nproc) + 1))
 DRIVEN = --no-suite host
 SANITIZED = --suite sanitized --suite host
 NEEDED = python3 tests/tools/needed.py
-# One atlas is traced under sanitizers by its test; the other, of measured drops, is the same code and the build's.
+# Under sanitizers the test of the atlas traces one. The other, of measured drops, which the same code makes, is the build's.
 ATLASES = tests/cache/raingauge
 
 test: $(BUILD)/build.ninja $(ASAN)/build.ninja
