@@ -8,7 +8,8 @@ Prints one line each, and exits 1 if there are any. It checks:
 
 A path counts from the root. One without its first folders, and a bare name, must fit one file alone, or one below a folder that
 the same section of the page names; in a comment, one beside it or one that the file includes. `*`, `[ch]` and words in capitals
-stand for any text. Names below `build`, of system headers, of a user's files and web addresses are not checked.
+stand for any text. Names below `build`, of system headers, of a user's files, of files that the harness writes (`"run.c"` in a
+source of it) and web addresses are not checked.
 """
 import fnmatch
 import os
@@ -26,6 +27,7 @@ QUOTED = re.compile(r"`([^`\n]+)`")
 LINK = re.compile(r"\]\(([^)#:]+)(?:#[^)]*)?\)")
 SYSTEM = re.compile(r"#\s*include <([^>]+)>")
 INCLUDE = re.compile(r'#\s*include "([^"]+)"')
+WRITTEN = re.compile(rf'(?<!include )"([\w-]+\.{SOURCE})"')
 COMMENTS = {
     "c": re.compile(r"//[^\n]*|/\*.*?\*/", re.S),
     "#": re.compile(r"#[^\n]*"),
@@ -57,6 +59,8 @@ class Names:
         sources = [path for path in self.files if path.endswith((".c", ".h", ".cpp"))]
         self.system = {name for path in sources for name in SYSTEM.findall(self.read(path))}
         self.system |= {name.split("/")[-1] for name in self.system}
+        own = [path for path in sources if path.startswith("harness/")]
+        self.written = {name for path in own for name in WRITTEN.findall(self.read(path))}
 
     def read(self, path):
         with open(os.path.join(self.root, path), encoding="utf-8", errors="replace") as file:
@@ -70,7 +74,7 @@ class Names:
 
     def is_there(self, name, near):
         """Whether a name is unambiguous, or fits a nearby file or one below a nearby folder."""
-        if name.startswith(("build", "/")) or name in self.system:
+        if name.startswith(("build", "/")) or name in self.system | self.written:
             return True
         found = self.fits(name)
         if re.search(r"[*[]|(?<![A-Za-z])[A-Z][A-Z_]*(?![a-z])", name):
