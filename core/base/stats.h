@@ -20,7 +20,10 @@ struct rg_interval rg_median(double *samples, int count);
 // The same with another interval: the true median is below it, and above it, with a probability of
 // at most `tail` each. Its ends are NAN if the samples are too few.
 struct rg_interval rg_median_at(double *samples, int count, double tail);
-// The same for samples that are sorted already.
+// The same for times above 0 of so few launches that the sign test gives no interval: with 2 to 5
+// the interval is Student's for the mean of their logarithms. With one its ends are NAN.
+struct rg_interval rg_median_of_launches(double *times, int count);
+// The same as rg_median_at for samples that are sorted already.
 struct rg_interval rg_median_sorted(const double *sorted, int count, double tail);
 
 #endif

@@ -56,9 +56,30 @@ static void settle(double *number)
     *number = rg_number_kept(*number);
 }
 
+// Copies the times of undisturbed launches, and returns their number.
+static int calm_launches(const struct rg_record *record, double times_ms[RG_MAX_LAUNCHES])
+{
+    int count = 0;
+    for (int i = 0; i < record->launch_count; i++)
+        if (!rg_launch_is_disturbed(&record->launches[i]))
+            times_ms[count++] = record->launches[i].ms;
+    return count;
+}
+
+int rg_record_calm_launches(const struct rg_record *record)
+{
+    double times_ms[RG_MAX_LAUNCHES];
+    return calm_launches(record, times_ms);
+}
+
+static bool is_of_launches(const struct rg_record *record)
+{
+    return rg_record_calm_launches(record) > 1;
+}
+
 void rg_record_settle(struct rg_record *record)
 {
-    double sorted[RG_MAX_SAMPLES];
+    double sorted[RG_MAX_SAMPLES > RG_MAX_LAUNCHES ? RG_MAX_SAMPLES : RG_MAX_LAUNCHES];
     settle(&record->truth_error.flip_mask_mean);
     settle(&record->truth_error.flip_mean);
     settle(&record->create_ms);
@@ -78,10 +99,12 @@ void rg_record_settle(struct rg_record *record)
         settle(&record->launches[i].others);
         settle(&record->launches[i].seconds);
     }
-    if (!record->sample_count)
-        return;
-    memcpy(sorted, record->samples_ms, (size_t)record->sample_count * sizeof(double));
-    record->frame_ms = rg_median(sorted, record->sample_count);
+    if (is_of_launches(record)) {
+        record->frame_ms = rg_median_of_launches(sorted, calm_launches(record, sorted));
+    } else if (record->sample_count) {
+        memcpy(sorted, record->samples_ms, (size_t)record->sample_count * sizeof(double));
+        record->frame_ms = rg_median(sorted, record->sample_count);
+    }
 }
 
 bool rg_launch_is_disturbed(const struct rg_launch *launch)
@@ -98,7 +121,7 @@ bool rg_record_is_whole(const struct rg_record *record)
 int rg_record_disturbed(const struct rg_record *record)
 {
     int count = 0;
-    for (int i = 0; i < record->sample_count; i++)
+    for (int i = 0; !is_of_launches(record) && i < record->sample_count; i++)
         count += record->taken[i] > RG_MOST_TAKEN;
     return count;
 }

@@ -76,7 +76,8 @@ struct rg_record {
     bool is_watched;                   // the share that others took is known
     double taken[RG_MAX_SAMPLES];      // share of the processors that others took in each sample
     int retaken;                       // samples that were taken again because others took more
-    struct rg_interval frame_ms;       // from the samples
+    // From launches, if at least two were undisturbed; else from the samples.
+    struct rg_interval frame_ms;
     double api_over_wall; // ratio of the API's clock to the wall clock; trusted from 0.8 to 1.05
     // Times of the calibration load when sampling began and ended; 0: unknown.
     double calibration_begin_ms, calibration_end_ms;
@@ -114,13 +115,15 @@ bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char
 // The same with the failure that was just met (rg_failure_take).
 bool rg_record_end_by_error(struct rg_record *record);
 
-// Rounds the record's numbers to the digits of documents, and computes frame_ms from its samples.
-// So a record prints the same before writing and after reading.
+// Rounds the record's numbers to the digits of documents, and computes frame_ms. So a record prints
+// the same before writing and after reading.
 void rg_record_settle(struct rg_record *record);
 
 // Whether the record is complete: it ended, or all samples were taken and the passes timed.
 bool rg_record_is_whole(const struct rg_record *record);
-// The number of samples in which others took more than RG_MOST_TAKEN.
+// The number of launches in which others took no more than RG_MOST_TAKEN.
+int rg_record_calm_launches(const struct rg_record *record);
+// The number of samples in which others took more; 0 if frame_ms is from launches.
 int rg_record_disturbed(const struct rg_record *record);
 // The relative uncertainty of its frame rate: half the width of the 95 % interval, by its
 // logarithm. 0 if the interval is no wider than RG_WIDE_INTERVAL times.

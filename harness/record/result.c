@@ -202,16 +202,29 @@ void rg_result_take(struct rg_result *into, const struct rg_result *from)
             *rg_result_at(into, to) = *rg_result_at(from, at);
 }
 
-void rg_result_samples(const struct rg_result *result, int *least, int *most)
+void rg_result_medians_of(const struct rg_result *result, char *text, size_t size)
 {
-    *least = *most = 0;
+    static const char *const names[2] = {"samples", "launches"};
+    int least[2] = {0}, most[2] = {0};
+    size_t used = 0;
     for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
         const struct rg_record *record = rg_result_at(result, at);
-        const int samples = record->sample_count;
-        if (record->outcome != RG_OK || !samples)
+        const int launches = rg_record_calm_launches(record), of = launches > 1;
+        const int count = of ? launches : record->sample_count;
+        if (record->outcome != RG_OK || !count)
             continue;
-        *least = !*least || samples < *least ? samples : *least;
-        *most = samples > *most ? samples : *most;
+        least[of] = !least[of] || count < least[of] ? count : least[of];
+        most[of] = count > most[of] ? count : most[of];
+    }
+    rg_text_copy(text, size, "0 samples");
+    for (int of = 1; of >= 0; of--) {
+        if (most[of] && used < size)
+            used +=
+                (size_t)snprintf(text + used, size - used, "%s%d", used ? " or " : "", least[of]);
+        if (least[of] < most[of] && used < size)
+            used += (size_t)snprintf(text + used, size - used, " to %d", most[of]);
+        if (most[of] && used < size)
+            used += (size_t)snprintf(text + used, size - used, " %s", names[of]);
     }
 }
 

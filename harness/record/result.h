@@ -104,8 +104,8 @@ bool rg_result_is_of_print(const struct rg_result *result, int work);
 // The printed work, in the first of its readings; -1 if the result lacks it.
 int rg_result_printed_work(const struct rg_result *result);
 
-// The least and most samples of its measured cells; 0 if there are none.
-void rg_result_samples(const struct rg_result *result, int *least, int *most);
+// What its measured cells' times are medians of: "3 launches", "6 to 15 samples", or both.
+void rg_result_medians_of(const struct rg_result *result, char *text, size_t size);
 
 // How much the machine's speed varied over the run, as a share of the fastest, from the calibration
 // loads at the beginnings and ends of measurements. 0 if unknown.

@@ -69,10 +69,11 @@ static const struct rg_claims_shown all = {.first_row = 0};
 static int add(const struct rg_result *result, const void *user)
 {
     const struct claims_options *o = user;
+    const struct rg_launches_wanted wanted = {.claims = rg_claims};
     const bool is_whole = rg_result_first_missing(result) > result->last_row;
     int exit = rg_claims_add(o->outcomes, result, NULL, &all) ? rg_result_exit(result)
                                                               : rg_exit_of_error();
-    if (is_whole && o->output && !rg_launches_are_due(result, rg_claims) &&
+    if (is_whole && o->output && !rg_launches_are_due(result, &wanted) &&
         !rg_result_write(result, o->output))
         exit = rg_exit_worse(exit, rg_exit_of_error());
     return exit;
@@ -121,7 +122,7 @@ static int measure(const struct claims_options *o, const struct rg_words *argume
         return rg_exit_of_error();
     const struct rg_regenerate_options wanted = {.full = o->length.full,
                                                  .fresh = o->fresh,
-                                                 .launches = true,
+                                                 .decides = true,
                                                  .budget_s = budget_s,
                                                  .begin_ms = rg_started_ms(),
                                                  .folder = o->output,

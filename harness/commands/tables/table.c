@@ -35,6 +35,7 @@ struct table_options {
     char *from;           // a file or folder; NULL: the tables are measured
     int format;           // index into rg_result_formats
     int work;             // index into `works`
+    int launches;         // of each cell; 1: none
     char *variant;        // NULL: all
     struct rg_words sets; // of --set
     char *set;            // the same joined; NULL: none
@@ -74,6 +75,10 @@ static const struct rg_option options[] = {
               "compared with the published numbers",
      .offset = AT(sets)},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
+    {RG_OPTION_INT, "launches", .argument = "N",
+     .about = "also times each cell in this many launches, each of which is a new process; rates "
+              "and intervals then come from the launches",
+     .offset = AT(launches), .least = 2, .most = 24, .excludes = "budget from"},
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
      .about = "measures as much as fits into this time from the command's start, such as 90s or "
               "4m: first the rows that curves and claims need, in small pictures, then more. The "
@@ -89,16 +94,16 @@ static const struct rg_option options[] = {
      .about = "lets all drivers compile and cache the tables' shaders side by side, instead of "
               "measuring",
      .offset = AT(compile),
-     .excludes = "full quick rows work variant set from fresh budget claims kept format wide "
-                 "output json"},
+     .excludes = "full quick launches rows work variant set from fresh budget claims kept "
+                 "format wide output json"},
     RG_GROUP("A plan of several machines (docs/farm.md)"),
     {RG_OPTION_TEXT, "plan", .argument = "FILE",
      .about = "measures the cells of a plan that `raingauge plan -o` wrote, on the plan's devices. "
               "-o names the folder for the records, one for each group of cells; groups with a "
               "record there are skipped",
      .offset = AT(plan), .names = RG_NAMES_FILE,
-     .excludes = "rows work variant set quick full budget fresh from compile device require claims "
-                 "kept format wide json"},
+     .excludes = "rows work variant set quick full launches budget fresh from compile device "
+                 "require claims kept format wide json"},
     RG_INCLUDE(rg_shard_option, AT(shard), NULL),
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
@@ -288,6 +293,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
     const struct rg_regenerate_options wanted = {.first_row = o->rows.first,
                                                  .last_row = o->rows.last,
                                                  .full = o->length.full,
+                                                 .launches = o->launches > 1 ? o->launches : 0,
                                                  .fresh = o->fresh,
                                                  .work = chosen_work(o),
                                                  .variant = o->variant,
@@ -465,7 +471,7 @@ static int table(const void *values, const struct rg_words *arguments)
 const struct rg_command rg_command_table = {
     .name = "table",
     .reader = RG_FOR_PAPERS,
-    .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work "
+    .usage = "[ID...] [--device D,...|all] [--quick|--full] [--launches N] [--rows A-B] [--work "
              "paper|reading|ours|queries] "
              "[--variant NAME] [--set KEY=VALUE]... [--claims] [--kept DIR] [--wide] [--format "
              "F|--json] [-o DIR] "

@@ -138,6 +138,7 @@ static void keep(struct launch *l, const struct rg_taken *taken)
                                .stolen = taken->stolen,
                                .others = taken->others,
                                .seconds = t->seconds};
+        rg_record_settle(record);
     }
 }
 

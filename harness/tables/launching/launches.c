@@ -48,7 +48,7 @@ bool rg_launches_choose(struct rg_result *result, const struct rg_table *table)
     return any;
 }
 
-// --- the next launch ---
+// --- the next launch: of claims ---
 
 // Whether most launches of a claim are disturbed: its course would never end, as in a gate.
 static bool is_hopeless(const struct rg_judgement *j)
@@ -90,8 +90,8 @@ static void join(struct rg_launch_cells *cells, int a, int b)
 }
 
 // Adds the claim's cells, and joins those that it compares.
-static void add_claim(const struct rg_claim *claim, const struct rg_result *result, int device,
-                      struct rg_launch_cells *cells)
+static void add_claim(const struct rg_claim *claim, const struct rg_result *result, int most,
+                      int device, struct rg_launch_cells *cells)
 {
     int before = -1; // the claim's cell before this one
     for (int row = result->first_row; row <= result->last_row; row++) {
@@ -99,7 +99,7 @@ static void add_claim(const struct rg_claim *claim, const struct rg_result *resu
         for (int v = 0; rg_result_has(result, row) && v < result->variant_count; v++) {
             const struct rg_place at = {row, rg_result_printed_work(result), v, device};
             if (!rg_claim_needs(claim, row + 1, result->variants[v]) ||
-                rg_result_at(result, at)->launch_count == RG_MAX_LAUNCHES)
+                rg_result_at(result, at)->launch_count >= most)
                 continue;
             const int cell = find_cell(cells, at);
             if (before >= 0)
@@ -108,6 +108,44 @@ static void add_claim(const struct rg_claim *claim, const struct rg_result *resu
         }
     }
 }
+
+static void add_claims(const struct rg_launches_wanted *wanted, const struct rg_result *result,
+                       int device, struct rg_launch_cells *cells)
+{
+    const int most = wanted->most ? wanted->most : RG_MAX_LAUNCHES;
+    for (const struct rg_claim *claim = wanted->claims; claim->table; claim++)
+        if (!strcmp(claim->table, result->table) && wants_launch(claim, result, device))
+            add_claim(claim, result, most, device, cells);
+}
+
+// --- the next launch: of each cell ---
+
+// How many launches a cell still wants. A busy machine would disturb launches for ever, so that as
+// many as are wanted are replaced.
+static int launches_wanted(const struct rg_record *record, int of_each)
+{
+    const int calm = rg_record_calm_launches(record);
+    const int left = 2 * of_each - record->launch_count;
+    const int wanted = of_each - calm < left ? of_each - calm : left;
+    return record->outcome == RG_OK && wanted > 0 ? wanted : 0;
+}
+
+// Adds cells of one work; those of a row are compared.
+static void add_each(int of_each, const struct rg_result *result, int device,
+                     struct rg_launch_cells *cells)
+{
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
+        const bool is_of_this =
+            at.device == device && (!cells->count || at.work == cells->cells[0].at.work);
+        if (!is_of_this || !launches_wanted(rg_result_at(result, at), of_each))
+            continue;
+        const int cell = find_cell(cells, at);
+        if (cell && cells->cells[cell - 1].at.row == at.row)
+            join(cells, cell - 1, cell);
+    }
+}
+
+// --- the next launch ---
 
 // Numbers the groups from 0.
 static void number_groups(struct rg_launch_cells *cells)
@@ -122,14 +160,15 @@ static void number_groups(struct rg_launch_cells *cells)
     }
 }
 
-int rg_launches_next(const struct rg_result *result, const struct rg_claim *claims, int device,
-                     struct rg_launch_cells *cells)
+int rg_launches_next(const struct rg_result *result, const struct rg_launches_wanted *wanted,
+                     int device, struct rg_launch_cells *cells)
 {
     int last = 0;
     cells->count = cells->group_count = 0;
-    for (const struct rg_claim *claim = claims; claim->table; claim++)
-        if (!strcmp(claim->table, result->table) && wants_launch(claim, result, device))
-            add_claim(claim, result, device, cells);
+    if (wanted->claims)
+        add_claims(wanted, result, device, cells);
+    else
+        add_each(wanted->of_each, result, device, cells);
     number_groups(cells);
     for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
         const struct rg_record *record = rg_result_at(result, at);
@@ -140,12 +179,12 @@ int rg_launches_next(const struct rg_result *result, const struct rg_claim *clai
     return cells->count ? last + 1 : 0;
 }
 
-bool rg_launches_are_due(const struct rg_result *result, const struct rg_claim *claims)
+bool rg_launches_are_due(const struct rg_result *result, const struct rg_launches_wanted *wanted)
 {
     struct rg_launch_cells cells;
     bool any = false;
     for (int device = 0; device < result->device_count; device++)
-        any = any || rg_launches_next(result, claims, device, &cells) > 0;
+        any = any || rg_launches_next(result, wanted, device, &cells) > 0;
     return any;
 }
 
@@ -156,11 +195,17 @@ static bool is_over(double end_ms)
     return rg_interrupted() || (end_ms > 0 && rg_now_ms() >= end_ms);
 }
 
-// How many launches the device's open claims need until the next look, at most.
-static int launches_due(const struct rg_result *result, const struct rg_claim *claims, int device)
+// How many launches the device's open claims need until the next look, or its cells, at most.
+static int launches_due(const struct rg_result *result, const struct rg_launches_wanted *wanted,
+                        int device)
 {
     int most = 0;
-    for (const struct rg_claim *claim = claims; claim->table; claim++) {
+    for (struct rg_place at = rg_result_start(result);
+         !wanted->claims && rg_result_next(result, &at);) {
+        const int due = launches_wanted(rg_result_at(result, at), wanted->of_each);
+        most = at.device == device && due > most ? due : most;
+    }
+    for (const struct rg_claim *claim = wanted->claims; claim && claim->table; claim++) {
         if (strcmp(claim->table, result->table) != 0 || !wants_launch(claim, result, device))
             continue;
         const struct rg_judgement j = rg_claim_judge(claim, result, device);
@@ -171,7 +216,7 @@ static int launches_due(const struct rg_result *result, const struct rg_claim *c
 }
 
 bool rg_launches_take(struct rg_result *result, const struct rg_table *table,
-                      const struct rg_claim *claims, struct rg_journal *journal,
+                      const struct rg_launches_wanted *wanted, struct rg_journal *journal,
                       struct rg_progress *bar, double end_ms)
 {
     struct rg_launch_cells cells;
@@ -180,9 +225,9 @@ bool rg_launches_take(struct rg_result *result, const struct rg_table *table,
         int number, due = 0;
         bool ok = true;
         while (ok && !is_over(end_ms) &&
-               (number = rg_launches_next(result, claims, device, &cells))) {
+               (number = rg_launches_next(result, wanted, device, &cells))) {
             if (!due)
-                rg_progress_grow(bar, due = launches_due(result, claims, device));
+                rg_progress_grow(bar, due = launches_due(result, wanted, device));
             rg_progress_label(bar, "%s on %s, launch %d", table->id, result->devices[device].name,
                               number);
             ok = rg_launch_take(result, table, &cells, number);
@@ -191,6 +236,7 @@ bool rg_launches_take(struct rg_result *result, const struct rg_table *table,
             rg_progress_add(bar, 1);
             due--;
         }
+        rg_progress_grow(bar, -due);
         all = all && (ok || rg_interrupted());
     }
     return all;

@@ -9,6 +9,7 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/measure/others.h"
+#include "harness/judge/settle.h"
 #include "harness/record/disk/hold.h"
 #include "harness/tables/launching/launches.h"
 #include "harness/tables/runs/budget.h"
@@ -21,6 +22,8 @@ struct task {
     const struct rg_table *table;
     struct rg_result result;
     struct rg_journal *journal;
+    bool is_measured;
+    bool has_failed;  // a launch did
     bool is_lost;     // its files or its printed text could not be written
     bool is_not_over; // a budget ended its launches, so that its journal stays
 };
@@ -54,33 +57,42 @@ static void tell_interrupted(const struct task *task)
         rg_info("%s: interrupted before a row of it was done; the same command begins it anew", id);
 }
 
-// Takes the launches of a measured table. Sessions that were kept for later tables close before,
-// for launches open their own. Returns an enum rg_exit.
+// Takes the launches of a measured table, `most` for each claim. Sessions that were kept for later
+// tables close before, for launches open their own. Returns an enum rg_exit.
 static int take_launches(struct task *task, struct rg_kept *kept, struct rg_progress *bar,
-                         const struct rg_regenerate_options *options)
+                         const struct rg_regenerate_options *options, int most)
 {
     const double end_ms = options->budget_s > 0 ? options->begin_ms + 1000 * options->budget_s : 0;
-    if (!options->launches || rg_interrupted())
+    struct rg_launches_wanted wanted = {options->decides ? rg_claims : NULL, most,
+                                        options->launches};
+    if ((!options->decides && !options->launches) || task->result.is_of_textures ||
+        rg_interrupted())
         return RG_EXIT_PASS;
     const bool clean = rg_kept_free(kept);
     const bool ok =
-        rg_launches_take(&task->result, task->table, rg_claims, task->journal, bar, end_ms);
-    task->is_not_over = rg_launches_are_due(&task->result, rg_claims);
+        rg_launches_take(&task->result, task->table, &wanted, task->journal, bar, end_ms);
+    task->has_failed = !ok;
+    wanted.most = 0;
+    task->is_not_over = options->decides && rg_launches_are_due(&task->result, &wanted);
     if (task->is_not_over)
         rg_journal_keep(task->journal);
     return ok && clean ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
-static int run_task(struct task *task, struct rg_kept *kept, struct rg_progress *bar,
-                    const struct rg_regenerate_options *options, struct rg_closing *closing)
+static bool measure_task(struct task *task, struct rg_kept *kept, struct rg_progress *bar)
 {
     tell_resumed(task);
-    if (!rg_table_measure(&task->result, task->table, kept, task->journal, bar, NULL))
-        return rg_exit_of_error();
-    const int launched = take_launches(task, kept, bar, options);
+    task->is_measured =
+        rg_table_measure(&task->result, task->table, kept, task->journal, bar, NULL);
+    return task->is_measured;
+}
+
+static int print_task(struct task *task, struct rg_progress *bar,
+                      const struct rg_regenerate_options *options, struct rg_closing *closing)
+{
     rg_progress_hide(bar);
     rg_closing_add(closing, &task->result);
-    int exit = rg_exit_worse(options->print(&task->result, options->user), launched);
+    int exit = options->print(&task->result, options->user);
     task->is_lost = exit == RG_EXIT_USAGE || exit == RG_EXIT_HARNESS;
     if (task->is_lost)
         rg_journal_keep(task->journal);
@@ -94,7 +106,7 @@ static int run_task(struct task *task, struct rg_kept *kept, struct rg_progress 
 // Whether quick mode chooses the rows, because the user named none.
 static bool is_short(const struct rg_table *table, const struct rg_regenerate_options *o)
 {
-    return !o->full && !o->last_row && table->quick_rows && !o->launches;
+    return !o->full && !o->last_row && table->quick_rows && !o->decides;
 }
 
 // The requested rows, as far as the table has them.
@@ -109,7 +121,7 @@ static struct rg_table_part part_of(const struct rg_table *table,
                                   .last_row =
                                       (o->last_row && o->last_row < rows ? o->last_row : rows) - 1,
                                   .full = o->full,
-                                  .work = o->launches && table->works[0].name ? "paper" : o->work,
+                                  .work = o->decides && table->works[0].name ? "paper" : o->work,
                                   .variant = o->variant,
                                   .set = o->set};
 }
@@ -148,7 +160,7 @@ static int make_tasks(const struct rg_regenerate_options *o, const struct rg_dev
         rg_table_begin(&tasks[made].result, tables[i], &part, devices);
         if (is_short(tables[i], o))
             leave_out_rows(tables[i], &tasks[made].result);
-        if (o->launches && !choose_launches(&tasks[made].result, tables[i]))
+        if (o->decides && !choose_launches(&tasks[made].result, tables[i]))
             continue;
         made++;
     }
@@ -236,6 +248,39 @@ static void end_tasks(struct task *tasks, int count, const struct rg_closing *cl
 }
 
 // A failed table does not keep the others from being measured and written.
+static int run_task(struct task *task, struct rg_kept *kept, struct rg_progress *bar,
+                    const struct rg_regenerate_options *o, struct rg_closing *closing)
+{
+    if (!measure_task(task, kept, bar))
+        return rg_exit_of_error();
+    const int launched = take_launches(task, kept, bar, o, 0);
+    return rg_exit_worse(print_task(task, bar, o, closing), launched);
+}
+
+// Decides the claims of all tables. Launches for a look, and to confirm it, are taken of every
+// table before those for the next look, so that a claim that is hard to decide does not use up a
+// budget.
+static int decide_tasks(struct task *tasks, int count, struct rg_kept *kept,
+                        struct rg_progress *bar, const struct rg_regenerate_options *o,
+                        struct rg_closing *closing)
+{
+    const int last = rg_settle_rule.look_count - 1;
+    int exit = RG_EXIT_PASS;
+    rg_progress_unlike(bar, count > 1);
+    for (int look = 0; look <= last; look++)
+        for (int i = 0; i < count && !rg_interrupted(); i++) {
+            const int most = look < last ? 2 * rg_settle_rule.looks[look] : 0;
+            if (!look && !measure_task(&tasks[i], kept, bar))
+                exit = rg_exit_worse(exit, rg_exit_of_error());
+            if (tasks[i].is_measured && !tasks[i].has_failed)
+                exit = rg_exit_worse(exit, take_launches(&tasks[i], kept, bar, o, most));
+        }
+    for (int i = 0; i < count; i++)
+        if (tasks[i].is_measured)
+            exit = rg_exit_worse(exit, print_task(&tasks[i], bar, o, closing));
+    return exit;
+}
+
 static int run_tasks(struct task *tasks, int count, const struct rg_devices *devices,
                      const struct rg_regenerate_options *o)
 {
@@ -245,7 +290,9 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     int exit = RG_EXIT_PASS;
     rg_interrupt_watch();
     rg_progress_start(&progress, units_of(tasks, count));
-    for (int i = 0; i < count && !rg_interrupted(); i++) {
+    if (o->decides)
+        exit = decide_tasks(tasks, count, &kept, &progress, o, &closing);
+    for (int i = 0; !o->decides && i < count && !rg_interrupted(); i++) {
         rg_progress_unlike(&progress, i + 1 < count); // the next may take a hundred times as long
         exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, &progress, o, &closing));
     }
@@ -262,7 +309,7 @@ static int regenerate(const struct rg_table *const tables[], int count,
                       const struct rg_devices *devices, const struct rg_regenerate_options *options,
                       bool keeps)
 {
-    if (options->budget_s > 0 && !options->launches)
+    if (options->budget_s > 0 && !options->decides)
         return rg_tables_within(tables, count, devices, options, stderr);
     struct task *tasks = rg_alloc((size_t)count, sizeof(*tasks), "tables");
     const int made = tasks ? make_tasks(options, devices, tables, count, keeps, tasks) : 0;

@@ -9,7 +9,8 @@ struct rg_regenerate_options {
     bool full, fresh;
     // Measures what claims need, each cell with few samples, and then launches until the claims are
     // decided, or `budget_s` is over.
-    bool launches;
+    bool decides;
+    int launches;               // of each cell, after it was measured
     const char *work, *variant; // NULL: all
     const char *set;            // over the settings of all cells, as in struct rg_table_part
     double budget_s;            // limit for all tables together, without journals; 0: no limit

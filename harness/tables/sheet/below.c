@@ -191,24 +191,20 @@ static void add_budget(struct notes *notes, const struct rg_result *result)
 
 static void add_method(struct notes *notes, const struct rg_result *result)
 {
-    int least, most;
-    rg_result_samples(result, &least, &most);
     if (rg_result_first_missing(result) <= result->last_row)
         add(notes, "Rows are missing from %d on: the run was interrupted.",
             rg_result_first_missing(result) + 1);
     if (result->is_of_textures)
         return;
-    char samples[32] = "", marks[RG_TITLE_SIZE];
-    if (least < most)
-        snprintf(samples, sizeof(samples), "%d to ", least);
-    char drift[48] = "";
+    char medians_of[64], marks[RG_TITLE_SIZE], drift[48] = "";
+    rg_result_medians_of(result, medians_of, sizeof(medians_of));
     if (rg_result_drift(result) > 0)
         snprintf(drift, sizeof(drift), " The machine drifted by %.1f %%.",
                  100 * rg_result_drift(result));
     rg_result_marks(result, marks, sizeof(marks));
-    add(notes, "%s%s%sMedians of %s%d samples by wall clock, %s%s%s.%s%s%s",
+    add(notes, "%s%s%sMedians of %s by wall clock, %s%s%s.%s%s%s",
         *result->hardware ? "In print on " : "", result->hardware, *result->hardware ? ". " : "",
-        samples, most, result->full ? "full" : "quick", !result->full && *result->quick ? ": " : "",
+        medians_of, result->full ? "full" : "quick", !result->full && *result->quick ? ": " : "",
         result->full ? "" : result->quick, drift, *marks ? " " : "", marks);
 }
 

@@ -216,18 +216,13 @@ void rg_result_marks(const struct rg_result *result, char *text, size_t size)
 // Notes how the numbers were measured.
 static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
 {
-    char published[RG_TITLE_SIZE + 32] = "", samples[48];
-    int least, most;
+    char published[RG_TITLE_SIZE + 32] = "", medians_of[64];
     if (*result->hardware)
         snprintf(published, sizeof(published), "Published on %s. ", result->hardware);
-    rg_result_samples(result, &least, &most);
-    snprintf(samples, sizeof(samples), "%d", most);
-    if (least < most)
-        snprintf(samples, sizeof(samples), "%d to %d", least, most);
+    rg_result_medians_of(result, medians_of, sizeof(medians_of));
     if (!result->is_of_textures) {
-        rg_sheet_note(sheet,
-                      "%sTimes are wall clock between full syncs, medians of %s samples (%s).",
-                      published, samples, result->full ? "full" : "quick");
+        rg_sheet_note(sheet, "%sTimes are wall clock between full syncs, medians of %s (%s).",
+                      published, medians_of, result->full ? "full" : "quick");
         char marks[RG_TITLE_SIZE];
         rg_result_marks(result, marks, sizeof(marks));
         if (*marks)

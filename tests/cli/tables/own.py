@@ -109,6 +109,34 @@ def check_axes(runner):
     return [] if rows == wanted and report["hardware"] is None else ["rows: %s, %s" % (rows, report["hardware"])]
 
 
+def check_launches(runner):
+    """--launches times each cell in so many processes, and its rate and interval come from them"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        path = write(tmp, TEXT)
+        done = runner.run(["table", path, "--device", "cpu", "--launches", "3", "--json", "-o", tmp + "/out"])
+        again = runner.run(["table", "--from", tmp + "/out", "--json"])
+        brief = open(tmp + "/out/panes.md", encoding="utf-8").read()
+        wrong = runner.run(["table", path, "--device", "cpu", "--launches", "1"])
+    if done.returncode or done.stderr or again.stdout != done.stdout:
+        problems.append("exit status %d: %s" % (done.returncode, done.stderr))
+    of_launches = False
+    for cell in json.loads(done.stdout)["cells"]:
+        measured = cell["measured"]
+        calm = sorted(ms for number, ms, stolen, others, seconds in measured["launches"] if max(stolen, others) <= 0.05)
+        numbers = [launch[0] for launch in measured["launches"]]
+        of_launches = of_launches or len(calm) > 1
+        if numbers != list(range(1, len(numbers) + 1)) or not (len(calm) == 3 or len(numbers) == 6):
+            problems.append("launches: %s" % measured["launches"])
+        if len(calm) == 3 and (measured["ms"] != calm[1] or not measured["ms_low"] < calm[0] <= calm[2] < measured["ms_high"]):
+            problems.append("a median of %s: %s" % (calm, measured))
+    if of_launches != bool(re.search(r"Medians of [23]( to 3)? launches( or \d+( to \d+)? samples)? by wall clock", brief)):
+        problems.append(brief)
+    if wrong.returncode != 2 or "--launches" not in wrong.stderr:
+        problems.append("one launch: %s" % wrong.stderr)
+    return problems
+
+
 def check_wrong(runner):
     """a file that is wrong is refused by one line with its file, the line and the mend, before a device is opened"""
     problems = []
@@ -128,4 +156,4 @@ def check_wrong(runner):
     return problems
 
 
-CHECKS = [check_own, check_axes, check_wrong]
+CHECKS = [check_own, check_axes, check_launches, check_wrong]

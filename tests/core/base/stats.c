@@ -48,11 +48,74 @@ static void test_few(void **state)
     }
 }
 
+// Of 2 and of 3 launches Student's distribution has a closed form: tan(pi (p - 1/2)), and
+// (2 p - 1) / sqrt(2 p (1 - p)), where p is 0.975.
+static void test_two_and_three_launches(void **state)
+{
+    (void)state;
+    const double pi = acos(-1), of_two = tan(0.475 * pi), of_three = 0.95 / sqrt(0.04875);
+    double two[] = {exp(2), 1}, three[] = {4, 1, 2};
+    struct rg_interval interval = rg_median_of_launches(two, 2);
+    assert_near(interval.median, (1 + exp(2)) / 2, 1e-12);
+    assert_near(log(interval.low), 1 - of_two, 1e-4);
+    assert_near(log(interval.high), 1 + of_two, 1e-4);
+    interval = rg_median_of_launches(three, 3);
+    assert_equals(interval.median, 2);
+    assert_near(log2(interval.low), 1 - of_three / sqrt(3), 1e-4);
+    assert_near(log2(interval.high), 1 + of_three / sqrt(3), 1e-4);
+}
+
+// A number from a normal distribution, by the sum of twelve even ones.
+static double normal(unsigned int *seed)
+{
+    double sum = -6;
+    for (int i = 0; i < 12; i++) {
+        *seed = *seed * 1664525 + 1013904223;
+        sum += *seed / 4294967296.0;
+    }
+    return sum;
+}
+
+// Of 4,000 sets of launches, 95 % have intervals that hold the true time.
+static void test_launches_cover_the_truth(void **state)
+{
+    (void)state;
+    unsigned int seed = 7;
+    for (int count = 2; count <= 5; count++) {
+        int held = 0;
+        for (int set = 0; set < 4000; set++) {
+            double times[5];
+            for (int i = 0; i < count; i++)
+                times[i] = 30 * exp(0.1 * normal(&seed));
+            const struct rg_interval interval = rg_median_of_launches(times, count);
+            held += interval.low <= 30 && 30 <= interval.high;
+        }
+        assert_near(held, 3800, 50);
+    }
+}
+
+// One launch has no interval; six or more have that of the sign test.
+static void test_other_numbers_of_launches(void **state)
+{
+    (void)state;
+    double one[] = {3}, six[] = {3, 1, 2, 6, 5, 4};
+    struct rg_interval interval = rg_median_of_launches(one, 1);
+    assert_equals(interval.median, 3);
+    assert_true(isnan(interval.low) && isnan(interval.high));
+    interval = rg_median_of_launches(six, 6);
+    assert_equals(interval.median, 3.5);
+    assert_equals(interval.low, 1);
+    assert_equals(interval.high, 6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ranks),
         cmocka_unit_test(test_few),
+        cmocka_unit_test(test_two_and_three_launches),
+        cmocka_unit_test(test_launches_cover_the_truth),
+        cmocka_unit_test(test_other_numbers_of_launches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -272,6 +272,29 @@ static void all_numbers_are_settled(void **state)
     assert_below(fabs(rg_record_passes_ms(&record) - 17.66666666), 1e-12);
 }
 
+// Two undisturbed launches tell more than any samples, which are all of one process.
+static void launches_replace_samples(void **state)
+{
+    (void)state;
+    static struct rg_record record = {
+        .sample_count = 6,
+        .samples_ms = {10, 10, 10, 10, 10, 10},
+        .taken = {0.5},
+        .launch_count = 3,
+        .launches = {{1, 20, 0, 0, 1}, {2, 400, 0, 0.06, 1}, {3, 20, 0.06, 0, 1}}};
+    rg_record_settle(&record);
+    assert_int_equal(rg_record_calm_launches(&record), 1);
+    assert_equals(record.frame_ms.median, 10);
+    assert_int_equal(rg_record_disturbed(&record), 1);
+    record.launches[2].stolen = 0.05;
+    rg_record_settle(&record);
+    assert_int_equal(rg_record_calm_launches(&record), 2);
+    assert_near(record.frame_ms.median, 20, 1e-12);
+    assert_near(record.frame_ms.low, 20, 1e-12);
+    assert_near(record.frame_ms.high, 20, 1e-12);
+    assert_int_equal(rg_record_disturbed(&record), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -285,6 +308,7 @@ int main(void)
         cmocka_unit_test(tallies_are_named),
         cmocka_unit_test(an_end_has_its_reason),
         cmocka_unit_test(all_numbers_are_settled),
+        cmocka_unit_test(launches_replace_samples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

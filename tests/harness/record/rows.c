@@ -79,19 +79,28 @@ static void test_samples(void **state)
     (void)state;
     static const int counts[] = {5, 9, 3, 7};
     struct rg_result result = make_result();
-    int least, most, cell = 0;
+    char text[64];
+    int cell = 0;
     for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at); cell++) {
         struct rg_record *record = rg_result_at(&result, at);
         record->outcome = cell < 4 ? RG_OK : RG_FAIL;
         record->sample_count = cell < 4 ? counts[cell] : cell % 2 ? 200 : 1;
     }
-    rg_result_samples(&result, &least, &most);
-    assert_int_equal(least, 3);
-    assert_int_equal(most, 9);
+    rg_result_medians_of(&result, text, sizeof(text));
+    assert_string_equal(text, "3 to 9 samples");
+    cell = 0;
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at) && cell < 2;) {
+        struct rg_record *record = rg_result_at(&result, at);
+        record->launch_count = 2 + 2 * cell++;
+        for (int i = 0; i < record->launch_count; i++)
+            record->launches[i] = (struct rg_launch){.number = i + 1, .ms = 1};
+    }
+    rg_result_medians_of(&result, text, sizeof(text));
+    assert_string_equal(text, "2 to 4 launches or 3 to 7 samples");
     for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);)
-        rg_result_at(&result, at)->sample_count = 0;
-    rg_result_samples(&result, &least, &most);
-    assert_true(!least && !most);
+        rg_result_at(&result, at)->sample_count = rg_result_at(&result, at)->launch_count = 0;
+    rg_result_medians_of(&result, text, sizeof(text));
+    assert_string_equal(text, "0 samples");
     rg_result_free(&result);
 }
 

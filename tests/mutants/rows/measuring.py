@@ -102,6 +102,8 @@ ROWS = [
     Fault(PASSES, "rg_now_ms() - start < «passes_ms»", "40", "the run that tells passes apart ends early"),
     Fault(PASSES, "«record->pass_frames < least_frames(passes_ms)» ||", "false", "passes of slow frames are told of one frame"),
     Fault(PASSES, "if (record->pass_count == RG_MAX_PASS_TIMES - 1)\n        «name = \"other\";»", "", "what is summed is called by its first pass"),
+    Fault(STATS, "sqrt(squares / «(count - 1)» / count)", "count", "an interval of launches is too narrow"),
+    Fault(STATS, "«mean - half»", "mean", "an interval of launches has no low end"),
     Fault(STATS, "rg_median_at(samples, count, «0.025»)", "0.05", "an interval of 90 %"),
     Fault(STATS, "probability *= (double)«(count - k)» / (k + 1);", "(count - k - 1)", "an interval's ranks follow another count"),
     Fault(STATS, ".low = k ? sorted[«k - 1»] : NAN,", "k", "the interval's low end is a rank too high"),

@@ -96,7 +96,7 @@ ROWS = [
     Fault(TABLE, ".variant = «o->variant»,", "NULL", "all variants are measured", tests=("what measuring asks for",)),
     Fault(TABLE, ".budget_s = «budget_s»,", "0", "a table's budget means nothing", tests=("what measuring asks for",)),
     Fault(TABLE, "has = has || !strcmp(v->name, wanted);", "has = !strcmp(v->name, wanted);", "the last variant of a table is its only one", tests=("what measuring asks for",)),
-    Fault(CLAIMS, ".launches = «true»,", "false", "claims are not decided by launches", tests=("what measuring asks for",)),
+    Fault(CLAIMS, ".decides = «true»,", "false", "claims are not decided by launches", tests=("what measuring asks for",)),
     Fault(CLAIMS, ".fresh = «o->fresh»,", "false", "claims go on with what was stored", tests=("what measuring asks for",)),
     Fault(SWEEP, "grid->table.check_frames = «o->frame»;", "10", "a sweep draws another frame", tests=("what measuring asks for",)),
     Fault(SWEEP, "grid->table.height = «o->size.height»;", "o->size.width", "a sweep's pictures are square", tests=("what measuring asks for",)),

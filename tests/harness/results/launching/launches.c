@@ -50,6 +50,19 @@ static void make(struct rg_result *result, const char *id, int launches, double 
     make_on(result, id, 1, launches, ms);
 }
 
+static int next_of(const struct rg_result *result, const struct rg_claim *claims, int device,
+                   struct rg_launch_cells *cells)
+{
+    const struct rg_launches_wanted wanted = {.claims = claims};
+    return rg_launches_next(result, &wanted, device, cells);
+}
+
+static bool are_due(const struct rg_result *result)
+{
+    const struct rg_launches_wanted wanted = {.claims = rg_claims};
+    return rg_launches_are_due(result, &wanted);
+}
+
 // Another machine's.
 static void make_there(struct rg_result *result, const char *id, int launches, double ms)
 {
@@ -96,12 +109,12 @@ static void groups(void **state)
     struct rg_launch_cells cells;
     struct rg_result result;
     make(&result, "ye-1", 0, 1);
-    assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 1);
+    assert_int_equal(next_of(&result, rg_claims, 0, &cells), 1);
     assert_int_equal(cells.count, 5 * 8);
     assert_int_equal(cells.group_count, 2 * 5); // each row: with the heap, and the rest
     rg_result_free(&result);
     make(&result, "creus-5.3", 0, 1);
-    assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 1);
+    assert_int_equal(next_of(&result, rg_claims, 0, &cells), 1);
     assert_int_equal(cells.count, 18);
     assert_int_equal(cells.group_count, 2); // one a camera
     assert_int_equal(size_of_group(&cells, 0), 9);
@@ -143,7 +156,7 @@ static void cells_of_tests(void **state)
         struct rg_launch_cells cells;
         struct rg_result result;
         make(&result, "creus-5.6", 0, 10);
-        assert_int_equal(rg_launches_next(&result, cases[i].claims, 0, &cells), 1);
+        assert_int_equal(next_of(&result, cases[i].claims, 0, &cells), 1);
         assert_int_equal(cells.count, cases[i].cells);
         assert_int_equal(cells.group_count, cases[i].groups);
         for (int c = 0; c < cells.count; c++)
@@ -159,30 +172,44 @@ static void a_course_ends(void **state)
     struct rg_launch_cells cells;
     struct rg_result result;
     make(&result, "chin-timing", 11, 10); // 100 frames a second
-    assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 12);
-    assert_true(rg_launches_are_due(&result, rg_claims));
+    assert_int_equal(next_of(&result, rg_claims, 0, &cells), 12);
+    assert_true(are_due(&result));
     rg_result_free(&result);
     make(&result, "chin-timing", 192, 10);
-    assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 0);
-    assert_false(rg_launches_are_due(&result, rg_claims));
+    assert_int_equal(next_of(&result, rg_claims, 0, &cells), 0);
+    assert_false(are_due(&result));
     // If most launches are disturbed, the course ends after 33 of them.
     struct rg_record *record = rg_result_at(&result, rg_result_start(&result));
     record = rg_result_at(&result, (struct rg_place){.row = 0});
     record->launch_count = 33;
     for (int i = 0; i < 33; i++)
         record->launches[i].others = 1;
-    assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 0);
+    assert_int_equal(next_of(&result, rg_claims, 0, &cells), 0);
     record->launch_count = 32;
-    assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 33);
+    assert_int_equal(next_of(&result, rg_claims, 0, &cells), 33);
     // Three quarters of them are not yet most.
     record->launch_count = 44;
     for (int i = 0; i < 44; i++)
         record->launches[i].others = i < 33;
-    assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 45);
+    assert_int_equal(next_of(&result, rg_claims, 0, &cells), 45);
     record->launch_count = 45;
     record->launches[44].others = 1;
-    assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 0);
+    assert_int_equal(next_of(&result, rg_claims, 0, &cells), 0);
     rg_result_free(&result);
+}
+
+// A limit ends it before a look.
+static void no_more_launches_than_allowed(void **state)
+{
+    (void)state;
+    const struct rg_launches_wanted wanted = {.claims = rg_claims, .most = 6};
+    struct rg_launch_cells cells;
+    struct rg_result result;
+    for (int launches = 5; launches <= 6; launches++) {
+        make(&result, "creus-5.3", launches, 10);
+        assert_int_equal(rg_launches_next(&result, &wanted, 0, &cells), launches < 6 ? 6 : 0);
+        rg_result_free(&result);
+    }
 }
 
 // Each device has its own course, with its own numbers.
@@ -194,13 +221,13 @@ static void devices_have_their_own_courses(void **state)
     make_on(&result, "chin-timing", 2, 24, 10);
     struct rg_record *gl = rg_result_at(&result, (struct rg_place){.device = 1});
     gl->launch_count = 5;
-    assert_int_equal(rg_launches_next(&result, rg_claims, 0, &cells), 0);
-    assert_int_equal(rg_launches_next(&result, rg_claims, 1, &cells), 6);
+    assert_int_equal(next_of(&result, rg_claims, 0, &cells), 0);
+    assert_int_equal(next_of(&result, rg_claims, 1, &cells), 6);
     assert_int_equal(cells.count, 1);
     assert_int_equal(cells.cells[0].at.device, 1);
-    assert_true(rg_launches_are_due(&result, rg_claims));
+    assert_true(are_due(&result));
     gl->launch_count = 24;
-    assert_false(rg_launches_are_due(&result, rg_claims));
+    assert_false(are_due(&result));
     rg_result_free(&result);
 }
 
@@ -485,6 +512,7 @@ int main(void)
         cmocka_unit_test(groups),
         cmocka_unit_test(cells_of_tests),
         cmocka_unit_test(a_course_ends),
+        cmocka_unit_test(no_more_launches_than_allowed),
         cmocka_unit_test(devices_have_their_own_courses),
         cmocka_unit_test(kept_launches_beside_today),
         cmocka_unit_test(kept_launches_at_the_bound),

@@ -96,10 +96,11 @@ static int decide(struct rg_result *result, const char *kind, double bound)
                                        .least = bound,
                                        .most = bound},
                                       {.table = NULL}};
+    const struct rg_launches_wanted wanted = {.claims = claims};
     struct rg_progress bar;
     const double start_ms = rg_now_ms();
     rg_progress_start(&bar, 1);
-    const bool ok = rg_launches_take(result, &table, claims, NULL, &bar, 0);
+    const bool ok = rg_launches_take(result, &table, &wanted, NULL, &bar, 0);
     rg_progress_end(&bar);
     const struct rg_judgement j = rg_claim_judge(claims, result, 0);
     printf("%s, %d launches, %d disturbed, %.1f s: %s\n", rg_claim_verdict_text(j.verdict),

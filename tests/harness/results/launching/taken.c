@@ -308,15 +308,24 @@ static const struct rg_claim claims[] = {{.table = "made-up",
                                           .last = 4},
                                          {.table = NULL}};
 
-static bool take(struct rg_result *result, const struct rg_table *table, double end_ms)
+static const struct rg_launches_wanted decisions = {.claims = claims};
+static const struct rg_launches_wanted three = {.of_each = 3};
+
+static bool take_wanted(struct rg_result *result, const struct rg_table *table,
+                        const struct rg_launches_wanted *wanted, double end_ms)
 {
     struct rg_progress bar;
     rg_progress_start(&bar, 1);
     bar.shown = false;
     rg_log_listen(log_all, NULL);
-    const bool ok = rg_launches_take(result, table, claims, NULL, &bar, end_ms);
+    const bool ok = rg_launches_take(result, table, wanted, NULL, &bar, end_ms);
     rg_progress_end(&bar);
     return ok;
+}
+
+static bool take(struct rg_result *result, const struct rg_table *table, double end_ms)
+{
+    return take_wanted(result, table, &decisions, end_ms);
 }
 
 // Twelve launches for a look, and as many to confirm it, on each device that works.
@@ -334,7 +343,7 @@ static void a_course_takes_what_its_claims_need(void **state)
             for (int i = 0; i < record->launch_count; i++)
                 assert_int_equal(record->launches[i].number, i + 1);
         }
-    assert_false(rg_launches_are_due(&result, claims));
+    assert_false(rg_launches_are_due(&result, &decisions));
     end(&result);
     begin(&result, &table, "draw_ms=100", "none", "other");
     assert_false(take(&result, &table, 0));
@@ -359,7 +368,68 @@ static void no_launch_begins_after_the_end(void **state)
     begin(&result, &table, "draw_ms=100", "fake", NULL);
     assert_true(take(&result, &table, rg_now_ms() + 2.5 * launch_ms));
     assert_int_equal(record_at(&result, 0, 0)->launch_count, 3);
-    assert_true(rg_launches_are_due(&result, claims));
+    assert_true(rg_launches_are_due(&result, &decisions));
+    end(&result);
+}
+
+// --- launches of each cell ---
+
+// Their times replace those of the samples; a cell that failed has none.
+static void each_cell_gets_so_many_launches(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    struct rg_table table;
+    begin(&result, &table, "draw_ms=100", "fake", "other");
+    rg_record_end(rg_result_at(&result, (struct rg_place){.row = 2}), RG_ERROR, "no such thing");
+    assert_true(take_wanted(&result, &table, &three, 0));
+    for (int device = 0; device < 2; device++)
+        for (int row = 0; row < 4; row++) {
+            const struct rg_record *record = record_at(&result, row, device);
+            assert_int_equal(record->launch_count, device == 0 && row == 2 ? 0 : 3);
+            if (record->launch_count)
+                assert_ms(record->frame_ms.median, 100);
+        }
+    assert_false(rg_launches_are_due(&result, &three));
+    end(&result);
+}
+
+// Where others disturb every launch, a cell gets three more, and its samples are told.
+static void disturbed_launches_are_taken_again_once(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    struct rg_table table;
+    begin(&result, &table, "draw_ms=100", "fake", NULL);
+    taken = (struct rg_taken){.others = 0.25};
+    assert_true(take_wanted(&result, &table, &three, 0));
+    for (int row = 0; row < 4; row++) {
+        assert_int_equal(record_at(&result, row, 0)->launch_count, 6);
+        assert_ms(record_at(&result, row, 0)->frame_ms.median, row + 1);
+    }
+    end(&result);
+    begin(&result, &table, "draw_ms=100", "fake", NULL);
+    taken = (struct rg_taken){.others = 0.25};
+    const struct rg_launch_cells cells = cells_of("A");
+    assert_true(rg_launch_take(&result, &table, &cells, 1));
+    taken = (struct rg_taken){0, 0};
+    assert_true(take_wanted(&result, &table, &three, 0));
+    for (int row = 0; row < 4; row++)
+        assert_int_equal(record_at(&result, row, 0)->launch_count, row ? 3 : 4);
+    end(&result);
+}
+
+// Rows follow each other, and a row's cells are compared: each is closed before the next opens.
+static void rows_are_launched_one_after_the_other(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    struct rg_table table;
+    struct rg_launch_cells cells;
+    begin(&result, &table, "draw_ms=100", "fake", NULL);
+    assert_int_equal(rg_launches_next(&result, &three, 0, &cells), 1);
+    assert_int_equal(cells.count, 4);
+    assert_int_equal(cells.group_count, 4);
     end(&result);
 }
 
@@ -375,6 +445,9 @@ int main(void)
         cmocka_unit_test(a_launch_that_fails_is_not_kept),
         cmocka_unit_test(a_course_takes_what_its_claims_need),
         cmocka_unit_test(no_launch_begins_after_the_end),
+        cmocka_unit_test(each_cell_gets_so_many_launches),
+        cmocka_unit_test(disturbed_launches_are_taken_again_once),
+        cmocka_unit_test(rows_are_launched_one_after_the_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
