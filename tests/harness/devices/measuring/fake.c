@@ -149,7 +149,9 @@ static bool fake_pass_run(struct rg_pass *pass, const struct rg_run *run)
     struct fake_device *fake = fake_of(pass->device);
     const bool copies = !strcmp(pass->kernel->name, "probe_copy");
     const double items = (double)run->extent.width * run->extent.height * run->extent.depth;
-    const double ms = fake->run_ms + items * (copies ? fake->word_ms : fake->item_ms);
+    const bool leaves_cache = fake->cache_items > 0 && items > fake->cache_items;
+    const double ms =
+        fake->run_ms + items * (copies ? fake->word_ms : fake->item_ms) * (leaves_cache ? 2 : 1);
     const bool is_slow =
         fake->slow_runs > 0 || (fake->slow_every && (fake->runs + 1) % fake->slow_every == 0);
     fake->pending_ms += is_slow ? 10 * ms : ms;

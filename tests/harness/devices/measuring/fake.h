@@ -26,6 +26,7 @@ struct fake_device {
     double sync_ms;          // any wait
     double run_ms;           // a run of a pass
     double item_ms, word_ms; // added for each item, and for each item that copies a word
+    double cache_items;      // a run of more items takes twice as long; 0: none does
     int slow_runs;           // this many more runs take ten times as long
     int slow_every;          // so does every slow_every-th run; 0: none
     double clock_rate;       // of the API's clock, relative to the wall clock

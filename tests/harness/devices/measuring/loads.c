@@ -72,38 +72,73 @@ static void test_trust(void **state)
     }
 }
 
-// A copy of 64 MiB reads and writes 134 MB; the runs that compile do not count.
+static void expect_ceilings(struct fake_device *fake, double memory, double cache,
+                            double arithmetic)
+{
+    struct rg_ceilings ceilings;
+    assert_true(rg_ceilings_measure(&fake->pub, &ceilings));
+    assert_near(ceilings.memory_gb_s, memory, 1e-6);
+    assert_near(ceilings.cache_gb_s, cache, 1e-6);
+    assert_near(ceilings.arithmetic_gop_s, arithmetic, 1e-6);
+}
+
+// A copy of 1 MiB reads and writes 2 MiB; the runs that compile do not count, nor do slow ones.
 static void test_ceilings(void **state)
 {
     (void)state;
     struct fake_device *fake = fake_open();
-    struct rg_ceilings ceilings;
     fake->word_ms = 1e-6; // 8 bytes a nanosecond
     fake->item_ms = 2e-6;
     fake->slow_runs = 3;
-    assert_true(rg_ceilings_measure(&fake->pub, &ceilings));
-    assert_near(ceilings.memory_gb_s, 8, 1e-6);
-    assert_near(ceilings.cache_gb_s, 8, 1e-6);
-    assert_near(ceilings.arithmetic_gop_s, PROBE_ARITHMETIC_OPS / 2.0, 1e-6);
-    fake->runs = 0;
-    fake->slow_every = 9; // the last of the large copies
-    assert_true(rg_ceilings_measure(&fake->pub, &ceilings));
-    assert_near(ceilings.memory_gb_s, 8, 1e-6);
-    fake->slow_every = 0;
-    fake->sync_ms = 16; // one wait a batch: of one large copy, of 16 small ones
-    assert_true(rg_ceilings_measure(&fake->pub, &ceilings));
-    assert_near(ceilings.memory_gb_s, 134.217728 / (16.777216 + 16), 1e-6);
-    assert_near(ceilings.cache_gb_s, 2.097152 / (0.262144 + 1), 1e-6);
+    expect_ceilings(fake, 8, 8, PROBE_ARITHMETIC_OPS / 2.0);
+    fake->slow_every = 64;
+    expect_ceilings(fake, 8, 8, PROBE_ARITHMETIC_OPS / 2.0);
+    assert_true(rg_device_close(&fake->pub));
+}
+
+// Copies of 1 MiB stay in a cache that holds 2^18 words, and larger ones do not.
+static void test_caches(void **state)
+{
+    (void)state;
+    struct fake_device *fake = fake_open();
+    fake->word_ms = 1e-6;
+    fake->item_ms = 2e-6;
+    fake->cache_items = 262144;
+    expect_ceilings(fake, 4, 8, PROBE_ARITHMETIC_OPS / 2.0);
+    fake->cache_items = 12 * 262144; // it holds 8 MiB
+    expect_ceilings(fake, 4, 8, PROBE_ARITHMETIC_OPS / 2.0);
+    fake->cache_items = 48 * 262144; // it holds 32 MiB, and no copy of 64
+    expect_ceilings(fake, 4, 8, PROBE_ARITHMETIC_OPS / 2.0);
+    assert_true(rg_device_close(&fake->pub));
+}
+
+// If waiting takes most of the time of a batch, the largest work decides: copies of 128 MiB on a
+// processor, on a GPU as large as it allows, of 16 MiB in a cache, sums of 2^24 items.
+static void test_large_ceilings(void **state)
+{
+    (void)state;
+    struct fake_device *fake = fake_open();
+    const double mib_ms = 0.262144, item_ms = 2e-6, wait_ms = 1000; // a MiB has 2^18 words
+    fake->word_ms = 1e-6;
+    fake->item_ms = item_ms;
+    fake->sync_ms = wait_ms;
+    fake->pub.info.software = true;
+    const double ops = PROBE_ARITHMETIC_OPS * 16777216e-6 / (16777216 * item_ms + wait_ms);
+    expect_ceilings(fake, 128 * 2.097152 / (128 * mib_ms + wait_ms),
+                    16 * 2.097152 / (16 * mib_ms + wait_ms), ops);
+    fake->pub.info.software = false;
+    fake->pub.info.limits.max_buffer_bytes = 300 << 20;
+    expect_ceilings(fake, 256 * 2.097152 / (256 * mib_ms + wait_ms),
+                    16 * 2.097152 / (16 * mib_ms + wait_ms), ops);
     assert_true(rg_device_close(&fake->pub));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_costs),
-        cmocka_unit_test(test_load),
-        cmocka_unit_test(test_trust),
-        cmocka_unit_test(test_ceilings),
+        cmocka_unit_test(test_costs),  cmocka_unit_test(test_load),
+        cmocka_unit_test(test_trust),  cmocka_unit_test(test_ceilings),
+        cmocka_unit_test(test_caches), cmocka_unit_test(test_large_ceilings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
