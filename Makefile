@@ -1,13 +1,14 @@
 # raingauge: `make look` draws pictures and shows what was found, `make tables` regenerates the papers'
 # tables, `make test` runs every test. All install what Debian packages are missing, build, say what they
 # do, and can be run again at no cost. What apt and the compilers print lies in build/*.log.
-# `make results` replaces the tables that the repository keeps; `make thorough` runs the tests that
+# `make results` replaces the tables that the repository keeps, of which `make printed` makes those that do as much work as
+# the papers; `make thorough` runs the tests that
 # take too long for every change; `make mutants` tries the tests themselves, with faults, and `make gate-selftest` the gate, with
 # builds that are the same and that are slower; `make claims` decides what papers claim, in a night, and
 # `make claims-selftest` tries that on cells whose truth is known; `make lint` has tools look for faults in the sources;
 # `make deb` builds Debian packages, and `make image` of these an image for containers (VARIANT=small: without PoCL and OpenImageIO).
 .POSIX:
-.PHONY: all setup build whole look tables committed results claims test thorough test-farm mutants gate-selftest claims-selftest lint deb image clean format
+.PHONY: all setup build whole look tables committed printed results claims test thorough test-farm mutants gate-selftest claims-selftest lint deb image clean format
 
 BUILD = build
 ASAN = build-asan
@@ -17,6 +18,8 @@ LOOK = $(BUILD)/look
 # How long they may take together.
 BUDGET = 4m
 RESULTS = results/tables
+# Tables with the papers' own settings, each cell timed in three launches.
+PRINTED = results/printed
 # Launches for claims, and what `make claims` measures: names of tables, --device, --full, --budget 8h.
 CLAIMS = results/claims
 KEPT = $$(! ls $(CLAIMS)/*.json >/dev/null 2>&1 || echo "--kept $(CLAIMS)")
@@ -125,6 +128,12 @@ committed:
 	@changes=$$(git status --porcelain) && test -z "$$changes" || { \
 	  echo "make results: the tree has changes that no commit holds, so that records could not name" \
 	    "what they measured; commit them, or put them by with git stash -u" >&2; exit 2; }
+
+# Goes on where it was interrupted.
+printed: committed build
+	@echo "== measuring on cpu what the papers print, with their settings, into $(PRINTED): hours"
+	@$(BUILD)/harness/raingauge table $(WHAT) --full --work paper --device cpu --launches 3 -o $(BUILD)/printed
+	@python3 results/keep.py $(BUILD)/printed $(PRINTED)
 
 results: committed build
 	@echo "== regenerating the tables on every device, $(or $(WHAT),--quick), into $(RESULTS)"

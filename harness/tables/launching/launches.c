@@ -89,6 +89,13 @@ static void join(struct rg_launch_cells *cells, int a, int b)
             cells->cells[i].group = to;
 }
 
+// Whether a cell has all launches that it may have: `most` undisturbed ones, or 0 for no limit.
+static bool has_all(const struct rg_record *record, int most)
+{
+    return record->launch_count == RG_MAX_LAUNCHES ||
+           (most && rg_record_calm_launches(record) >= most);
+}
+
 // Adds the claim's cells, and joins those that it compares.
 static void add_claim(const struct rg_claim *claim, const struct rg_result *result, int most,
                       int device, struct rg_launch_cells *cells)
@@ -99,7 +106,7 @@ static void add_claim(const struct rg_claim *claim, const struct rg_result *resu
         for (int v = 0; rg_result_has(result, row) && v < result->variant_count; v++) {
             const struct rg_place at = {row, rg_result_printed_work(result), v, device};
             if (!rg_claim_needs(claim, row + 1, result->variants[v]) ||
-                rg_result_at(result, at)->launch_count >= most)
+                has_all(rg_result_at(result, at), most))
                 continue;
             const int cell = find_cell(cells, at);
             if (before >= 0)
@@ -112,10 +119,9 @@ static void add_claim(const struct rg_claim *claim, const struct rg_result *resu
 static void add_claims(const struct rg_launches_wanted *wanted, const struct rg_result *result,
                        int device, struct rg_launch_cells *cells)
 {
-    const int most = wanted->most ? wanted->most : RG_MAX_LAUNCHES;
     for (const struct rg_claim *claim = wanted->claims; claim->table; claim++)
         if (!strcmp(claim->table, result->table) && wants_launch(claim, result, device))
-            add_claim(claim, result, most, device, cells);
+            add_claim(claim, result, wanted->most, device, cells);
 }
 
 // --- the next launch: of each cell ---

@@ -13,7 +13,7 @@ struct rg_launches_wanted {
     // Until each of these claims is decided, or no look is left: rg_claims, or others, likewise
     // ended by one without a table. NULL: for no claim.
     const struct rg_claim *claims;
-    int most; // launches of a claim's cell; 0: as many as its looks ask for
+    int most; // undisturbed launches of a claim's cell; 0: as many as its looks ask for
     // Without claims: so many undisturbed launches of each measured cell. A cell's disturbed
     // launches are taken again at most as often.
     int of_each;

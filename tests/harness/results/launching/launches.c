@@ -210,6 +210,11 @@ static void no_more_launches_than_allowed(void **state)
         assert_int_equal(rg_launches_next(&result, &wanted, 0, &cells), launches < 6 ? 6 : 0);
         rg_result_free(&result);
     }
+    make(&result, "creus-5.3", 6, 10); // a disturbed launch does not count
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);)
+        rg_result_at(&result, at)->launches[2].others = 1;
+    assert_int_equal(rg_launches_next(&result, &wanted, 0, &cells), 7);
+    rg_result_free(&result);
 }
 
 // Each device has its own course, with its own numbers.
