@@ -52,12 +52,14 @@ static inline void rg_place_large(rg_bins bins, rg_draw_state draw, rg_snapped s
     }
 }
 
-// Runs one work item for each lane. Without `scatter`, places that were 0 become counts.
+// Runs one work item for each lane. Without `scatter`, places that were 0 become counts. What the list
+// has no room for is not scattered.
 __kernel void rg_bins_walk(rg_bins bins, rg_draw_state draw, int scatter, __global const int *prims,
-                           __global const uint *args, __global uint *places, __global uint *list)
+                           __global const uint *args, __global uint *places, __global uint *list,
+                           __global const uint *round)
 {
     int lane = (int)get_global_id(0);
-    if (lane >= bins.lanes)
+    if (lane >= bins.lanes || (scatter && round[RG_ROUND_PAIRS] > bins.capacity))
         return;
     int prim_count = rg_imax(rg_imin(bins.end_prim, (int)args[4]) - bins.first_prim, 0);
     int begin = bins.first_prim + (int)((long)prim_count * lane / bins.lanes);
@@ -79,7 +81,7 @@ __kernel void rg_bins_walk(rg_bins bins, rg_draw_state draw, int scatter, __glob
 }
 
 // Scans in one group: sums each part, then the parts before it, then sets each place. Tells the
-// host the number of pairs, at most 2^32 - 1.
+// number of pairs, at most 2^32 - 1.
 __attribute__((reqd_work_group_size(RG_SCAN_ITEMS, 1, 1)))
 __kernel void rg_bins_scan(rg_bins bins, __global const uint *args, __global uint *places,
                            __global uint *round)

@@ -12,13 +12,24 @@ extern const struct rg_embedded_code rg_code_bins[RG_CODE_COUNT];
 // words.
 enum { MAX_LANES = 64, ITEMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
 
-// The list's sizes: the first one, which doubles up to the second. A draw that needs more takes
-// several rounds.
+// The list's sizes: the first one, which doubles up to the second. On a processor a draw that needs
+// more takes several rounds. A GPU's list has the second size from the start, and tiles look for
+// primitives themselves if a draw needs more, so that the host never waits for their number.
 enum { MIN_LIST_BYTES = 256 << 10, MAX_LIST_BYTES = 64 << 20 };
 
-// Side of the block of pixels that a work item shades. On a processor it is a whole tile, on a GPU
-// a part, with a work group for each tile.
 enum { BLOCK_PX_CPU = RG_TILE_PX, BLOCK_PX_GPU = 2 };
+
+int opencl_block_px(const struct opencl_device *device)
+{
+    return device->pub.info.software ? BLOCK_PX_CPU : BLOCK_PX_GPU;
+}
+
+// The largest list that the device allows.
+static size_t most_bytes(const struct opencl_bins *bins)
+{
+    const int64_t allowed = bins->device->pub.info.limits.max_buffer_bytes;
+    return allowed < MAX_LIST_BYTES ? (size_t)allowed : MAX_LIST_BYTES;
+}
 
 static bool make_kernel(struct opencl_bins *bins, cl_kernel *kernel, const char *name)
 {
@@ -109,8 +120,9 @@ bool opencl_bins_begin(struct opencl_bins *bins, const struct rg_kernel *kernel,
         .lanes = lanes,
         .prim_words = kernel->draw->prim_size / 4,
         .corners = kernel->draw->corners,
-        .block_px = bins->device->pub.info.software ? BLOCK_PX_CPU : BLOCK_PX_GPU,
     };
+    if (!bins->device->pub.info.software && !grow(&bins->list, &bins->list_bytes, most_bytes(bins)))
+        return false;
     return grow(&bins->places, &bins->places_bytes,
                 (size_t)tiles * (size_t)lanes * sizeof(cl_uint));
 }
@@ -128,7 +140,7 @@ static bool walk(struct opencl_bins *bins, const struct rg_run *run, cl_int scat
         {sizeof(bins->shape), &bins->shape}, {sizeof(rg_draw_state), run->params},
         {sizeof(scatter), &scatter},         {sizeof(cl_mem), &prims->memory.mem},
         {sizeof(cl_mem), &args->memory.mem}, {sizeof(cl_mem), &bins->places.mem},
-        {sizeof(cl_mem), &bins->list.mem},
+        {sizeof(cl_mem), &bins->list.mem},   {sizeof(cl_mem), &bins->round.mem},
     };
     cl_int code = CL_SUCCESS;
     for (cl_uint i = 0; i < sizeof(all) / sizeof(all[0]) && !code; i++)
@@ -175,9 +187,7 @@ static bool scan(struct opencl_bins *bins, const struct rg_run *run)
 // line, on failure.
 static bool grow_list(struct opencl_bins *bins, cl_uint pairs, bool *fits)
 {
-    const int64_t allowed = bins->device->pub.info.limits.max_buffer_bytes;
-    const size_t most = allowed < MAX_LIST_BYTES ? (size_t)allowed : MAX_LIST_BYTES;
-    const size_t wanted = pairs * sizeof(cl_uint);
+    const size_t most = most_bytes(bins), wanted = pairs * sizeof(cl_uint);
     *fits = wanted <= most;
     size_t bytes = bins->list_bytes;
     while (*fits && bytes < wanted)
@@ -185,9 +195,22 @@ static bool grow_list(struct opencl_bins *bins, cl_uint pairs, bool *fits)
     return grow(&bins->list, &bins->list_bytes, bytes);
 }
 
+// Sorts all primitives without waiting for anything.
+static bool sort_at_once(struct opencl_bins *bins, const struct rg_run *run)
+{
+    const size_t most = most_bytes(bins);
+    const size_t bytes = bins->list_bytes < most ? bins->list_bytes : most;
+    bins->shape.end_prim = run->packed->capacity;
+    bins->shape.capacity = (cl_uint)(bytes / sizeof(cl_uint));
+    return clear_places(bins) && walk(bins, run, false) && scan(bins, run) && walk(bins, run, true);
+}
+
 bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *more)
 {
     rg_bins *shape = &bins->shape;
+    *more = false;
+    if (!bins->device->pub.info.software)
+        return sort_at_once(bins, run);
     for (;;) {
         shape->end_prim = at_most(shape->first_prim + bins->tried_prims, run->packed->capacity);
         cl_uint round[RG_ROUND_WORDS];
@@ -205,6 +228,7 @@ bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *
                 "device '%s': a primitive meets %u tiles, more than a buffer holds",
                 bins->device->pub.info.name, round[RG_ROUND_PAIRS]);
         if (fits) {
+            shape->capacity = (cl_uint)(bins->list_bytes / sizeof(cl_uint));
             bins->tried_prims = at_most(2 * bins->tried_prims, run->packed->capacity);
             return !round[RG_ROUND_PAIRS] || walk(bins, run, true);
         }

@@ -17,10 +17,10 @@ static cl_kernel variant_of(struct opencl_pass *pass, const struct rg_draw *draw
     while (formats[place] != format)
         place++;
     const int blend = draw->colour ? (int)draw->blend : (int)RG_BLEND_OFF;
-    char defines[96];
+    char defines[112];
     snprintf(defines, sizeof(defines),
-             " -DRG_VARIANT_FORMAT=%d -DRG_VARIANT_BLEND=%d -DRG_VARIANT_DEPTH=%d", (int)format,
-             blend, (int)draw->depth_mode);
+             " -DRG_BLOCK_PX=%d -DRG_VARIANT_FORMAT=%d -DRG_VARIANT_BLEND=%d -DRG_VARIANT_DEPTH=%d",
+             opencl_block_px(pass->device), (int)format, blend, (int)draw->depth_mode);
     return opencl_kernel_of(pass, (place * 3 + blend) * 3 + (int)draw->depth_mode, "rg_draw",
                             defines);
 }
@@ -37,6 +37,7 @@ static cl_int set_arguments(cl_kernel kernel, const struct rg_kernel *info,
     code = code ? code : clSetKernelArg(kernel, next++, sizeof(cl_mem), &prims->memory.mem);
     code = code ? code : clSetKernelArg(kernel, next++, sizeof(cl_mem), &bins->places.mem);
     code = code ? code : clSetKernelArg(kernel, next++, sizeof(cl_mem), &bins->list.mem);
+    code = code ? code : clSetKernelArg(kernel, next++, sizeof(cl_mem), &bins->round.mem);
     code = code ? code : opencl_set_target(kernel, &next, run->draw->colour, run->draw);
     code = code ? code : opencl_set_target(kernel, &next, run->draw->depth, run->draw);
     code = code ? code
@@ -51,7 +52,8 @@ static bool shade(cl_kernel kernel, const struct rg_kernel *info, const struct o
     if (!opencl_check(set_arguments(kernel, info, bins, run), "clSetKernelArg", "kernel",
                       info->name))
         return false;
-    const size_t a_side = RG_TILE_PX / (size_t)bins->shape.block_px, blocks = a_side * a_side;
+    const size_t a_side = RG_TILE_PX / (size_t)opencl_block_px(bins->device),
+                 blocks = a_side * a_side;
     const size_t local = blocks == 1 ? TILES_A_GROUP_CPU : blocks;
     const size_t items = ((size_t)bins->shape.tiles * blocks + local - 1) / local * local;
     if (!opencl_will_queue(bins->device))

@@ -155,13 +155,16 @@ struct opencl_bins {
     int tried_prims; // primitives to try in the next round
 };
 
+// Side of the block of pixels that a work item shades: on a processor a whole tile, on a GPU a
+// part, with a work group for each tile.
+int opencl_block_px(const struct opencl_device *device);
 struct opencl_bins *opencl_bins_of(struct opencl_device *device); // made on first use
 void opencl_bins_destroy(struct opencl_device *device);
 // Begins a draw: covers its scissor with tiles.
 bool opencl_bins_begin(struct opencl_bins *bins, const struct rg_kernel *kernel,
                        const struct rg_run *run);
-// Sorts the primitives from shape.first_prim on, as many as fit into the list, and sets
-// shape.end_prim. *more: others may remain.
+// Sorts the primitives from shape.first_prim on, on a processor as many as fit into the list, and
+// sets shape.end_prim. *more: others may remain.
 bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *more);
 
 // draw.c

@@ -267,6 +267,24 @@ static void tiles_are_shared_as_on_a_gpu(void **state)
     assert_true(rg_device_close(device));
 }
 
+// A GPU's list has room for no more than 1,024 pairs of a primitive and a tile, so that each tile
+// looks for its primitives itself.
+static void tiles_without_a_list_find_their_primitives(void **state)
+{
+    struct drawn whole = draw(*state, true, ENOUGH_BYTES);
+    struct rg_device *device = rg_device_open("opencl");
+    assert_non_null(device);
+    device->info.software = !device->info.software;
+    struct drawn listed = draw(device, true, ENOUGH_BYTES), alone = draw(device, true, 4096);
+    assert_memory_equal(listed.samples, whole.samples, QUADS * 4);
+    assert_memory_equal(alone.colour, whole.colour, LEVEL_PX * LEVEL_PX * 4);
+    assert_memory_equal(alone.samples, whole.samples, QUADS * 4);
+    release(&whole);
+    release(&listed);
+    release(&alone);
+    assert_true(rg_device_close(device));
+}
+
 // A list of 1,024 elements has room for the tiles of one quad that fills the target, not of two.
 static void little_memory_takes_rounds(void **state)
 {
@@ -368,6 +386,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_clock_runs_on),
         cmocka_unit_test(a_layer_of_a_level_is_drawn_to),
         cmocka_unit_test(tiles_are_shared_as_on_a_gpu),
+        cmocka_unit_test(tiles_without_a_list_find_their_primitives),
         cmocka_unit_test(little_memory_takes_rounds),
         cmocka_unit_test(a_broken_kernel_is_one_line),
     };

@@ -24,11 +24,11 @@ RG_STRUCT(rg_bins)
     int end_prim;
     int prim_words; // of a packed primitive
     int corners;
-    int block_px; // a tile's work items shade block_px x block_px pixels each
+    uint capacity; // pairs that the list holds
 };
 RG_STRUCT_SIZE(rg_bins, 8)
 
-// Words that a round writes for the host: pairs of a primitive and a tile, and primitives of the
+// Words that a round writes: pairs of a primitive and a tile, and primitives of the
 // draw.
 #define RG_ROUND_PAIRS 0
 #define RG_ROUND_PRIMS 1

@@ -68,9 +68,9 @@ RG_FN uint rg_cut_half(float v)
            ((bits >> 16) & 0x8000u);
 }
 
-#if RG_GLSL
 #include "kernels/dialect/draw/state.h"
 
+#if RG_GLSL
 // --- a fragment that knows what its pixel holds; what it returns leaves nothing to round ---
 
 RG_FN float rg_blended_unorm8(float source, float target, uint rest, int blend)
@@ -110,7 +110,41 @@ RG_FN rgba rg_blended(rg_draw_state draw, rgba c, rgba target)
 #else
 #include "kernels/dialect/image/memory.h"
 
-// --- one texel of an image in memory; blend off stores as kernels do ---
+// --- a texel's words, of which a format has one, two or four; blend off stores as kernels do ---
+
+typedef struct rg_texel {
+    uint a;
+    uint b;
+    uint c;
+    uint d;
+} rg_texel;
+
+RG_FN rg_texel rg_blended_RGBA16F(rg_texel t, rgba c, int blend)
+{
+    rgba target = rg_rgba(rg_unpack_half(t.a), rg_unpack_upper_half(t.a), rg_unpack_half(t.b),
+                          rg_unpack_upper_half(t.b));
+    rgba b = rg_blend_floats(c, target, blend);
+    bool is_off = blend == RG_BLEND_IS_OFF;
+    t.a = is_off ? rg_pack_half(c.r) | (rg_pack_half(c.g) << 16)
+                 : rg_cut_half(b.r) | (rg_cut_half(b.g) << 16);
+    t.b = is_off ? rg_pack_half(c.b) | (rg_pack_half(c.a) << 16)
+                 : rg_cut_half(b.b) | (rg_cut_half(b.a) << 16);
+    return t;
+}
+
+RG_FN rg_texel rg_blended_RGBA32F(rg_texel t, rgba c, int blend)
+{
+    rgba target =
+        rg_rgba(rg_bits_float(t.a), rg_bits_float(t.b), rg_bits_float(t.c), rg_bits_float(t.d));
+    rgba b = rg_blend_floats(c, target, blend);
+    t.a = rg_float_bits(b.r);
+    t.b = rg_float_bits(b.g);
+    t.c = rg_float_bits(b.b);
+    t.d = rg_float_bits(b.a);
+    return t;
+}
+
+// --- one texel of an image in memory ---
 
 RG_PROC void rg_blend_RGBA8(RG_GLOBAL uint *texels, int i, rgba c, int blend)
 {
@@ -119,18 +153,20 @@ RG_PROC void rg_blend_RGBA8(RG_GLOBAL uint *texels, int i, rgba c, int blend)
 
 RG_PROC void rg_blend_RGBA16F(RG_GLOBAL uint *texels, int i, rgba c, int blend)
 {
-    if (blend == RG_BLEND_IS_OFF) {
-        rg_store_RGBA16F(texels, i, c);
-        return;
-    }
-    rgba b = rg_blend_floats(c, rg_load_RGBA16F(texels, i), blend);
-    texels[i] = rg_cut_half(b.r) | (rg_cut_half(b.g) << 16);
-    texels[i + 1] = rg_cut_half(b.b) | (rg_cut_half(b.a) << 16);
+    rg_texel t = {texels[i], texels[i + 1], 0, 0};
+    t = rg_blended_RGBA16F(t, c, blend);
+    texels[i] = t.a;
+    texels[i + 1] = t.b;
 }
 
 RG_PROC void rg_blend_RGBA32F(RG_GLOBAL uint *texels, int i, rgba c, int blend)
 {
-    rg_store_RGBA32F(texels, i, rg_blend_floats(c, rg_load_RGBA32F(texels, i), blend));
+    rg_texel t = {texels[i], texels[i + 1], texels[i + 2], texels[i + 3]};
+    t = rg_blended_RGBA32F(t, c, blend);
+    texels[i] = t.a;
+    texels[i + 1] = t.b;
+    texels[i + 2] = t.c;
+    texels[i + 3] = t.d;
 }
 
 #endif

@@ -93,6 +93,7 @@ ROWS = [
     Fault("backends/vulkan/program.c", "(device->pub.blends ? «RG_CODE_BLENDS» : 0)", "0", "vulkan: what programs are to blend nobody blends", tests=OWN_VK),
     Fault(CL_BUF, "staged ? CL_FALSE : CL_TRUE,\n                                       «offset», size, staged", "0", "opencl: writes begin at 0", tests=OF_CL),
     Fault(CL_PASS, "return (width + group «- 1») / group * group;", "- group", "opencl: the last work group is left out", tests=OF_CL),
+    Fault("backends/opencl/bins.c", "scan(bins, run) && «walk(bins, run, true)»;", "true", "opencl: a GPU's list of primitives is not filled", tests=("opencl",)),
     Fault(CL_TIME, "*time_ns = (int64_t)end_ns;", "*time_ns = (int64_t)end_ns / 1000;", "opencl: time is in microseconds", tests=OF_CL),
     Fault(GL_STATE, "enable(GL_DEPTH_CLAMP, «state->depth_clamp»);", "false", "gl: depth is never clamped", tests=OF_FIXED_GL),
     Fault(GL_STATE, "glPolygonOffset((float)state->offset_slope_16 / 16, «(float)state->offset_units»);", "4.0f", "gl: every offset is 4 units", tests=OF_FIXED_GL),
