@@ -59,7 +59,8 @@ struct rg_limits {
     X(LEVELS, "levels", "makes textures' smaller levels")                                          \
     X(SETUP, "setup", "makes, clips, culls and snaps items, and interpolates depth")               \
     X(PLACES, "places", "interpolates places on surfaces, and w")                                  \
-    X(BLENDING, "blending", "blends, and rounds to formats")
+    X(BLENDING, "blending", "blends, and rounds to formats")                                       \
+    X(PASSES, "passes", "draws what kernels store to images, and rounds it")
 #define RG_FEATURE_NUMBER(name, word, does) RG_FEATURE_NUMBER_##name,
 #define RG_FEATURE_BIT(name, word, does)    RG_FEATURE_##name = 1 << RG_FEATURE_NUMBER_##name,
 enum { RG_FEATURES(RG_FEATURE_NUMBER) RG_FEATURE_COUNT };
@@ -99,6 +100,21 @@ struct rg_device {
     struct rg_shared *shared;   // owned by core/device/shared.c
 };
 
+// Whether the device, with these features, draws the texels of a GRID kernel over its image.
+static inline bool rg_draws_texels(const struct rg_device *device, const struct rg_kernel *kernel,
+                                   unsigned features)
+{
+    const struct rg_slot_info *target = rg_kernel_target(kernel);
+    return target && (features & RG_FEATURE_PASSES) &&
+           (device->info.limits.formats[target->format].uses & RG_USE_DRAW);
+}
+
+// Whether drawing stages run a kernel: of DRAW programs, and where the device draws its texels.
+static inline bool rg_is_drawn(const struct rg_device *device, const struct rg_kernel *kernel)
+{
+    return kernel->draw || rg_draws_texels(device, kernel, device->info.features);
+}
+
 // The ways of a kernel on this device with these features, without blending.
 static inline unsigned rg_ways_of(const struct rg_device *device, const struct rg_kernel *kernel,
                                   unsigned features)
@@ -108,6 +124,8 @@ static inline unsigned rg_ways_of(const struct rg_device *device, const struct r
     if (kernel->draw && (features & RG_FEATURE_SETUP))
         return RG_CODE_SETUP | (by_samplers || !samples ? RG_CODE_SAMPLERS : 0) |
                (features & RG_FEATURE_PLACES ? RG_CODE_PLACES : 0);
+    if (rg_draws_texels(device, kernel, features))
+        return RG_CODE_PASSES | (by_samplers ? RG_CODE_SAMPLERS : 0);
     if (by_samplers)
         return RG_CODE_SAMPLERS;
     return device->rounds ? RG_CODE_ROUNDS : 0;
@@ -210,10 +228,12 @@ struct rg_run {
     struct rg_binding slots[RG_MAX_SLOTS]; // indexed by slot
     struct rg_extent extent;               // at least 1 each
     struct rg_extent origin;               // first item; mostly 0
-    const struct rg_draw *draw;            // for DRAW passes, whose items lie along x; else NULL
-    const struct rg_packed *packed;        // set by core/device/packing.c; NULL for its callers
-    int queries, first_query;              // of draws with queries; set by core/device/draw.c
-    struct rg_counts *counts;              // set by core/device/work.c; NULL: not counted
+    // For DRAW passes, whose items lie along x; else NULL. core/device/grid.c sets it where texels
+    // of a GRID kernel are drawn: their image and layer, and the items' extent as the scissor.
+    const struct rg_draw *draw;
+    const struct rg_packed *packed; // set by core/device/packing.c; NULL for its callers
+    int queries, first_query;       // of draws with queries; set by core/device/draw.c
+    struct rg_counts *counts;       // set by core/device/work.c; NULL: not counted
 };
 
 // The items of a run's query, for native devices, which draw items.

@@ -34,6 +34,14 @@ bool rg_kernel_samples(const struct rg_kernel *kernel)
     return samples;
 }
 
+const struct rg_slot_info *rg_kernel_target(const struct rg_kernel *kernel)
+{
+    const struct rg_slot_info *slot = kernel->slots;
+    while (kernel->layer && slot->kind != RG_SLOT_OUT_IMAGE)
+        slot++;
+    return kernel->layer ? slot : NULL;
+}
+
 int rg_kernel_index(const struct rg_kernel *kernel)
 {
     const struct rg_kernel *const *all;
@@ -65,31 +73,44 @@ static unsigned char *read_whole(FILE *file, size_t *size)
     return bytes;
 }
 
+enum {
+    ROUNDS_AND_BLENDS = RG_CODE_ROUNDS | RG_CODE_BLENDS,
+    SAMPLING_SETUP = RG_CODE_SETUP | RG_CODE_SAMPLERS,
+    SAMPLING_PASS = RG_CODE_PASSES | RG_CODE_SAMPLERS
+};
+
+// Forms of kinds; of each kind those of more ways come first.
+static const struct {
+    enum rg_code_kind kind;
+    unsigned ways; // all of these
+    enum rg_code_kind form;
+} forms[] = {
+    {RG_CODE_GLSL, RG_CODE_SAMPLERS, RG_CODE_NATIVE_GLSL},
+    {RG_CODE_SPIRV, RG_CODE_SAMPLERS, RG_CODE_NATIVE_SPIRV},
+    {RG_CODE_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_SPIRV},
+    {RG_CODE_VERTEX_GLSL, RG_CODE_PASSES, RG_CODE_PASS_VERTEX_GLSL},
+    {RG_CODE_VERTEX_SPIRV, RG_CODE_PASSES, RG_CODE_PASS_VERTEX_SPIRV},
+    {RG_CODE_FRAGMENT_GLSL, SAMPLING_PASS, RG_CODE_NATIVE_FRAGMENT_GLSL},
+    {RG_CODE_FRAGMENT_SPIRV, SAMPLING_PASS, RG_CODE_NATIVE_FRAGMENT_SPIRV},
+    {RG_CODE_FRAGMENT_GLSL, RG_CODE_PASSES, RG_CODE_PASS_FRAGMENT_GLSL},
+    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_PASSES, RG_CODE_PASS_FRAGMENT_SPIRV},
+    {RG_CODE_VERTEX_GLSL, RG_CODE_SETUP, RG_CODE_NATIVE_VERTEX_GLSL},
+    {RG_CODE_VERTEX_SPIRV, RG_CODE_SETUP, RG_CODE_NATIVE_VERTEX_SPIRV},
+    {RG_CODE_VERTEX_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_VERTEX_SPIRV},
+    {RG_CODE_FRAGMENT_GLSL, SAMPLING_SETUP, RG_CODE_NATIVE_FRAGMENT_GLSL},
+    {RG_CODE_FRAGMENT_SPIRV, SAMPLING_SETUP, RG_CODE_NATIVE_FRAGMENT_SPIRV},
+    {RG_CODE_FRAGMENT_GLSL, RG_CODE_SETUP, RG_CODE_SETUP_FRAGMENT_GLSL},
+    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_SETUP, RG_CODE_SETUP_FRAGMENT_SPIRV},
+    {RG_CODE_FRAGMENT_GLSL, RG_CODE_SAMPLERS, RG_CODE_SAMPLERS_FRAGMENT_GLSL},
+    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_SAMPLERS, RG_CODE_SAMPLERS_FRAGMENT_SPIRV},
+    {RG_CODE_FRAGMENT_SPIRV, ROUNDS_AND_BLENDS, RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV},
+    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_BLENDS, RG_CODE_BLENDED_FRAGMENT_SPIRV},
+    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_FRAGMENT_SPIRV},
+};
+
 // The form of a kind for programs of these ways; one without a form of its own is the kind itself.
 static enum rg_code_kind kind_of(enum rg_code_kind kind, unsigned ways)
 {
-    enum { BOTH = RG_CODE_ROUNDS | RG_CODE_BLENDS, NATIVE = RG_CODE_SETUP | RG_CODE_SAMPLERS };
-    static const struct {
-        enum rg_code_kind kind;
-        unsigned ways; // all of these
-        enum rg_code_kind form;
-    } forms[] = {
-        {RG_CODE_GLSL, RG_CODE_SAMPLERS, RG_CODE_NATIVE_GLSL},
-        {RG_CODE_SPIRV, RG_CODE_SAMPLERS, RG_CODE_NATIVE_SPIRV},
-        {RG_CODE_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_SPIRV},
-        {RG_CODE_VERTEX_GLSL, RG_CODE_SETUP, RG_CODE_NATIVE_VERTEX_GLSL},
-        {RG_CODE_VERTEX_SPIRV, RG_CODE_SETUP, RG_CODE_NATIVE_VERTEX_SPIRV},
-        {RG_CODE_VERTEX_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_VERTEX_SPIRV},
-        {RG_CODE_FRAGMENT_GLSL, NATIVE, RG_CODE_NATIVE_FRAGMENT_GLSL},
-        {RG_CODE_FRAGMENT_SPIRV, NATIVE, RG_CODE_NATIVE_FRAGMENT_SPIRV},
-        {RG_CODE_FRAGMENT_GLSL, RG_CODE_SETUP, RG_CODE_SETUP_FRAGMENT_GLSL},
-        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_SETUP, RG_CODE_SETUP_FRAGMENT_SPIRV},
-        {RG_CODE_FRAGMENT_GLSL, RG_CODE_SAMPLERS, RG_CODE_SAMPLERS_FRAGMENT_GLSL},
-        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_SAMPLERS, RG_CODE_SAMPLERS_FRAGMENT_SPIRV},
-        {RG_CODE_FRAGMENT_SPIRV, BOTH, RG_CODE_ROUNDED_BLENDED_FRAGMENT_SPIRV},
-        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_BLENDS, RG_CODE_BLENDED_FRAGMENT_SPIRV},
-        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_ROUNDS, RG_CODE_ROUNDED_FRAGMENT_SPIRV},
-    };
     for (size_t i = 0; i < sizeof(forms) / sizeof(forms[0]); i++)
         if (forms[i].kind == kind && (ways & forms[i].ways) == forms[i].ways)
             return forms[i].form;

@@ -69,6 +69,9 @@ struct rg_embedded_code {
 //   defined.
 // - NATIVE: for native devices (docs/native.md), of GRID kernels that sample and all DRAW programs.
 //   Fragments that sample have two more: only SETUP is the driver's, or only SAMPLERS are.
+// - PASS: of GRID kernels whose texels native devices draw. Where samplers are the driver's too,
+// the
+//   fragments are NATIVE ones.
 #define RG_CODE_KINDS(X)                                                                           \
     X(GLSL, "glsl")                                                                                \
     X(SPIRV, "spv")                                                                                \
@@ -93,7 +96,11 @@ struct rg_embedded_code {
     X(SETUP_FRAGMENT_GLSL, "setup.frag")                                                           \
     X(SETUP_FRAGMENT_SPIRV, "setup.frag.spv")                                                      \
     X(SAMPLERS_FRAGMENT_GLSL, "samplers.frag")                                                     \
-    X(SAMPLERS_FRAGMENT_SPIRV, "samplers.frag.spv")
+    X(SAMPLERS_FRAGMENT_SPIRV, "samplers.frag.spv")                                                \
+    X(PASS_VERTEX_GLSL, "pass.vert")                                                               \
+    X(PASS_VERTEX_SPIRV, "pass.vert.spv")                                                          \
+    X(PASS_FRAGMENT_GLSL, "pass.frag")                                                             \
+    X(PASS_FRAGMENT_SPIRV, "pass.frag.spv")
 
 #define RG_CODE_KIND(kind, ending) RG_CODE_##kind,
 enum rg_code_kind { RG_CODE_KINDS(RG_CODE_KIND) RG_CODE_COUNT };
@@ -118,7 +125,8 @@ enum {
     RG_CODE_BLENDS = 2,
     RG_CODE_SETUP = 4,
     RG_CODE_SAMPLERS = 8,
-    RG_CODE_PLACES = 16
+    RG_CODE_PLACES = 16,
+    RG_CODE_PASSES = 32
 };
 
 // Slots of fragments besides the program's own, on backends that draw packed primitives.
@@ -141,6 +149,9 @@ struct rg_kernel {
     const struct rg_slot_info *slots;    // ascending by slot
     const struct rg_embedded_code *code; // RG_CODE_COUNT of them
     const struct rg_draw_info *draw;     // NULL: a GRID kernel
+    // The layer to which items at z store, if each item (x, y, z) stores texel (x, y) alone
+    // (RG_OWN_TEXELS of kernels/dialect/slots/slots.h); NULL: any other kernel.
+    int (*layer)(const void *params, int z);
 };
 
 // The kernel of this name, or NULL, without a message.
@@ -152,6 +163,9 @@ int rg_kernel_all(const struct rg_kernel *const **kernels);
 // Whether native devices' samplers read one of its images. Such a kernel, and every DRAW program,
 // has a form of its own for native devices.
 bool rg_kernel_samples(const struct rg_kernel *kernel);
+
+// The slot of the image in which each item stores its own texel; NULL: any other kernel.
+const struct rg_slot_info *rg_kernel_target(const struct rg_kernel *kernel);
 
 // A kernel's index in rg_kernel_all, for tables by kernel.
 int rg_kernel_index(const struct rg_kernel *kernel);

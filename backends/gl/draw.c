@@ -89,10 +89,11 @@ static void set_state(struct gl_draw_state *now, const struct gl_draw_state *wan
     *now = *wanted;
 }
 
-static struct gl_draw_state state_of(const struct gl_device *device, const struct rg_draw *draw,
+static struct gl_draw_state state_of(const struct gl_device *device, const struct rg_kernel *kernel,
+                                     const struct rg_draw *draw,
                                      const struct gl_framebuffer *framebuffer)
 {
-    const bool packed = rg_draw_packs(&device->pub, draw);
+    const bool packed = kernel->draw && rg_draw_packs(&device->pub, draw);
     struct gl_draw_state state = {
         .packed = packed,
         .width = framebuffer->key.width,
@@ -144,13 +145,16 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
     if (!framebuffer)
         return false;
     struct gl_bound *bound = &device->bound;
-    const struct gl_draw_state state = state_of(device, draw, framebuffer);
+    const struct gl_draw_state state = state_of(device, kernel, draw, framebuffer);
     set_state(&bound->draw, &state);
     gl_bind_framebuffer(bound, framebuffer->id);
-    gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
+    if (kernel->draw) // else the slot is the kernel's own
+        gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
     if (rg_draw_counts(draw))
         gl_slot_buffer(bound, RG_SLOT_SAMPLES, draw->samples);
-    if (!(state.packed ? draw_packed : draw_items)(device, kernel, run))
+    if (!kernel->draw)
+        glDrawArrays(GL_TRIANGLES, 0, 3); // shaders/pass.vert: one triangle over the target
+    else if (!(state.packed ? draw_packed : draw_items)(device, kernel, run))
         return false;
     // The next run may overwrite what this run reads, and read its counts.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);

@@ -264,7 +264,8 @@ void gl_framebuffers_forget(struct gl_device *device, GLuint image);
 // draw.c
 bool gl_draw_begin(struct gl_device *device);
 void gl_draw_end(struct gl_device *device);
-// Draws packed primitives. The caller has bound the pass's program, parameters and slots.
+// Draws packed primitives, items or texels. The caller has bound the pass's program, parameters and
+// slots.
 bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const struct rg_run *run);
 // backend->can_blend, for the current context
 bool gl_can_blend(const struct rg_device *device, const char **word);

@@ -123,7 +123,7 @@ static bool run_pass(struct gl_device *gl, struct gl_pass *mine, const struct rg
     gl_bind_program(&gl->bound, program);
     if (!gl_slots_bind(&gl->bound, mine, run))
         return false;
-    if (kernel->draw)
+    if (run->draw)
         return gl_draw(gl, kernel, run);
     const int64_t columns = ((int64_t)run->extent.width + GL_GROUP_ITEMS - 1) / GL_GROUP_ITEMS;
     glDispatchCompute((GLuint)columns, (GLuint)run->extent.height, (GLuint)run->extent.depth);

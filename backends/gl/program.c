@@ -74,7 +74,8 @@ static bool link(const struct gl_device *device, const struct rg_kernel *kernel,
 
 GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel, unsigned ways)
 {
-    const struct stage *stages = !kernel->draw            ? grid_stages
+    const bool draws = kernel->draw || (ways & RG_CODE_PASSES);
+    const struct stage *stages = !draws                   ? grid_stages
                                  : (ways & RG_CODE_SETUP) ? native_stages
                                                           : draw_stages;
     GLuint program = glCreateProgram();

@@ -38,6 +38,8 @@ bool gl_slots_bind(struct gl_bound *bound, const struct gl_pass *pass, const str
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &kernel->slots[i];
         const struct rg_binding *binding = &run->slots[slot->slot];
+        if (run->draw && slot->kind == RG_SLOT_OUT_IMAGE) // the target
+            continue;
         if (is_image(slot->kind) && !bind_image(bound, sampled, slot, binding->image))
             return false;
         if (is_image(slot->kind))

@@ -83,11 +83,14 @@ static void set_area(const struct vk_batch *batch, const struct rg_run *run, int
     vkCmdSetScissor(batch->commands, 0, 1, &scissor);
 }
 
-// shaders/native.vert takes a vertex for each item.
-static void draw_once(VkCommandBuffer commands, const struct rg_run *run)
+// shaders/native.vert takes a vertex for each item, shaders/pass.vert three for all texels.
+static void draw_once(VkCommandBuffer commands, const struct rg_kernel *kernel,
+                      const struct rg_run *run)
 {
     const rg_draw_state *state = run->params; // an rg_draw_call begins with it
-    if (run->packed)
+    if (!kernel->draw)
+        vkCmdDraw(commands, 3, 1, 0, 0);
+    else if (run->packed)
         vkCmdDrawIndirect(commands, ((struct vk_buf *)run->packed->args)->block.buffer, 0, 1, 0);
     else
         vkCmdDraw(commands, (uint32_t)(state->item_end - state->item_begin), 1,
@@ -123,7 +126,7 @@ bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_p
     if (run->queries)
         vk_draw_queries(device, batch, run);
     else
-        draw_once(commands, run);
+        draw_once(commands, pass->pub.kernel, run);
     vkCmdEndRenderPass(commands);
     if (run->queries)
         vk_answer_queries(device, batch, run);

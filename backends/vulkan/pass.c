@@ -23,6 +23,16 @@ static VkDeviceSize aligned(VkDeviceSize size, VkDeviceSize alignment)
     return (size + alignment - 1) / alignment * alignment;
 }
 
+// Takes over the kernel's slots, but for an image that is drawn to.
+static void take_slots(const struct vk_device *device, const struct rg_kernel *kernel,
+                       struct vk_pass *pass)
+{
+    const bool is_drawn = rg_is_drawn(&device->pub, kernel);
+    for (int i = 0; i < kernel->slot_count; i++)
+        if (!is_drawn || kernel->slots[i].kind != RG_SLOT_OUT_IMAGE)
+            pass->slots[pass->slot_count++] = kernel->slots[i];
+}
+
 struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {
     struct vk_device *vk = (struct vk_device *)device;
@@ -32,8 +42,7 @@ struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel 
     const VkDeviceSize std140_struct = 16;
     pass->params_bytes = (size_t)(kernel->draw ? kernel->draw->call_size : kernel->params_size);
     pass->run_bytes = aligned(sizeof(struct run_block) + pass->params_bytes, std140_struct);
-    pass->slot_count = kernel->slot_count;
-    memcpy(pass->slots, kernel->slots, (size_t)kernel->slot_count * sizeof(*kernel->slots));
+    take_slots(vk, kernel, pass);
     if (kernel->draw)
         vk_draw_slots(pass);
     const bool created = vk_slots_create(vk, pass, kernel) && vk_program_create(vk, kernel, pass) &&
@@ -117,7 +126,7 @@ bool vk_pass_run(struct rg_pass *pass, const struct rg_run *run)
     struct vk_batch *batch = record_run(device, vk);
     union vk_descriptor descriptors[RG_MAX_SLOTS];
     vk_slots_fill(device, pass->kernel, run, descriptors);
-    if (!batch || (run->draw && !vk_draw_fill(device, run, descriptors)) ||
+    if (!batch || (pass->kernel->draw && !vk_draw_fill(device, run, descriptors)) ||
         !vk_slots_bind(device, batch, vk, descriptors))
         return false;
     const uint32_t params_offset = put_params(device, batch, vk, run);

@@ -91,7 +91,8 @@ static bool create_drawing(struct vk_device *device, const struct rg_kernel *ker
     const unsigned own = rg_device_ways(&device->pub, kernel);
     const unsigned blending = ways_of_blending(device, kernel);
     return drawing && create_shaders(device, kernel, own, &drawing->shaders[0]) &&
-           (blending == own || create_shaders(device, kernel, blending, &drawing->shaders[1]));
+           (blending == own || !kernel->draw || // texels never blend
+            create_shaders(device, kernel, blending, &drawing->shaders[1]));
 }
 
 bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
@@ -102,8 +103,8 @@ bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
     if (!vk_try("kernel", kernel->name, vkCreatePipelineCache, device->handle, &empty, NULL,
                 &pass->cache))
         return false;
-    return kernel->draw ? create_drawing(device, kernel, pass)
-                        : create_pipeline(device, kernel, pass);
+    return rg_is_drawn(&device->pub, kernel) ? create_drawing(device, kernel, pass)
+                                             : create_pipeline(device, kernel, pass);
 }
 
 static void destroy_drawing(struct vk_device *device, struct vk_drawing *drawing)

@@ -18,8 +18,9 @@ static VkShaderStageFlags block_stages(const struct vk_device *device,
                                        const struct rg_kernel *kernel)
 {
     const VkShaderStageFlags native = device->pub.info.native ? VK_SHADER_STAGE_GEOMETRY_BIT : 0;
-    return kernel->draw ? VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | native
-                        : VK_SHADER_STAGE_COMPUTE_BIT;
+    return rg_is_drawn(&device->pub, kernel)
+               ? VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | native
+               : VK_SHADER_STAGE_COMPUTE_BIT;
 }
 
 static VkShaderStageFlags slot_stages(const struct vk_device *device,

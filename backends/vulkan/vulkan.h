@@ -66,7 +66,7 @@ struct vk_family {
 
 // The key of a render pass: enum rg_format of the colour or RG_FORMAT_NONE, whether depth is
 // attached, and whether programs blend by themselves.
-enum { VK_COLOURS = RG_RGBA32F + 1, VK_DEPTHS = 2, VK_BLENDS = 2 };
+enum { VK_COLOURS = RG_R32F + 1, VK_DEPTHS = 2, VK_BLENDS = 2 };
 
 struct vk_framebuffer;
 struct vk_fixed; // backends/vulkan/api/fixed/fixed.h
@@ -130,7 +130,7 @@ struct vk_shaders {
     VkShaderModule geometry; // if the driver sets up items; else none
 };
 
-// The additional parts of a DRAW program's pass: its shaders, and a pipeline for each draw state,
+// The additional parts of a pass that is drawn: its shaders, and a pipeline for each draw state,
 // made on first use.
 struct vk_drawing {
     struct vk_shaders shaders[2]; // of all draws; and of draws that blend, if those are others
@@ -145,8 +145,8 @@ struct vk_pass {
     VkPipelineLayout layout;
     VkDescriptorUpdateTemplate update; // from union vk_descriptor[RG_MAX_SLOTS]
     VkPipelineCache cache;             // of its pipelines, for vk_pass_code
-    VkPipeline pipeline;               // of a GRID kernel
-    struct vk_drawing *drawing;        // of a DRAW program
+    VkPipeline pipeline;               // of a kernel that is dispatched
+    struct vk_drawing *drawing;        // of one that is drawn
     size_t params_bytes;
     VkDeviceSize run_bytes; // of the uniform block
     // The last set, valid for another run in the same batch with the same objects.

@@ -6,6 +6,7 @@
 #include "core/base/doing.h"
 #include "core/base/log.h"
 #include "core/device/limits.h"
+#include "core/device/targets.h"
 #include "core/device/work.h"
 
 // --- passes ---
@@ -125,6 +126,26 @@ void rg_run_count(struct rg_pass *pass, const struct rg_run *run)
     work->items += (int64_t)run->extent.width * run->extent.height * run->extent.depth;
 }
 
+static bool draws_texels(const struct rg_pass *pass)
+{
+    return !pass->kernel->draw && rg_is_drawn(pass->device, pass->kernel);
+}
+
+// Texels that items have beyond their image are left out, as stores are.
+static bool hand_over(struct rg_pass *pass, const struct rg_run *run)
+{
+    struct rg_tally *tally = pass->device->work->tally;
+    struct rg_run given = *run;
+    struct rg_draw draw;
+    if (draws_texels(pass)) {
+        if (!rg_target_of_texels(pass->kernel, run, &draw))
+            return true;
+        given.draw = &draw;
+    }
+    return tally ? rg_tally_run(tally, pass, &given)
+                 : pass->device->backend->pass_run(pass, &given);
+}
+
 bool rg_dispatch(struct rg_pass *pass, const struct rg_run *run)
 {
     struct rg_work *work = pass->device->work;
@@ -135,8 +156,7 @@ bool rg_dispatch(struct rg_pass *pass, const struct rg_run *run)
     if (watch)
         watch->before(pass, run, watch->user);
     rg_doing_run(pass->kernel->name);
-    const bool ok = work->tally ? rg_tally_run(work->tally, pass, run)
-                                : pass->device->backend->pass_run(pass, run);
+    const bool ok = hand_over(pass, run);
     if (watch)
         watch->after(pass, run, watch->user);
     return ok;
@@ -148,16 +168,17 @@ static int smaller(int64_t a, int b)
 }
 
 // Splits a run that exceeds the device's work groups into several dispatches, each with its own
-// origin.
+// origin. A draw of texels has one layer.
 static bool run_folded(struct rg_pass *pass, const struct rg_run *run)
 {
     const struct rg_limits *limits = &pass->device->info.limits;
     const int64_t max_width = (int64_t)limits->max_groups[0] * limits->group_items;
+    const int max_depth = draws_texels(pass) ? 1 : limits->max_groups[2];
     struct rg_run part = *run;
     struct rg_extent done = {0, 0, 0};
     for (done.depth = 0; done.depth < run->extent.depth; done.depth += part.extent.depth) {
         part.origin.depth = run->origin.depth + done.depth;
-        part.extent.depth = smaller(limits->max_groups[2], run->extent.depth - done.depth);
+        part.extent.depth = smaller(max_depth, run->extent.depth - done.depth);
         for (done.height = 0; done.height < run->extent.height; done.height += part.extent.height) {
             part.origin.height = run->origin.height + done.height;
             part.extent.height = smaller(limits->max_groups[1], run->extent.height - done.height);
@@ -178,6 +199,8 @@ bool rg_grid_run(struct rg_pass *pass, const struct rg_run *run)
         return false;
     require(!run->draw, "kernel '%s': a GRID kernel, and the run names a target",
             pass->kernel->name);
+    if (draws_texels(pass) && !rg_target_takes_texels(pass, run))
+        return false;
     rg_run_count(pass, run);
     return run_folded(pass, run);
 }

@@ -15,6 +15,14 @@ bool rg_target_is_whole(const struct rg_draw *draw)
     return !draw->x0 && !draw->y0 && !draw->x1 && !draw->y1;
 }
 
+static bool check_side(const struct rg_kernel *kernel, const struct rg_image *image)
+{
+    require(image->desc.width <= RG_VIEWPORT_PX && image->desc.height <= RG_VIEWPORT_PX,
+            "kernel '%s': target '%s' is %dx%d; at most %d px a side can be drawn to", kernel->name,
+            image->name, image->desc.width, image->desc.height, RG_VIEWPORT_PX);
+    return true;
+}
+
 static bool check_target(const struct rg_pass *pass, const struct rg_draw *draw,
                          const struct rg_image *image)
 {
@@ -25,10 +33,7 @@ static bool check_target(const struct rg_pass *pass, const struct rg_draw *draw,
                 draw->level < image->desc.levels,
             "kernel '%s': target '%s' has no layer %d, level %d", kernel, image->name, draw->layer,
             draw->level);
-    require(image->desc.width <= RG_VIEWPORT_PX && image->desc.height <= RG_VIEWPORT_PX,
-            "kernel '%s': target '%s' is %dx%d; at most %d px a side can be drawn to", kernel,
-            image->name, image->desc.width, image->desc.height, RG_VIEWPORT_PX);
-    return true;
+    return check_side(pass->kernel, image);
 }
 
 static bool check_targets(const struct rg_pass *pass, const struct rg_draw *draw)
@@ -136,4 +141,36 @@ bool rg_target_check(const struct rg_pass *pass, const struct rg_run *run)
                 !run->origin.depth,
             "kernel '%s': items of a DRAW program lie along x", pass->kernel->name);
     return true;
+}
+
+// --- texels of GRID kernels ---
+
+static struct rg_image *image_of(const struct rg_kernel *kernel, const struct rg_run *run)
+{
+    return run->slots[rg_kernel_target(kernel)->slot].image;
+}
+
+bool rg_target_takes_texels(const struct rg_pass *pass, const struct rg_run *run)
+{
+    return check_side(pass->kernel, image_of(pass->kernel, run));
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+bool rg_target_of_texels(const struct rg_kernel *kernel, const struct rg_run *run,
+                         struct rg_draw *draw)
+{
+    struct rg_image *image = image_of(kernel, run);
+    const struct rg_extent *from = &run->origin, *extent = &run->extent;
+    *draw = (struct rg_draw){.colour = image,
+                             .layer = kernel->layer(run->params, from->depth),
+                             .x0 = from->width,
+                             .y0 = from->height,
+                             .x1 = smaller(from->width + extent->width, image->desc.width),
+                             .y1 = smaller(from->height + extent->height, image->desc.height)};
+    return draw->layer >= 0 && draw->layer < image->desc.layers && draw->x0 < draw->x1 &&
+           draw->y0 < draw->y1;
 }

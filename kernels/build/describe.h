@@ -47,6 +47,33 @@ static const struct rg_slot_info slots[] = {RG_ALL_SLOTS};
 static_assert(sizeof(RG_RUN_PARAMS) % 4 == 0 && sizeof(RG_RUN_PARAMS) <= RG_MAX_PARAMS_SIZE,
               "parameters are 4-byte scalars, at most RG_MAX_PARAMS_SIZE bytes");
 
+#undef IN
+#undef OUT
+#undef INOUT
+#undef ATOMIC
+#undef IMAGE
+#undef OUT_IMAGE
+#undef SAMPLED
+#if RG_IS_PASS
+#define IN(slot, T, name)
+#define OUT(slot, T, name)    +2
+#define INOUT(slot, T, name)  +2
+#define ATOMIC(slot, T, name) +2
+#define IMAGE(slot, F, name)
+#define OUT_IMAGE(slot, F, name) +1
+#define SAMPLED(slot, F, name, how)
+static_assert((0 RG_ALL_SLOTS) == 1, "a kernel with RG_OWN_TEXELS writes one OUT_IMAGE alone");
+
+static int layer_of(const void *params, int z RG_UNUSED)
+{
+    RG_RUN_PARAMS p;
+    memcpy(&p, params, sizeof(p));
+    return RG_OWN_TEXELS;
+}
+#elif defined(RG_OWN_TEXELS)
+#error "a GRID kernel with RG_OWN_TEXELS is also in passing_kernels"
+#endif
+
 #if RG_IS_PROGRAM
 #if defined(RG_LIGHTS)
 #define RG_LIGHTS_AT (int)offsetof(RG_PARAMS, lights)
@@ -74,6 +101,9 @@ const struct rg_kernel RG_CAT(rg_kernel_, RG_KERNEL_NAME) = {
     .draw = &draw,
 #else
     .params_size = sizeof(RG_RUN_PARAMS),
+#endif
+#if RG_IS_PASS
+    .layer = layer_of,
 #endif
     .slot_count = sizeof(slots) / sizeof(slots[0]),
     .slots = slots,

@@ -10,8 +10,9 @@ another the driver's own, and makes every float `precise`, which forbids a drive
 reorder: the two things that the dialect cannot say in C and OpenCL C alike. A text whose files are
 older than OUTPUT.d, which lists them, is not made; one that has not changed is not written again, so
 that the build does not make anew what depends on it. Texts NAME.native.* are those of native devices;
-NAME.setup.* leave to the driver only the setup of items, NAME.samplers.* only samplers (kernels/dialect/lang.h). One process makes all texts, with a helper for each
-processor. A kernel with a name that another language reserves is refused.
+NAME.setup.* leave to the driver only the setup of items, NAME.samplers.* only samplers
+(kernels/dialect/lang.h), NAME.pass.* only what is stored to an image. One process makes all texts,
+with a helper for each processor. A kernel with a name that another language reserves is refused.
 """
 import multiprocessing
 import os

@@ -1,8 +1,9 @@
 // raster: what was drawn in RGBA32F, shown in the target.
 #include "kernels/raster/show_params.h"
 
-#define RG_PARAMS raster_show_params
-#define RG_SLOTS  IMAGE(1, RGBA32F, drawn) OUT_IMAGE(2, RGBA16F, target)
+#define RG_PARAMS     raster_show_params
+#define RG_SLOTS      IMAGE(1, RGBA32F, drawn) OUT_IMAGE(2, RGBA16F, target)
+#define RG_OWN_TEXELS p.layer
 #include "kernels/dialect/slots/slots.h"
 
 RG_GRID_KERNEL(raster_show_rgba32f)

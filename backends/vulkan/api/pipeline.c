@@ -1,4 +1,5 @@
-// The graphics pipelines of a DRAW program: one for each draw state, made on first use.
+// The graphics pipelines of a DRAW program, or of texels that are drawn: one for each draw state,
+// made on first use.
 #include "backends/vulkan/vulkan.h"
 
 // A draw state.
@@ -6,20 +7,21 @@ struct draw_state {
     struct vk_target target;
     enum rg_blend blend;
     enum rg_depth_mode depth_mode;
-    bool packed; // its primitives are, and packing has culled
+    bool items; // else triangles: packed ones, which packing has culled, or one over the target
     enum rg_cull cull;
 };
 
-static struct draw_state draw_state_of(const struct vk_device *device, const struct rg_draw *draw)
+static struct draw_state draw_state_of(const struct vk_device *device,
+                                       const struct rg_kernel *kernel, const struct rg_draw *draw)
 {
     const struct vk_target target = vk_target_of(device, draw);
-    const bool packed = rg_draw_packs(&device->pub, draw);
+    const bool items = kernel->draw && !rg_draw_packs(&device->pub, draw);
     return (struct draw_state){
         .target = target,
         .blend = target.colour == RG_FORMAT_NONE ? RG_BLEND_OFF : draw->blend,
         .depth_mode = target.depth ? draw->depth_mode : RG_DEPTH_OFF,
-        .packed = packed,
-        .cull = packed ? RG_CULL_NONE : draw->cull,
+        .items = items,
+        .cull = items ? draw->cull : RG_CULL_NONE,
     };
 }
 
@@ -112,7 +114,7 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
     const VkPipelineInputAssemblyStateCreateInfo assembly = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology =
-            state->packed ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST : VK_PRIMITIVE_TOPOLOGY_POINT_LIST};
+            state->items ? VK_PRIMITIVE_TOPOLOGY_POINT_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
     const VkPipelineRasterizationStateCreateInfo fill = fill_state(state->cull);
     const VkPipelineColorBlendAttachmentState attachment =
         blend_state(state->target.blends ? RG_BLEND_OFF : state->blend);
@@ -127,7 +129,7 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
     };
     const VkPipelineDepthStencilStateCreateInfo depth = depth_state(state->depth_mode);
     VkGraphicsPipelineCreateInfo info = plain_pipeline();
-    info.stageCount = state->packed ? 2 : 3;
+    info.stageCount = state->items ? 3 : 2;
     info.pStages = stages;
     info.pInputAssemblyState = &assembly;
     info.pRasterizationState = &fill;
@@ -147,7 +149,7 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass,
 VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,
                           const struct rg_draw *draw)
 {
-    const struct draw_state state = draw_state_of(device, draw);
+    const struct draw_state state = draw_state_of(device, pass->pub.kernel, draw);
     VkPipeline *kept =
         &pass->drawing->pipelines[state.target.colour][state.blend][state.depth_mode][state.cull];
     if (!*kept)

@@ -231,9 +231,9 @@ static void print_pair(const struct rg_features_told *told, const struct rg_feat
     rg_text_copy(why, sizeof(why), pair->why);
     rg_plain(why);
     if (!pair->is_drawn)
-        printf("  %-40s not drawn: %s\n", words, why);
+        printf("  %-44s not drawn: %s\n", words, why);
     else
-        printf("  %-40s %10lld %10.3g  %4d %4d  %s\n", words, (long long)pair->differing,
+        printf("  %-44s %10lld %10.3g  %4d %4d  %s\n", words, (long long)pair->differing,
                pair->largest, pair->x, pair->y,
                told->by_bits    ? (pair->is_equal ? "equal" : "differs")
                : pair->is_equal ? "holds"
@@ -247,7 +247,7 @@ void rg_features_print(const struct rg_features_told *told)
         printf("  no feature is switched: the pictures are equal\n");
         return;
     }
-    printf("  %-40s %10s %10s  %4s %4s  %s\n", "drawn the exact way", "differing", "largest", "x",
+    printf("  %-44s %10s %10s  %4s %4s  %s\n", "drawn the exact way", "differing", "largest", "x",
            "y", told->by_bits ? "bits" : rg_tier_name(told->tier));
     for (int i = 0; i < told->count; i++)
         print_pair(told, &told->pairs[i]);

@@ -32,6 +32,7 @@ struct folder {
     char path[2048];
     const struct rg_culprit *culprit;
     bool draws, by_gl; // a draw on a device of OpenGL is run by OpenGL, all else by Vulkan
+    const struct rg_slot_info *texels; // of a GRID kernel, which are drawn; NULL: no such draw
     int count;
     struct rg_output_file files[RG_MAX_OUTPUT_FILES];
     char names[RG_MAX_OUTPUT_FILES][64];
@@ -138,7 +139,8 @@ static void write_sampler(FILE *out, const struct rg_device *device,
 
 static bool is_target(const struct folder *f, const struct rg_slot_info *slot)
 {
-    return f->draws && (slot->slot == RG_SLOT_COLOUR || slot->slot == RG_SLOT_DEPTH);
+    return f->draws && (f->texels ? slot->slot == f->texels->slot
+                                  : slot->slot == RG_SLOT_COLOUR || slot->slot == RG_SLOT_DEPTH);
 }
 
 static void write_slot(FILE *out, const struct folder *f, const struct rg_device *device,
@@ -219,9 +221,10 @@ static void write_draw(const struct rg_dispatched *d, FILE *out)
     fprintf(
         out,
         "# blend: the target's VkBlendFactor, 0 if none; the source's is 1. depth: 1 it is tested, "
-        "2 and\n# written. cull: VkCullModeFlagBits. A point is drawn for each item.\n"
+        "2 and\n# written. cull: VkCullModeFlagBits. points: 1 a point is drawn for each item, 0 a "
+        "triangle.\n"
         "draw first %d items %d blend %d depth %d cull %d scissor %d %d %d %d target %d x %d "
-        "layer %d level %d\n",
+        "layer %d level %d points 1\n",
         d->origin.width, d->extent.width,
         state->blend == RG_BLEND_OFF    ? 0
         : state->blend == RG_BLEND_OVER ? FACTOR_ONE_MINUS_ALPHA
@@ -234,9 +237,33 @@ static void write_draw(const struct rg_dispatched *d, FILE *out)
         state->height, d->layer, d->level);
 }
 
-static void write_run(const struct rg_dispatched *d, FILE *out)
+static int smaller(int a, int b)
 {
-    if (d->kernel->draw)
+    return a < b ? a : b;
+}
+
+// Says that one triangle is drawn over the items' texels. A native device's run of them has one
+// layer (core/device/grid.c).
+static void write_texels(const struct rg_dispatched *d, const struct rg_slot_info *texels,
+                         FILE *out)
+{
+    const struct rg_image_desc *image = &d->before[texels->slot].desc;
+    const struct rg_extent *from = &d->origin;
+    fprintf(out,
+            "# A triangle is drawn over the target, and the scissor has the items' texels.\n"
+            "draw first 0 items 3 blend 0 depth 0 cull 0 scissor %d %d %d %d target %d x %d layer "
+            "%d level 0 points 0\n",
+            from->width, from->height, smaller(d->extent.width, image->width - from->width),
+            smaller(d->extent.height, image->height - from->height), image->width, image->height,
+            d->kernel->layer(d->params, from->depth));
+}
+
+static void write_run(const struct folder *f, FILE *out)
+{
+    const struct rg_dispatched *d = &f->culprit->due;
+    if (f->texels)
+        write_texels(d, f->texels, out);
+    else if (d->kernel->draw)
         write_draw(d, out);
     else
         fprintf(out, "# groups: of %d items along x.\ngroups %d %d %d\n", GROUP_ITEMS,
@@ -251,10 +278,10 @@ static bool write_manifest(struct folder *f, const struct rg_device *device, FIL
     fprintf(out,
             "# One run of the %s %s, of %lld items of %lld: from (%d, %d, %d) on,\n"
             "# %d x %d x %d. README says how to run it.\n",
-            d->kernel->draw ? "draw" : "compute shader", d->kernel->name,
-            (long long)f->culprit->items, (long long)f->culprit->of_items, d->origin.width,
-            d->origin.height, d->origin.depth, d->extent.width, d->extent.height, d->extent.depth);
-    write_run(d, out);
+            f->draws ? "draw" : "compute shader", d->kernel->name, (long long)f->culprit->items,
+            (long long)f->culprit->of_items, d->origin.width, d->origin.height, d->origin.depth,
+            d->extent.width, d->extent.height, d->extent.depth);
+    write_run(f, out);
     fprintf(
         out,
         "# constants: what specialization constants 0 and 1 are.\n"
@@ -291,9 +318,10 @@ static const char *command_of(bool draws, bool by_gl)
 static const char *texts_of(const struct folder *f)
 {
     if (f->by_gl)
-        return "kernel.vert, kernel.geom and kernel.frag are the stages.\n";
+        return "kernel.vert, kernel.frag and kernel.geom, if there is one, are the stages.\n";
     if (f->draws)
-        return "kernel.vert, kernel.geom and kernel.frag are the stages' texts, of which\n\n"
+        return "kernel.vert, kernel.frag and kernel.geom, if there is one, are the stages' texts, "
+               "of which\n\n"
                "    glslc --target-env=vulkan1.2 -O kernel.vert -o kernel.vert.spv\n\n"
                "and the same of the others make the code.\n";
     return "kernel.comp is the shader's text, of which\n\n"
@@ -337,22 +365,23 @@ static bool add_codes(struct folder *f, struct rg_device *device)
     static const struct {
         enum rg_code_kind kind;
         const char *name;
-        bool is_of_draw, is_of_vulkan;
+        bool is_of_draw, is_of_vulkan, is_of_items;
     } codes[] = {
-        {RG_CODE_SPIRV, "kernel.spv", false, false},
-        {RG_CODE_GLSL, "kernel.comp", false, false},
-        {RG_CODE_OPENCL, "kernel.cl", false, false},
-        {RG_CODE_VERTEX_SPIRV, "kernel.vert.spv", true, true},
-        {RG_CODE_VERTEX_GLSL, "kernel.vert", true, false},
-        {RG_CODE_NATIVE_GEOMETRY_SPIRV, "kernel.geom.spv", true, true},
-        {RG_CODE_NATIVE_GEOMETRY_GLSL, "kernel.geom", true, false},
-        {RG_CODE_FRAGMENT_SPIRV, "kernel.frag.spv", true, true},
-        {RG_CODE_FRAGMENT_GLSL, "kernel.frag", true, false},
+        {RG_CODE_SPIRV, "kernel.spv", false, false, false},
+        {RG_CODE_GLSL, "kernel.comp", false, false, false},
+        {RG_CODE_OPENCL, "kernel.cl", false, false, false},
+        {RG_CODE_VERTEX_SPIRV, "kernel.vert.spv", true, true, false},
+        {RG_CODE_VERTEX_GLSL, "kernel.vert", true, false, false},
+        {RG_CODE_NATIVE_GEOMETRY_SPIRV, "kernel.geom.spv", true, true, true},
+        {RG_CODE_NATIVE_GEOMETRY_GLSL, "kernel.geom", true, false, true},
+        {RG_CODE_FRAGMENT_SPIRV, "kernel.frag.spv", true, true, false},
+        {RG_CODE_FRAGMENT_GLSL, "kernel.frag", true, false, false},
     };
     bool ok = true;
     size_t size;
     for (size_t i = 0; ok && i < sizeof(codes) / sizeof(codes[0]); i++)
         ok = codes[i].is_of_draw != f->draws || (codes[i].is_of_vulkan && f->by_gl) ||
+             (codes[i].is_of_items && f->texels) ||
              add_code(f, device, codes[i].kind, codes[i].name, &size);
     return ok;
 }
@@ -440,7 +469,7 @@ static bool takes_glsl(const struct rg_device *device)
 const char *rg_kernel_folder_command(const struct rg_culprit *culprit,
                                      const struct rg_device *device)
 {
-    const bool draws = culprit->due.kernel->draw;
+    const bool draws = rg_is_drawn(device, culprit->due.kernel);
     return command_of(draws, draws && takes_glsl(device));
 }
 
@@ -449,7 +478,9 @@ bool rg_kernel_folder_write(const char *path, const struct rg_culprit *culprit, 
 {
     struct folder *f = open_folder(path, culprit);
     if (f) {
-        f->draws = culprit->due.kernel->draw;
+        const struct rg_kernel *kernel = culprit->due.kernel;
+        f->draws = rg_is_drawn(device, kernel);
+        f->texels = f->draws ? rg_kernel_target(kernel) : NULL;
         f->by_gl = f->draws && takes_glsl(device);
     }
     const bool ok =

@@ -116,6 +116,15 @@ struct rg_ctx {
         return textureQueryLevels(sampler);                                                        \
     }
 
+// A texel that is drawn (shaders/pass.frag) is the fragment's, and its driver rounds it.
+#ifdef RG_STAGE_PASS
+#define RG_OUT_IMAGE(slot, format, F, name)                                                        \
+    void name##_store(rg_ctx rg, int x, int y, int layer, rgba c)                                  \
+    {                                                                                              \
+        rg_texel = vec4(c.r, c.g, c.b, c.a);                                                       \
+        rg_is_stored[0] = true;                                                                    \
+    }
+#else
 #define RG_OUT_IMAGE(slot, format, F, name)                                                        \
     layout(format, binding = slot) restrict writeonly uniform image2DArray name##_image;           \
     void name##_store(rg_ctx rg, int x, int y, int layer, rgba c)                                  \
@@ -123,6 +132,7 @@ struct rg_ctx {
         rgba v = rg_rounded_##F(c);                                                                \
         imageStore(name##_image, ivec3(x, y, layer), vec4(v.r, v.g, v.b, v.a));                    \
     }
+#endif
 
 #define OUT_IMAGE(slot, F, name) RG_OUT_IMAGE(slot, RG_LAYOUT_##F, F, name)
 

@@ -28,6 +28,10 @@
 //                            four
 //   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
 //
+// A GRID kernel whose items (x, y, z) each store texel (x, y) of one layer of its OUT_IMAGE at
+// most, and write nothing else, defines RG_OWN_TEXELS: that layer, of p and z alone. Native devices
+// draw its texels. kernels/build/describe.h checks the slots.
+//
 // Slots count from 1, buffers and images together. `rg` is the kernel's context, which every helper
 // that reads or writes gets. The value that an atomic returns must never influence a result, which
 // is why add, min, max and or return none.

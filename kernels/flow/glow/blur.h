@@ -3,8 +3,9 @@
 // lost.
 #include "kernels/flow/glow/params.h"
 
-#define RG_PARAMS flow_glow_params
-#define RG_SLOTS  IMAGE(1, RGBA16F, source) OUT_IMAGE(2, RGBA16F, spread)
+#define RG_PARAMS     flow_glow_params
+#define RG_SLOTS      IMAGE(1, RGBA16F, source) OUT_IMAGE(2, RGBA16F, spread)
+#define RG_OWN_TEXELS 0
 #include "kernels/dialect/slots/slots.h"
 
 // A coordinate, mirrored at both edges; within 0 to `last` even in images narrower than the blur.

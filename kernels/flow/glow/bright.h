@@ -2,8 +2,9 @@
 // a camera's optics spread the light of bright reflections).
 #include "kernels/flow/glow/params.h"
 
-#define RG_PARAMS flow_glow_params
-#define RG_SLOTS  IMAGE(1, RGBA16F, lit) OUT_IMAGE(2, RGBA16F, bright)
+#define RG_PARAMS     flow_glow_params
+#define RG_SLOTS      IMAGE(1, RGBA16F, lit) OUT_IMAGE(2, RGBA16F, bright)
+#define RG_OWN_TEXELS 0
 #include "kernels/dialect/slots/slots.h"
 
 RG_GRID_KERNEL(flow_glow_bright)

@@ -5,6 +5,7 @@
 #define RG_PARAMS flow_glow_params
 #define RG_SLOTS                                                                                   \
     IMAGE(1, RGBA16F, lit) SAMPLED(2, RGBA16F, glow, FILTERED) OUT_IMAGE(3, RGBA16F, target)
+#define RG_OWN_TEXELS 0
 #include "kernels/dialect/slots/slots.h"
 
 RG_GRID_KERNEL(flow_glow)

@@ -10,7 +10,8 @@ import forms
 
 APIS = ("gl", "vulkan")
 # Small scenes of techniques whose papers used the stages below.
-FLOW = ["flow", "--set", "resolution_px=96", "--set", "environment_px=64", "--size", "96x96", "--frame", "4"]
+FLOW = ["flow", "--set", "resolution_px=96", "--set", "environment_px=64", "--set", "glow=0.5", "--set", "glow_threshold=0.3",
+        "--size", "96x96", "--frame", "4"]
 STREAKS = ["streaks", "--set", "city=small", "--set", "atlas=small", "--set", "shadow_map_px=256", "--size", "96x96", "--frame", "4"]
 SHOWER = ["shower", "--set", "city=small", "--set", "particles=3000", "--set", "shadow_map_px=256", "--size", "96x96", "--frame", "8"]
 DROPS = ["drops", "--set", "columns=96", "--set", "rows=64", "--set", "max_drops=100", "--size", "96x64", "--frame", "6"]
@@ -52,7 +53,7 @@ def check_names(runner):
         result = runner.run(["render", "raster", "--device", name, "-o", "/dev/null.png", "--size", "16x16"])
         if result.returncode != status:
             problems.append("%s: exit status %d, %s" % (name, result.returncode, result.stderr))
-    all_words = "give none, or words of samplers+levels+setup+places+blending, or unset it"
+    all_words = "give none, or words of samplers+levels+setup+places+blending+passes, or unset it"
     for value, mend in (("samplers+", all_words), ("all", all_words), ("places+levels", "places are interpolated only with setup; give both")):
         result = runner.run(["render", "raster", "--device", "gl:native@RG_NATIVE=" + value, "-o", "/dev/null.png", "--size", "16x16"])
         if result.returncode != 2 or result.stderr != "raingauge: RG_NATIVE=%s: %s\n" % (value, mend):
@@ -174,8 +175,9 @@ def check_blamed(runner):
     if "llvmpipe" not in runner.run(["list", "devices"]).stdout:
         return []
     due = {
-        ("gl", "flow", "cpu,API:native@LP_PERF=no_linear"): ("alone", ["samplers"], "flow_sky", 6, ""),
-        ("vulkan", "raster", "API:native,API:native@LP_PERF=no_blend"): ("alone", ["blending"], "raster_streaks", 6, ""),
+        ("gl", "flow", "cpu,API:native@LP_PERF=no_linear"): ("alone", ["samplers"], "flow_sky", 7, ""),
+        ("vulkan", "flow", "cpu,API:native@RG_NATIVE=passes"): ("alone", ["passes"], "flow_glow_bright", 2, ""),
+        ("vulkan", "raster", "API:native,API:native@LP_PERF=no_blend"): ("alone", ["blending"], "raster_streaks", 7, ""),
     }
     return ["%s: blamed %s, not %s" % (of, told, says) for of, says in due.items()
             for told in [blamed(runner, of[0], RASTER if of[1] == "raster" else FLOW, of[2])] if told != says]

@@ -28,7 +28,7 @@ struct suite_tests {
 extern const struct suite_tests buffer_tests, image_tests, texel_tests, kernel_tests, refusal_tests,
     lifetime_tests, scan_tests, probe_tests, draw_tests, target_tests, filter_tests, large_tests,
     light_tests, layer_tests, lack_tests, tally_tests, query_tests, range_tests, sampled_tests,
-    native_filter_tests, around_tests, place_tests;
+    native_filter_tests, around_tests, place_tests, pass_tests;
 
 // Seeded words that look random.
 uint32_t noise(uint32_t i);

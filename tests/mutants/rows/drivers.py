@@ -37,12 +37,19 @@ OF_NATIVE = ("command line, native",)
 OF_SUITE_GL, OF_SUITE_VK = ("device suite, native, gl",), ("device suite, native, vulkan",)
 
 FEATURES, OF_FEATURES = "backends/asked/features.c", "harness/compare/blame/features.c"
+GRID, TARGETS, OF_BOTH_SUITES = "core/device/grid.c", "core/device/targets.c", OF_SUITE_GL + OF_SUITE_VK
 
 ROWS = [
     Fault(FEATURES, "asked && *asked ? «0» : RG_FEATURE_ALL", "RG_FEATURE_ALL", "features that are not named are the driver's too", tests=OF_NATIVE),
     Fault(FEATURES, "device->blends = «!(device->info.features & RG_FEATURE_BLENDING)» &&", "false", "a driver that shall not blend blends", tests=OF_NATIVE),
     Fault(OF_FEATURES, "device->info.features & «~exact», words);", "exact", "the other features are switched", tests=OF_NATIVE),
     Fault(OF_FEATURES, "told->by_bits = is_first ? «holds» : told->by_bits;", "true", "features are to end differences within the tier", tests=OF_NATIVE),
+    Fault(GL, "glDrawArrays(GL_TRIANGLES, 0, «3»);", "0", "gl:native draws no texels", tests=OF_SUITE_GL),
+    Fault(VK, "vkCmdDraw(commands, «3», 1, 0, 0);", "0", "vulkan:native draws no texels", tests=OF_SUITE_VK),
+    Fault(TARGETS, ".layer = «kernel->layer(run->params, from->depth)»,", "0", "texels of every layer are drawn in the first", tests=OF_BOTH_SUITES),
+    Fault(TARGETS, ".x1 = smaller(«from->width + extent->width»,", "extent->width", "the scissor of texels begins at the edge", tests=OF_BOTH_SUITES),
+    Fault(TARGETS, ".y1 = smaller(«from->height + extent->height», image->desc.height)", "from->height + extent->height + 1", "a row of texels is drawn that no item has", tests=OF_BOTH_SUITES),
+    Fault(GRID, "draws_texels(pass) ? «1» : limits->max_groups[2];", "limits->max_groups[2]", "texels of one layer alone are drawn", tests=OF_BOTH_SUITES),
     Fault(GL_SAMPLER, "GL_TEXTURE_COMPARE_FUNC, «GL_LEQUAL»", "GL_GREATER", "gl:native lights what is in shadow", tests=OF_NATIVE),
     Fault(GL_SAMPLER, "GL_TEXTURE_MAG_FILTER, «GL_LINEAR»", "GL_NEAREST", "gl:native weighs no texels", tests=OF_SUITE_GL),
     Fault("backends/gl/image.c", "GL_TEXTURE_BASE_LEVEL, «first - 1»", "0", "gl:native makes levels that it was given", tests=OF_SUITE_GL),

@@ -203,6 +203,8 @@ ROWS = [
     Fault(FOLDER, "image->format == RG_D32F ? «DEPTH_ASPECT»", "COLOUR_ASPECT", "depth has the aspect of colours", tests=ALONE),
     Fault(FOLDER, "            «image->layers», image->levels);", "image->levels", "images have layers for levels", tests=ALONE),
     Fault(FOLDER, "«device->info.features & RG_FEATURE_SAMPLERS && format» ? slot->sampler", "format", "exact devices are told to filter", tests=ALONE),
+    Fault(FOLDER, "(codes[i].is_of_items && «f->texels») ||", "false", "texels that are drawn alone have a geometry stage", tests=SAMPLING),
+    Fault(FOLDER, "d->kernel->layer(d->params, «from->depth»)", "0", "texels alone are drawn in the first layer", tests=SAMPLING),
     Fault(FOLDER, ": «how != RG_TEXELS»;", "false", "a native kernel alone does not filter", tests=SAMPLING),
     Fault(FOLDER, "«how == RG_SAMPLED_CUBE» ? VIEW_OF_CUBE", "false", "a cube has layers alone", tests=SAMPLING),
     Fault(FOLDER, "!format || «how == RG_SAMPLED_TILED» ?", "false", "what repeats ends at its edges", tests=SAMPLING),

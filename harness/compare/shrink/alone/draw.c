@@ -22,18 +22,19 @@ static VkRenderPass make_pass(void) { // keeps what the targets hold
 }
 
 static VkPipeline make_pipeline(VkRenderPass pass) {
-    const VkPipelineShaderStageCreateInfo stages[] = {make_stage(VK_SHADER_STAGE_VERTEX_BIT, "kernel.vert.spv"),
-        make_stage(VK_SHADER_STAGE_GEOMETRY_BIT, "kernel.geom.spv"), make_stage(VK_SHADER_STAGE_FRAGMENT_BIT, "kernel.frag.spv")};
+    VkPipelineShaderStageCreateInfo stages[3] = {make_stage(VK_SHADER_STAGE_VERTEX_BIT, "kernel.vert.spv"),
+        make_stage(VK_SHADER_STAGE_FRAGMENT_BIT, "kernel.frag.spv")};
+    if (draw.points) stages[2] = make_stage(VK_SHADER_STAGE_GEOMETRY_BIT, "kernel.geom.spv");
     const VkViewport viewport = {0, 0, (float)draw.width, (float)draw.height, 0, 1};
     const VkRect2D scissor = {{(int)draw.x, (int)draw.y}, {draw.across, draw.down}};
     const VkPipelineColorBlendAttachmentState blend = {.blendEnable = draw.blend != 0, .srcColorBlendFactor = 1,
         .dstColorBlendFactor = draw.blend, .srcAlphaBlendFactor = 1, .dstAlphaBlendFactor = draw.blend, .colorWriteMask = 0xf};
     VkPipeline pipeline;
     TRY(vkCreateGraphicsPipelines(device, VK_NULL_HANDLE, 1, INFO(GraphicsPipelineCreateInfo, GRAPHICS_PIPELINE_CREATE_INFO,
-        .stageCount = 3, .pStages = stages, .layout = layout, .renderPass = pass,
+        .stageCount = draw.points ? 3 : 2, .pStages = stages, .layout = layout, .renderPass = pass,
         .pVertexInputState = INFO(PipelineVertexInputStateCreateInfo, PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO, .flags = 0),
         .pInputAssemblyState = INFO(PipelineInputAssemblyStateCreateInfo, PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-            .topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST),
+            .topology = draw.points ? VK_PRIMITIVE_TOPOLOGY_POINT_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST),
         .pViewportState = INFO(PipelineViewportStateCreateInfo, PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1,
             .pViewports = &viewport, .scissorCount = 1, .pScissors = &scissor),
         .pRasterizationState = INFO(PipelineRasterizationStateCreateInfo, PIPELINE_RASTERIZATION_STATE_CREATE_INFO,

@@ -46,7 +46,7 @@ static void make_program(void) {
     GLint linked;
     program = glCreateProgram();
     attach(GL_VERTEX_SHADER, "kernel.vert");
-    attach(GL_GEOMETRY_SHADER, "kernel.geom");
+    if (draw.points) attach(GL_GEOMETRY_SHADER, "kernel.geom");
     attach(GL_FRAGMENT_SHADER, "kernel.frag");
     glLinkProgram(program);
     glGetProgramiv(program, GL_LINK_STATUS, &linked);
@@ -139,7 +139,7 @@ static void run(void) {
     glCreateVertexArrays(1, &vertices);
     glBindVertexArray(vertices);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glDrawArrays(GL_POINTS, (int)draw.first, (int)items);
+    glDrawArrays(draw.points ? GL_POINTS : GL_TRIANGLES, (int)draw.first, (int)items);
     check("glDrawArrays");
     glFinish();
     EACH_SLOT if (s->format && *s->expected != '-') copy(s, 1);

@@ -1,5 +1,5 @@
 // A kernel of a native device alone: run.c of its folder reads images as the device's own samplers
-// do, and finds that the driver leaves the same bits.
+// do, or draws the texels that items store, and finds that the driver leaves the same bits.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -97,23 +97,25 @@ static void expect_manifest(const char *path, const char *part)
         fail_msg("no '%s' in\n%s", part, text);
 }
 
-static void check_row(struct rg_device *device, const struct row *row)
+// Writes the folder of a run with the device's own results, and builds and runs its program.
+static void run_alone(struct rg_device *device, struct rg_dispatched *run, const char *libraries,
+                      const char *manifest)
 {
     char path[64], name[96], command[256];
     struct rg_culprit culprit = {.found = true, .items = READS, .of_items = READS};
     snprintf(path, sizeof(path), "%s/case", folder);
     snprintf(name, sizeof(name), "%s.kernel/kernel.txt", path);
     snprintf(command, sizeof(command),
-             "cd %s.kernel && cc run.c -lvulkan -o ../run && ../run >&2 && rm ../run", path);
-    fill(row, &culprit.due);
-    assert_true(rg_dispatched_run(&culprit.due, device));
+             "cd %s.kernel && cc run.c %s -o ../run && ../run >&2 && rm ../run", path, libraries);
+    assert_true(rg_dispatched_run(run, device));
+    culprit.due = *run;
     assert_true(rg_kernel_folder_write(path, &culprit, "a note", device, device));
-    expect_manifest(name, row->manifest);
+    expect_manifest(name, manifest);
     const int status = system(command);
     rg_kernel_folder_remove(path);
-    rg_culprit_free(&culprit);
     if (status != 0)
-        fail_msg("%s: status 0x%x", row->kernel, (unsigned)status);
+        fail_msg("%s: status 0x%x", run->kernel->name, (unsigned)status);
+    rg_culprit_free(&culprit);
 }
 
 static void kernels_that_sample_run_alone(void **state)
@@ -123,13 +125,59 @@ static void kernels_that_sample_run_alone(void **state)
     if (!device && rg_failure_take().outcome == RG_UNSUPPORTED)
         skip();
     assert_non_null(device);
-    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
-        check_row(device, &rows[i]);
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        struct rg_dispatched run;
+        fill(&rows[i], &run);
+        run_alone(device, &run, "-lvulkan", rows[i].manifest);
+    }
     assert_true(rg_device_close(device));
+}
+
+// Colours for the second layer of an image of halves, but for its left and its upper edge.
+static void fill_texels(struct rg_dispatched *d)
+{
+    const int params[] = {SIDE, SIDE, 0};
+    float *colours = calloc(2 * SIDE * SIDE * 4, sizeof(*colours));
+    void *texels = calloc(2 * SIDE * SIDE, 8);
+    assert_true(colours && texels);
+    for (uint32_t i = 0; i < 2 * SIDE * SIDE * 4; i++)
+        colours[i] = (float)(noise(i) >> 8) * 0x1p-24f;
+    *d = (struct rg_dispatched){.kernel = rg_kernel_find("test_store_rgba16f"),
+                                .was_kept = true,
+                                .origin = {2, 1, 1},
+                                .extent = {SIDE - 2, SIDE - 1, 1}};
+    assert_non_null(d->kernel);
+    memcpy(d->params, params, sizeof(params));
+    d->before[1] = (struct rg_contents){{0}, 2 * SIDE * SIDE * 4 * sizeof(*colours), colours};
+    d->before[2] =
+        (struct rg_contents){{RG_RGBA16F, SIDE, SIDE, 2, 1}, (size_t)2 * SIDE * SIDE * 8, texels};
+}
+
+static void texels_are_drawn_alone(void **state)
+{
+    static const char *const apis[][2] = {{"gl:native", "-lEGL -lGL"},
+                                          {"vulkan:native", "-lvulkan"}};
+    int drawn = 0;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct rg_device *device = rg_device_open(apis[i][0]);
+        struct rg_dispatched run;
+        if (!device && rg_failure_take().outcome == RG_UNSUPPORTED)
+            continue;
+        assert_non_null(device);
+        fill_texels(&run);
+        run_alone(device, &run, apis[i][1],
+                  "scissor 2 1 14 15 target 16 x 16 layer 1 level 0 points 0\n");
+        assert_true(rg_device_close(device));
+        drawn++;
+    }
+    if (!drawn)
+        skip();
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(kernels_that_sample_run_alone)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(kernels_that_sample_run_alone),
+                                       cmocka_unit_test(texels_are_drawn_alone)};
     return cmocka_run_group_tests_name("alone", tests, make_folder, remove_folder);
 }
