@@ -43,9 +43,12 @@ int rg_tables_regenerate(const struct rg_table *const tables[], int count,
                          const struct rg_devices *devices, const struct rg_regenerate_options *o)
 {
     note_tables(tables, count);
+    char launches[32] = "";
+    if (o->launches)
+        snprintf(launches, sizeof(launches), ", %d launches", o->launches);
     asked_note("rows %d-%d%s%s%s, work %s, variant %s, set %s, %g s, into %s, on %d; ",
                o->first_row, o->last_row, o->full ? ", full" : "", o->fresh ? ", fresh" : "",
-               o->launches ? ", launches" : "", asked_text(o->work), asked_text(o->variant),
+               o->decides ? ", launches" : launches, asked_text(o->work), asked_text(o->variant),
                asked_text(o->set), o->budget_s, asked_text(o->folder), devices->count);
     return RG_EXIT_INCONCLUSIVE;
 }
@@ -254,6 +257,9 @@ static void tables_are_asked_for(void **state)
          USUAL "creus-5.3 creus-5.4 creus-5.5 creus-5.6 rows 0-0, work -, variant no_geometry, set "
                "-, 0 s, "
                "into -, on 2; close 2"},
+        {"table feng-1 --full --launches 3",
+         "memory 0; open all, require -, 120 s; feng-1 rows 0-0, full, 3 launches, work -, variant "
+         "-, set -, 0 s, into -, on 2; close 2"},
         {"table feng-1 --compile", "memory 0; open all, require -, 120 s; feng-1 compiled on 2; "
                                    "close 2"},
         {"claims creus-5.3 --device cpu --fresh --budget 8h -o out",
